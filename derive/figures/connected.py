@@ -20,6 +20,7 @@ from derive.figures.parts import (
     BarMark,
     BlockMark,
     ConnectionMark,
+    CornerRopeMark,
     ParticleMark,
     RopeMark,
     SpringMark,
@@ -33,7 +34,7 @@ from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
 from derive.figures.surroundings import AngleBetween, FixedEnd, FloorMark, GravityMark, GroundMark
 from derive.figures.turning import angle_marks, downwards
-from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
@@ -49,6 +50,7 @@ ACROSS = column(0, 0, 1)
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 FARTHEST = Rational(16, 5)  # the same for a coordinate of what carries a surface
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
+BENEATH = 18.0  # the distance of dimension lines beneath what carries a plane, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
@@ -56,6 +58,11 @@ SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
 
 def connections_of(system: System) -> list[Any]:
     return [part for part in system.parts if isinstance(part, Connection)]
+
+
+def is_described(system: System) -> bool:
+    """Whether the system states what connects its parts: a connection, or a body that is held at a point of another."""
+    return bool(connections_of(system)) or any(isinstance(placed.at, PointOfBody) for placed in system.bodies)
 
 
 class ConnectedScene:
@@ -229,6 +236,8 @@ class ConnectedScene:
         yield from outline
         centre = column_of(shown.centre)
         yield PointMark(centre)
+        if isinstance(shown.at, PointOfBody):
+            yield PointMark(column_of(shown.at))
         if is_fixed(self.system, shown.at) and not same(shown.at, shown.centre):
             yield FixedEnd(column_of(shown.at), downwards(2), True)
         elif is_fixed(self.system, shown.centre):
@@ -255,12 +264,14 @@ class ConnectedScene:
         letter = next((c.left for c in self.system.constraints if c.forces == line.forces and c.left.is_Symbol), None)
         if line.is_rod:
             yield BarMark(places[0], places[-1], label=letter)
+        elif len(places) == 3 and is_fixed(self.system, line.through[1]):
+            yield CornerRopeMark(*places)
         else:
             radii = tuple(None if 0 < i < len(places) - 1 else ZERO for i in range(len(places)))
             yield RopeMark(tuple(places), radii, label=letter if len(places) == 2 else None)
         if len(places) == 2:
             yield from angle_marks(self.system, link_between(*line.through))
-        for place in line.through[1:-1]:
+        for place in line.through[1:-1] if len(places) != 3 or not is_fixed(self.system, line.through[1]) else ():
             particle = next((one for one in self.system.particles if same(one.at, place)), None)
             yield WheelMark(column_of(place), label=particle.mass if particle else None)
             if particle is None and is_fixed(self.system, place):
@@ -300,13 +311,19 @@ class ConnectedScene:
                 own = q if q in self.system.coordinates else -q
                 if own in self.system.coordinates and own not in shown:
                     shown.add(own)
-                    yield LengthMark(column_of(start), column_of(at), aside, self._clear(at), label=own)
+                    beyond = BENEATH * len(shown) if self._is_on_carrier(at) else 0.0
+                    yield LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=own)
         for each in self.contacts:
             moving = moving_in(self.system, *each.at.components)
             if len(moving) == 1 and not moving & shown and isinstance(each.surface, Plane):
                 (q,) = moving
                 start = Location(tuple(c.xreplace({q: ZERO}) for c in each.at.components))
                 yield LengthMark(column_of(start), column_of(each.at), column_of(-each.normal), label=q)
+
+    def _is_on_carrier(self, at: Location) -> bool:
+        """Whether a mass carries a plane or touches one that is carried; its dimension line is beneath the carrier."""
+        carriers = [each for each in self.contacts if isinstance(each.surface.of, Particle)]
+        return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
 
     def _clear(self, at: Location) -> Expr:
         """The distance of a dimension line from the centre of a body: its radius."""

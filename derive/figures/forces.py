@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import explicit, rate
 from derive.figures.annotations import Arrow, PointMark
 from derive.figures.connected import ConnectedScene, connections_of
@@ -21,6 +23,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import PointForce
 from derive.mechanics.model.system import System
+from derive.steps.record import coordinates_in
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["force_diagram"]
@@ -37,16 +40,44 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
     at rest, determines the direction of the arrow
-    The result is None if no such force acts on the body, or if a force is not among `found`.
+    The result is None if no such force acts on the body, if a force is not among `found`, or if further forces act: the
+    diagram would not show all forces on the body.
     """
     acting = [force for each in connections_of(system) for force in each.on(of)]
     if not acting or any(letter not in found for force in acting for letter in _multipliers(system, force)):
         return None
+    if _has_others(system) or not _moves_by(system, of, acting, found):
+        return None
     scene = ConnectedScene(system)
     marks = [*_outline(of), *_weight(system, of)]
-    for force in acting:
-        marks += _arrow(system, force, found, scene.values)
+    for force, times in Counter(acting).items():  # a string pulls a pulley twice
+        marks += _arrow(system, force, times, found, scene.values, marks)
     return drawing(key, marks, values=scene.values)
+
+
+def _has_others(system: System) -> bool:
+    """Whether forces act in the system that are neither weights nor forces of connections."""
+    frictions = [force for each in connections_of(system) for force in each.forces if force.size == 1]
+    given = len(system.given_forces) > len(frictions)
+    return bool(given or system.between or system.dampers or system.charges or system.stored)
+
+
+def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
+    """Whether the forces account for the motion of the centre of mass: it can move in every direction, or the forces
+    balance in each direction in which the coordinates keep it. Otherwise an unknown reaction acts, as of the ice on a
+    plank."""
+    centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
+    moving = list(system.coordinates)
+    free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
+    rows = ImmutableDenseMatrix([[derivative(centre.components[k], q) for q in moving] for k in free])
+    if free and rows.rank(simplify=True) < len(free):
+        return False
+    values = {letter: explicit(step.value) for letter, step in found.items()}
+    for k in set(range(len(centre.components))) - set(free):
+        down = explicit(mass) * system.gravity if k == len(centre.components) - 1 else Integer(0)
+        if not is_zero(Add(*(f.size * f.direction[k] for f in acting)).xreplace(values) - down):
+            return False
+    return True
 
 
 def _multipliers(system: System, force: PointForce) -> list[Symbol]:
@@ -70,9 +101,17 @@ def _weight(system: System, of: Any) -> Iterator[Mark]:
 
 
 def _arrow(
-    system: System, force: PointForce, found: Mapping[Symbol, Quantity], values: Mapping[Symbol, Any]
-) -> Iterator[Mark]:
-    """Yield the arrow of a force, reversed if the force is negative in the drawn state; a zero force is not drawn."""
+    system: System,
+    force: PointForce,
+    times: int,
+    found: Mapping[Symbol, Quantity],
+    values: Mapping[Symbol, Any],
+    drawn: Sequence[Mark],
+) -> list[Mark]:
+    """Return the arrow of a force, reversed if the force is negative in the drawn state; a zero force is not drawn.
+
+    The arrow is longer than earlier arrows in the same direction, so that the tip of each is visible.
+    """
     letters = _multipliers(system, force)
     size = force.size
     direction = Location(force.direction)
@@ -81,12 +120,19 @@ def _arrow(
     still = {rate(q): Integer(0) for q in system.coordinates}
     value = size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
     if is_zero(value):
-        return
+        return []
     sign = 1 if numeric(value.subs(values), values) > 0 else -1
     keys = tuple(found[letter].key for letter in letters)
     way = ImmutableDenseMatrix([sign * c for c in direction.components])
     at = force.at if isinstance(force.of, PlacedBody) else force.of.at
-    yield Arrow(column_of(at), way, _length(force.of), label=sign * size, keys=keys)
+    before = sum(1 for mark in drawn if isinstance(mark, Arrow) and _is_along(mark.value, way, values))
+    long = _length(force.of) * (1 + before * Rational(1, 2))
+    return [Arrow(column_of(at), way, long, label=sign * times * size, keys=keys)]
+
+
+def _is_along(one: Any, other: Any, values: Mapping[Symbol, Any]) -> bool:
+    (x, y), (u, v) = ([numeric(c.subs(values), values) for c in way] for way in (one, other))
+    return abs(x * v - y * u) < 1e-9 and x * u + y * v > 0
 
 
 def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, Location]:

@@ -18,7 +18,7 @@ from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, AxisOfRotation, PointMark, Weight
 from derive.figures.completeness import is_whole
-from derive.figures.connected import ConnectedScene, connections_of
+from derive.figures.connected import ConnectedScene, is_described
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -83,7 +83,7 @@ def sketch(
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
-    if connections_of(system) and len(system.places[0].components) == 2 and impact is None:
+    if is_described(system) and len(system.places[0].components) == 2 and impact is None:
         connected = ConnectedScene(system)
         return drawing(key, connected.marks, *more, values={**connected.values, **(values or {})})
     scene = _Scene(system, named, weights, start, impact)

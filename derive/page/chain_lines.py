@@ -138,8 +138,7 @@ class ChainWriter:
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
         own |= {"variable": Math(inner[0])} if inner else {}
-        alike = {number: key for key, number in reversed(list(self.numbers.items()))}  # a row has one number
-        found = {name: [key for key in keys if alike[self.numbers[key]] == key] for name, keys in found.items()}
+        found = {name: self._one_of_each_row(keys) for name, keys in found.items()}
         references = {
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
         }
@@ -148,6 +147,10 @@ class ChainWriter:
     def _numbered(self, keys: Collection[str]) -> list[str]:
         """Return the keys of the numbered equations, ordered by number."""
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
+
+    def _one_of_each_row(self, keys: Sequence[str]) -> list[str]:
+        """Return the first key for each number, because the equations in a row share a number."""
+        return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
         """Return the key of the step; for a vector or tensor that is not shown, the keys of the entries in use."""

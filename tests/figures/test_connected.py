@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from derive.algebra.equality import equal
 from derive.course.problem import run_solve
 from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing, Mark
@@ -115,12 +114,8 @@ def test_what_carries_a_slope_is_a_wedge_and_what_slides_on_it_a_block(tmp_path:
     )  # fmt: skip
     drawn = drawings(tmp_path, text)
     assert len(of_class(drawn["system"], WedgeMark)) == len(of_class(drawn["system"], BlockMark)) == 1
-    assert {"forces_wedge", "forces_ball"} <= drawn.keys()
-    up, down = (
-        [mark for mark in of_class(drawn[key], Arrow) if str(mark.label) == "N"]
-        for key in ("forces_ball", "forces_wedge")
-    )
-    assert equal(up[0].value, -down[0].value)
+    assert "forces_ball" in drawn
+    assert "forces_wedge" not in drawn  # the table pushes the wedge by an unknown force
 
 
 def test_a_bowl_is_a_circle(tmp_path: Path) -> None:
