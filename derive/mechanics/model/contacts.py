@@ -150,7 +150,7 @@ def _check(touch: Contact) -> None:
     """Check that the normal is a unit vector, and that the place of contact is as far from the surface as the body."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
-    if not is_zero(tidied(touch.surface.distance(touch.at)) - touch.gap):
+    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - touch.gap)):
         raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
 
 

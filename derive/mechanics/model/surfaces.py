@@ -42,6 +42,10 @@ class Surface:
         """The unit vector perpendicular to the surface, towards the free side, on the normal through a place."""
         raise NotImplementedError
 
+    def height(self, at: Location, normal: Location) -> Expr:
+        """The distance of a place from the surface along a known normal, m."""
+        raise NotImplementedError
+
     @property
     def ground(self) -> Ground | None:
         """What gives the velocity of the material of the surface; None if it is at rest."""
@@ -66,6 +70,9 @@ class Plane(Surface):
     def normal(self, at: Location) -> Location:
         return self.unit_normal
 
+    def height(self, at: Location, normal: Location) -> Expr:
+        return dot(normal, at - self.through)
+
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through, normal = self.through.with_values(known), self.unit_normal.with_values(known)
         return replace(super().moved(known), through=through, unit_normal=normal)
@@ -85,6 +92,9 @@ class Circle(Surface):
 
     def normal(self, at: Location) -> Location:
         return direction_between(*((at, self.centre) if self.inside else (self.centre, at)))
+
+    def height(self, at: Location, normal: Location) -> Expr:
+        return dot(normal, at - self.centre) + (self.radius if self.inside else -self.radius)
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))
