@@ -242,6 +242,7 @@ def test_nothing_that_is_shipped_names_a_machine() -> None:
 
 
 @cache
+@cache
 def verbs() -> dict[str, Any]:
     """Return every public function of `derive.mechanics` and `derive.steps.numeric` that yields a quantity."""
     modules = [
