@@ -278,7 +278,7 @@ class ConnectedScene:
                 yield BarMark(column_of(place), column_of(place + Location((ZERO, HANGER * self._span))))
                 yield FixedEnd(column_of(place + Location((ZERO, HANGER * self._span))), downwards(2))
         for place, other in ((line.through[0], line.through[1]), (line.through[-1], line.through[-2])):
-            if is_fixed(self.system, place):
+            if any(force.of is None and same(force.at, place) for force in line.forces):
                 yield FixedEnd(column_of(place), column_of(other - place), line.is_rod)
 
     def _spring(self, each: Central) -> Iterable[Mark]:

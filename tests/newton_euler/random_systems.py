@@ -149,7 +149,29 @@ def with_strings() -> Iterator[Trial]:
     for noun in ("strings", "massless_rods"):
         given = HANGING.replace("NOUN", noun).replace("LETTER", "tension" if noun == "strings" else "force")
         yield Trial(f"hanging {noun}", given, ("X_ddot", "x_ddot", "y_ddot", "T"), _hanging)
+    yield Trial("yo-yo", YO_YO, ("y_ddot", "phi_ddot", "T"), _yo_yo)
+    yield Trial("massive pulley", MASSIVE, ("x_ddot", "y_ddot", "phi_ddot", "T", "S"), _massive)
+    yield Trial("pinned rods", RODS, ("theta_ddot", "phi_ddot", "x_ddot", "R_x", "R_y"), _rods)
 
+
+YO_YO = """\
+  coordinates: {y: positive length, phi: angle}
+  bodies: {one: {shape: disc, radius: a, mass: m, turned: -phi, centre: [a, -y], across: z}}
+  gravity: g
+  strings: {from: [0, 0], wound_on: one, tension: T}"""
+MASSIVE = """\
+  coordinates: {x: positive length, y: positive length, phi: angle}
+  particles: {one: {mass: m, at: [-a, -x]}, two: {mass: M, at: [a, -y]}}
+  bodies: {pulley: {shape: hoop, radius: a, mass: m, turned: phi, centre: [0, 0], across: z}}
+  gravity: g
+  strings: [{from: one, wound_on: pulley, tension: T}, {from: two, wound_on: pulley, tension: S}]"""
+RODS = """\
+  coordinates: {theta: angle, phi: angle, x: length, y: length}
+  bodies:
+    upper: {shape: rod, length: l, mass: M, from: [0, 0], along: [sin(theta), -cos(theta)]}
+    lower: {shape: rod, length: l, mass: m, centre: [x, y], along: [sin(phi), -cos(phi)]}
+  gravity: g
+  joints: {of: lower.end, to: upper.far_end, force: R}"""
 
 ATWOOD = """\
   coordinates: {x: positive length, y: positive length}
@@ -266,6 +288,68 @@ def _hanging(random: Random) -> tuple[Numbers, Numbers]:
         *Body(v["m"], "x_ddot", "y_ddot").equations([_down(v["m"], v), Force((-u[0], -u[1]), unknown="T")]),
         {"x_ddot": u[0], "y_ddot": u[1], "X_ddot": -u[0], KNOWN: v["l"] * turn**2},
     ]
+    return v, solved(laws)
+
+
+def _yo_yo(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"y": 1.0, "y_dot": 0.3, "phi": 0.2, "phi_dot": 0.0}
+    v["phi_dot"] = v["y_dot"] / v["a"]
+    string = Force((0, 1), (-v["a"], 0), "T")
+    laws = [
+        *Body(v["m"], y="up", moment=v["m"] * v["a"] ** 2 / 2, turn="turn").equations([_down(v["m"], v), string]),
+        {"up": 1, "y_ddot": 1},
+        {"turn": 1, "phi_ddot": 1},
+        {"y_ddot": 1, "phi_ddot": -v["a"]},
+    ]
+    return v, solved(laws)
+
+
+def _massive(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"x": 1.0, "y": 1.0, "phi": 0.2, "phi_dot": 0.4}
+    a = v["a"]
+    v |= {"x_dot": a * v["phi_dot"], "y_dot": -a * v["phi_dot"]}
+    rim = [Force((0, -1), (-a, 0), "T"), Force((0, -1), (a, 0), "S")]
+    laws = [
+        *Body(v["m"], y="x_up").equations([_down(v["m"], v), Force((0, 1), unknown="T")]),
+        *Body(v["M"], y="y_up").equations([_down(v["M"], v), Force((0, 1), unknown="S")]),
+        *Body(v["m"], moment=v["m"] * a**2, turn="phi_ddot").equations(rim),
+        {"x_up": 1, "x_ddot": 1},
+        {"y_up": 1, "y_ddot": 1},
+        {"x_ddot": 1, "phi_ddot": -a},
+        {"y_ddot": 1, "phi_ddot": a},
+    ]
+    return v, solved(laws)
+
+
+def _rods(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random)
+    l, p, q = v["l"], random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2)
+    dp, dq = random.uniform(-2, 2), random.uniform(-2, 2)
+    u, w = (sin(p), -cos(p)), (sin(q), -cos(q))
+    v |= {"theta": p, "phi": q, "theta_dot": dp, "phi_dot": dq}
+    v |= {"x": l * u[0] + l / 2 * w[0], "y": l * u[1] + l / 2 * w[1]}
+    v["x_dot"] = l * cos(p) * dp + l / 2 * cos(q) * dq
+    v["y_dot"] = l * sin(p) * dp + l / 2 * sin(q) * dq
+    half_u, half_w = (l / 2 * u[0], l / 2 * u[1]), (l / 2 * w[0], l / 2 * w[1])
+    upper = [
+        _down(v["M"], v),
+        *(Force(way, (-half_u[0], -half_u[1]), f"O_{axis}") for way, axis in (((1, 0), "x"), ((0, 1), "y"))),
+        *(Force(way, half_u, f"R_{axis}") for way, axis in (((-1, 0), "x"), ((0, -1), "y"))),
+    ]
+    lower = [
+        _down(v["m"], v),
+        *(Force(way, (-half_w[0], -half_w[1]), f"R_{axis}") for way, axis in (((1, 0), "x"), ((0, 1), "y"))),
+    ]
+    laws = [
+        *Body(v["M"], "X", "Y", v["M"] * l**2 / 12, "theta_ddot").equations(upper),
+        *Body(v["m"], "x_ddot", "y_ddot", v["m"] * l**2 / 12, "phi_ddot").equations(lower),
+        {"X": 1, "theta_ddot": -l / 2 * cos(p), KNOWN: l / 2 * sin(p) * dp**2},
+        {"Y": 1, "theta_ddot": -l / 2 * sin(p), KNOWN: -l / 2 * cos(p) * dp**2},
+        {"x_ddot": 1, "theta_ddot": -l * cos(p), "phi_ddot": -l / 2 * cos(q),
+         KNOWN: l * sin(p) * dp**2 + l / 2 * sin(q) * dq**2},
+        {"y_ddot": 1, "theta_ddot": -l * sin(p), "phi_ddot": -l / 2 * sin(q),
+         KNOWN: -l * cos(p) * dp**2 - l / 2 * cos(q) * dq**2},
+    ]  # fmt: skip
     return v, solved(laws)
 
 

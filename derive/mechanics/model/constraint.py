@@ -34,6 +34,7 @@ class Constraint(Part):
     in_rates  whether the constraint is linear in the rates
     forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
     routes use them in place of the derivatives of f
+    enforcer  what enforces the constraint: "surface", "string", "rod", "friction" or "joint"; empty if it is unknown
     """
 
     left: Expr
@@ -41,6 +42,7 @@ class Constraint(Part):
     force: Symbol
     in_rates: bool = False
     forces: tuple[PointForce, ...] = ()
+    enforcer: str = ""
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Constraint:
         if not self.forces:

@@ -120,7 +120,7 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal))
+    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal), enforcer="surface")
 
 
 def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
@@ -138,7 +138,7 @@ def _contact(of: Any, on: Any) -> Contact:
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
-    radius = _radius_of(of) if isinstance(of, PlacedBody) else ZERO
+    radius = radius_of(of) if isinstance(of, PlacedBody) else ZERO
     away = surface.normal(at)
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
     found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
@@ -157,10 +157,10 @@ def _check(touch: Contact) -> None:
 def _surface_of(body: Any) -> Circle:
     if not isinstance(body, PlacedBody):
         raise Rejected(Complaint("wrong-argument", "`contact` needs a surface, or a round body"))
-    return Circle(body, None, body.centre, _radius_of(body))
+    return Circle(body, None, body.centre, radius_of(body))
 
 
-def _radius_of(placed: PlacedBody) -> Expr:
+def radius_of(placed: PlacedBody) -> Expr:
     """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
@@ -201,7 +201,8 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
     by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
     if not is_zero(tidied(along - by_particles)):
         raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))
-    return [Constraint(along, ZERO, letter, in_rates=True, forces=touch.pair(letter, touch.tangent))]
+    pair = touch.pair(letter, touch.tangent)
+    return [Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction")]
 
 
 def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:

@@ -55,7 +55,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
         along = tuple(Integer(int(i == k)) for k in range(len(gaps)))
         pair = PointForce(letter, along, here, body), PointForce(letter, tuple(-c for c in along), there, other)
         if not is_zero(gap):
-            found.append(Constraint(gap, ZERO, letter, forces=pair))
+            found.append(Constraint(gap, ZERO, letter, forces=pair, enforcer="joint"))
     if not found:
         message = "the coordinates keep the two points together, so the force of the joint does not appear"
         help_line = "place one of the bodies by coordinates of its own, so that the joint keeps it there"

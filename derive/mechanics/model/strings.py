@@ -7,19 +7,24 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Self
 
-from sympy import Add, Expr, Symbol
+from sympy import Add, Expr, Integer, Symbol
 
 from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.surfaces import direction_between, distance_between
+from derive.mechanics.model.contacts import radius_of
+from derive.mechanics.model.no_slip import velocity_at
+from derive.mechanics.model.surfaces import direction_between, distance_between, dot
 from derive.steps.record import require_constant
 from derive.steps.step import is_zero
 
-__all__ = ["massless_rod", "string"]
+__all__ = ["massless_rod", "string", "wound_string"]
+
+ZERO = Integer(0)
 
 
 @dataclass(frozen=True)
@@ -93,4 +98,45 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     force = scalar(letter)
     pulls = _pulls(through, force)
-    return Line(pulls, places, verb == "massless_rod"), Constraint(whole, found, force, forces=pulls)
+    is_rod = verb == "massless_rod"
+    kept = Constraint(whole, found, force, forces=pulls, enforcer="rod" if is_rod else "string")
+    return Line(pulls, places, is_rod), kept
+
+
+def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:
+    """A straight piece of string from an end to a round body, on which the string is wound or over which it runs
+    without slipping.
+
+    end      a particle, a point of a body, or a place in space
+    on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches its rim at the
+    height of its axis, or straight above or below the axis
+    tension  the symbol of the tension of this piece, N; positive if the string pulls
+    The particle of the rim at the string has the velocity of the string along the string.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 6.7.
+    """
+    if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
+        message = "`wound_string` goes from a particle, a point of a body or a place to a round body in a plane"
+        raise Rejected(Complaint("wrong-argument", message))
+    place, body = end_of(end)
+    rim = _rim(place, on)
+    along = direction_between(rim, place)
+    slip = velocity_at(body if body is not None else place, place) - velocity_at(on, rim)
+    force = scalar(tension)
+    pulls = (
+        PointForce(force, (-along).components, place, body),
+        PointForce(force, along.components, rim, on),
+    )
+    kept = Constraint(tidied(-dot(along, slip)), ZERO, force, in_rates=True, forces=pulls, enforcer="string")
+    return Line(pulls, (place, rim), False), kept
+
+
+def _rim(place: Location, on: PlacedBody) -> Location:
+    """Return the point of the rim at which a string from a place is tangent: the string is parallel to an axis."""
+    radius, way = radius_of(on), place - on.centre
+    for k, c in enumerate(way.components):
+        if is_zero(tidied(c**2 - radius**2)):
+            return on.centre + Location(tuple(c if i == k else ZERO for i in (0, 1)))
+    where = ", ".join(map(str, place.components))
+    message = f"the string from ({where}) is not tangent to {on.body.name} beside its axis, or above or below it"
+    help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"
+    raise Rejected(Complaint("no-contact", message, help=help_line))

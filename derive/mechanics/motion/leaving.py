@@ -12,6 +12,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import Letter, Value, in_results
+from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
@@ -81,6 +82,10 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
+    enforcer = _enforcer(force)
+    if enforcer in ("rod", "joint", "friction"):
+        message = f"`leaves_contact`: `{force.key}` is the force of a {enforcer}, which may have either sign"
+        raise Rejected(Complaint("no-contact", message, help="give a normal force or the tension of a string"))
     if sign_known(value) == 1:
         return establish(
             LEAVES_CONTACT,
@@ -141,6 +146,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         phrase_data=PhraseData(
             formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
+            words={"enforcer": enforcer},
             named={"from": Relation(unknown, "=", start)},
             outcome_data={
                 "unknown": unknown,
@@ -150,6 +156,12 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         ),
         key=key,
     )
+
+
+def _enforcer(force: Quantity) -> str:
+    """Return what exerts the force: "surface", "string" or another sort; empty if it is unknown."""
+    known = (each.fact(ForceOf) for each in (force, *force.ancestors()))
+    return next((found.constraint.enforcer for found in known if found is not None), "")
 
 
 def _as_positive(condition: Relation) -> Relation:

@@ -12,7 +12,7 @@ from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
-from derive.mechanics import circle, contact, dashpot, massless_rod, motor, pin, plane, string, weld
+from derive.mechanics import circle, contact, dashpot, massless_rod, motor, pin, plane, string, weld, wound_string
 from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
@@ -156,18 +156,27 @@ class StringKeys(Record):
     """The keys of one entry of `strings:`, a massless inextensible string."""
 
     start: WrittenPlace = key("one end: a particle, a point of a body, or a place", PLACE, called="from", required=True)
-    end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
+    end: WrittenPlace | None = key("the other end", PLACE, called="to")
+    wound_on: Word | None = key(
+        "in place of `to`, `over` and `length`: the round body on which the string is wound, or over which it runs "
+        "without slipping",
+        TEXT,
+    )
     over: tuple[WrittenPlace, ...] = key(
         "the pulleys or holes between the ends, in order: places, particles or points of bodies",
         list_of(PLACE, "a list of places"),
     )
-    length: Tree = key("the length between the ends", SCALAR, required=True)
+    length: Tree | None = key("the length between the ends", SCALAR)
     tension: Word = key("the symbol of the tension", TEXT, required=True)
 
     def symbols(self) -> list[Word]:
         return [self.tension]
 
     def part(self, known: Connected) -> Deferred[Any]:
+        if self.wound_on is not None:
+            return self._wound(self.wound_on, known)
+        if self.end is None or self.length is None:
+            rejected("missing-key", "a string needs `to` and `length`, or `wound_on`", self.places[""])
         named = {
             "over": tuple(_end(each, known, "over") for each in self.over),
             "tension": force_letter(self.tension, known.letters),
@@ -175,6 +184,15 @@ class StringKeys(Record):
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
         of = (*ends, known.letters.value(self.length, "length", "length"))
         return Deferred(string, of, named, forces=(str(self.tension),), place=self.places[""])
+
+    def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
+        for name in ("to", "over", "length"):
+            if name in self.values_at:
+                message = f"`{name}` has no effect on a string that is `wound_on` a body"
+                rejected("unused-key", message, self.places[name], "leave one of them out")
+        tension = force_letter(self.tension, known.letters)
+        of = (_end(self.start, known, "from"), material(on, known))
+        return Deferred(wound_string, of, {"tension": tension}, forces=(tension,), place=self.places[""])
 
 
 @dataclass(frozen=True)
