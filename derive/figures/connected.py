@@ -21,6 +21,7 @@ from derive.figures.parts import (
     BlockMark,
     ConnectionMark,
     CornerRopeMark,
+    DashpotMark,
     ParticleMark,
     RopeMark,
     SpringMark,
@@ -39,7 +40,7 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import Contact
-from derive.mechanics.model.joints import Pin
+from derive.mechanics.model.joints import Dashpot, Pin
 from derive.mechanics.model.strings import Line
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, distance_between, dot
 from derive.mechanics.model.system import Central, Particle, System
@@ -62,7 +63,17 @@ def connections_of(system: System) -> list[Any]:
 
 def is_described(system: System) -> bool:
     """Whether the system states what connects its parts: a connection, or a body that is held at a point of another."""
-    return bool(connections_of(system)) or any(isinstance(placed.at, PointOfBody) for placed in system.bodies)
+    connected = [each for each in connections_of(system) if not isinstance(each, Dashpot)]
+    return bool(connected) or any(isinstance(placed.at, PointOfBody) for placed in system.bodies)
+
+
+def dashpot_marks(system: System) -> Iterator[Mark]:
+    """Yield the dashpots of a system, each beside the spring between the same places, if there is one."""
+    springs = [{each.start.components, each.end.components} for each in system.between]
+    for each in connections_of(system):
+        if isinstance(each, Dashpot):
+            beside = {each.start.components, each.end.components} in springs
+            yield DashpotMark(column_of(each.start), column_of(each.end), beside, label=each.constant)
 
 
 class ConnectedScene:
@@ -149,6 +160,7 @@ class ConnectedScene:
             found += self._line(line)
         for each in self.system.between:
             found += self._spring(each)
+        found += dashpot_marks(self.system)
         for pin in self.pins:
             found += self._pin(pin)
         found += self._coordinates()

@@ -27,6 +27,8 @@ COIL = 4.6  # half the width of a spring
 PITCH = 5.0  # distance between two turns of a spring
 LEAD = 7.0  # length of each straight end of a spring
 
+CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
+
 SHORT = 3  # greatest number of characters in a name that is written on a block
 
 
@@ -111,6 +113,40 @@ class SpringMark(_Stretched):
         peaks = [spot(lead + (i + 0.5) * step, COIL if i % 2 else -COIL) for i in range(turns)]
         line = ((x, y), spot(lead, 0), *peaks, spot(far - lead, 0), (u, v))
         return [Stroke(line, "spring"), self._beside(spots, COIL + 3.0)]
+
+
+@dataclass(frozen=True)
+class DashpotMark(_Stretched):
+    """A dashpot: a piston in an open cylinder.
+
+    beside   whether the dashpot is beside a spring between the same points
+    """
+
+    beside: bool = False
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        ends = paper.spots(*self.places(paper.numbers))
+        far = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1])
+        if far < 1e-6:
+            return []
+        along = direction(*ends)
+        off = -2.6 * CYLINDER[1] if self.beside else 0.0
+        half, wide = CYLINDER[0] / 2, CYLINDER[1] / 2
+
+        def spot(way: float, aside: float = 0.0) -> Spot:
+            shift = off + aside
+            return ends[0][0] + along[0] * way - along[1] * shift, ends[0][1] + along[1] * way + along[0] * shift
+
+        middle = far / 2
+        left, right = middle - half, middle + half
+        lines = [
+            (ends[0], spot(0), spot(middle)),
+            (spot(middle, -0.8 * wide), spot(middle, 0.8 * wide)),
+            (spot(left, -wide), spot(right, -wide), spot(right, wide), spot(left, wide)),
+            (spot(right), spot(far), ends[1]),
+        ]
+        tag = Tag(self.label, spot(middle, -wide if self.beside else wide), (0.0, -1.0 if self.beside else 1.0), 3.0)
+        return [*(Stroke(line, "edge") for line in lines), tag]
 
 
 @dataclass(frozen=True)

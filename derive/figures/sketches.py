@@ -18,7 +18,7 @@ from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, AxisOfRotation, PointMark, Weight
 from derive.figures.completeness import is_whole
-from derive.figures.connected import ConnectedScene, is_described
+from derive.figures.connected import ConnectedScene, dashpot_marks, is_described
 from derive.figures.contacts import contact_marks
 from derive.figures.marks import Drawing, Mark, Marks
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -226,6 +226,7 @@ class _Scene:
     def _all(self) -> Iterable[Mark]:
         for each in self.system.between:
             yield from self._between(each)
+        yield from dashpot_marks(self.system)
         yield from contact_marks(self.system)
         for placed in getattr(self.system, "bodies", ()):
             yield from placed_marks(self.system, placed)

@@ -101,7 +101,20 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
     return Motor(()), constraint(on, turns, torque)
 
 
-def dashpot(constant: Any, start: Any, end: Any) -> Damper:
+@dataclass(frozen=True)
+class Dashpot(Connection):
+    """A dashpot between two places, with its damping constant."""
+
+    constant: Expr
+    start: Location
+    end: Location
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        start, end = self.start.with_values(known), self.end.with_values(known)
+        return replace(super().moved(known), start=start, end=end)
+
+
+def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     """A dashpot between two points: it opposes the rate of their distance d by the force c d_dot on both.
 
     constant     c, kg/s
@@ -110,4 +123,5 @@ def dashpot(constant: Any, start: Any, end: Any) -> Damper:
     """
     if not all(map(is_end, (start, end))):
         raise Rejected(Complaint("wrong-argument", "`dashpot` ends at particles, points of bodies, or places"))
-    return damping(constant, raw_distance(end_of(start)[0], end_of(end)[0]))
+    places = end_of(start)[0], end_of(end)[0]
+    return Dashpot((), as_expr(constant), *places), damping(constant, raw_distance(*places))
