@@ -1,4 +1,5 @@
-"""Write docs/gallery.md. With `--pictures`, also take new pictures of the pages of `make library` in Chromium.
+"""Write docs/gallery.md. With `--pictures`, also take new pictures of the pages of `make library` in Chromium, and copy
+the drawings that docs/connections.md shows.
 
 A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below it.
 """
@@ -6,11 +7,13 @@ A picture shows the beginning of a problem's page in a browser; the YAML of the 
 from __future__ import annotations
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "gallery"
+MANUAL = ROOT / "docs" / "connections.md"
 WIDTH, HEIGHT = 860, 1060
 
 # the name of a problem -> what the page of this problem shows
@@ -65,9 +68,22 @@ def take_pictures() -> None:
             page.screenshot(path=PICTURES / f"{name}.png", full_page=True, clip=beginning)
 
 
+def drawings_of_manual() -> list[str]:
+    """Return the problems whose drawings docs/connections.md shows."""
+    return re.findall(r"\]\(connections/(\w+)\.svg\)", MANUAL.read_text(encoding="utf-8"))
+
+
+def copy_drawings() -> None:
+    folder = MANUAL.with_suffix("")
+    folder.mkdir(exist_ok=True)
+    for name in drawings_of_manual():
+        shutil.copyfile(ROOT / "build" / "library" / f"{name}-system.svg", folder / f"{name}.svg")
+
+
 def main() -> None:
     if "--pictures" in sys.argv:
         take_pictures()
+        copy_drawings()
     DOCUMENT.write_text(document(), encoding="utf-8")
 
 

@@ -15,3 +15,7 @@ def test_it_is_up_to_date() -> None:
 
 def test_each_problem_has_a_picture_and_no_picture_is_spare() -> None:
     assert {path.stem for path in MADE["PICTURES"].glob("*.png")} == set(MADE["SHOWN"])
+
+
+def test_each_drawing_of_the_manual_is_there_and_none_is_spare() -> None:
+    assert {path.stem for path in MADE["MANUAL"].with_suffix("").glob("*.svg")} == set(MADE["drawings_of_manual"]())
