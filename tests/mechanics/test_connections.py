@@ -62,7 +62,8 @@ def test_a_contact_without_the_opposite_force_is_refused(tmp_path: Path, monkeyp
 
 def test_friction_at_the_centre_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class AtCentre(Contact):
-        def __post_init__(self) -> None:
+        def __init__(self, *given: Any, **named: Any) -> None:
+            super().__init__(*given, **named)
             object.__setattr__(self, "at", self.of.centre)
 
     monkeypatch.setattr(contacts, "Contact", AtCentre)
