@@ -8,7 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import explicit
 from derive.errors import DeriveError
@@ -156,3 +156,52 @@ def test_a_contact_that_cannot_be_meant_is_told(old: str, new: str, said: str, t
 def test_a_string_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
     (message, *_) = messages(tmp_path, edited(problem(MOVABLE), (old, new)))
     assert said in message
+
+
+ROD = """\
+title: A rod on a hinge
+solve: system
+symbols: {M: mass, l: length, J: momentum, k: spring constant, q: charge, E: electric field, d: length}
+given:
+  coordinates: {theta: angle}
+  bodies: {rod: {shape: rod, length: l, mass: M, from: [0, 0], along: [sin(theta), -cos(theta)]}}
+  ACTS
+statement: A rod.
+parts:
+  - ask: Find the motion.
+    answer: equations_of_motion
+"""
+M, l, J, k, q, E, d = symbols("M l J k q E d", positive=True)
+theta, theta_ddot = symbols("theta theta_ddot", real=True)
+
+
+@pytest.mark.parametrize(
+    ("acts", "torque"),
+    [
+        ("charges: {charge: q, at: rod.far_end, electric: [E, 0]}", q * E * l * cos(theta)),
+        ("forces: {components: [q*E, 0], at: rod.far_end}", q * E * l * cos(theta)),
+        ("springs: {constant: k, from: rod.far_end, to: [d, -l]}", k * l * (d * cos(theta) - l * sin(theta))),
+        ("damping: {constant: k*d/d, at: rod.end}", 0),
+    ],
+)
+def test_what_acts_at_a_point_of_a_body_turns_the_body(acts: str, torque: Expr, tmp_path: Path) -> None:
+    unit = "kg/s" if "damping" in acts else "spring constant"
+    text = edited(ROD, ("ACTS", acts), ("k: spring constant", f"k: {'damping constant' if unit == 'kg/s' else unit}"))
+    found = solved(tmp_path, text)["motion_theta"].value
+    letters = {each.name: each for each in explicit(found.residual).free_symbols}
+    known = {s: letters[s.name] for s in (M, l, k, q, E, d, theta, theta_ddot) if s.name in letters}
+    wanted = (M * l**2 / 3 * theta_ddot - torque).xreplace(known)
+    ratio = (explicit(found.residual) / wanted).simplify() if torque != 0 else 1
+    assert not ratio.has(letters["theta"], letters["theta_ddot"]) if torque != 0 else "theta_dot" not in letters
+
+
+def test_an_impulse_at_a_point_of_a_body_acts_on_the_body(tmp_path: Path) -> None:
+    """M l^2/3 theta_dot = l J."""
+    text = edited(
+        ROD,
+        ("ACTS", "impact: {impulses: {components: [J, 0], at: rod.far_end}, at: {theta: 0}}"),
+        ("equations_of_motion", "rates_after"),
+    )
+    value = explicit(solved(tmp_path, text)["theta_dot_after"].value)
+    assert {letter.name for letter in value.free_symbols} == {"J", "M", "l"}
+    assert value_at(value, {"J": 2.0, "M": 3.0, "l": 5.0}) == pytest.approx(3 * 2 / (3 * 5))

@@ -109,6 +109,11 @@ class PointOfBody(Location):
         return self if found is self else PointOfBody(found.components, body=self.body.moved(values))
 
 
+def body_at(place: Any, stated: Any = None) -> Any:
+    """Return the body of a material point, if no other body is stated; `stated` if the place belongs to no body."""
+    return place.body if stated is None and isinstance(place, PointOfBody) else stated
+
+
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
     """The matrix of successive rotations."""
     whole = turn_about(0, Integer(0))

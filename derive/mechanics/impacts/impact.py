@@ -13,6 +13,7 @@ from derive.algebra.expressions import At, Factors, Partial, Relation, TimeRate,
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.bodies.placed import body_at
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, unknown
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.acted_on import ActsOnNothing
@@ -73,7 +74,7 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as the place has"
         raise Rejected(Complaint("wrong-argument", message))
-    return Impulse(tuple(as_expr(c) for c in components), at.components, of, tuple(components))
+    return Impulse(tuple(as_expr(c) for c in components), at.components, body_at(at, of), tuple(components))
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
@@ -119,7 +120,8 @@ def collision(
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)
     ends = (of[0], of[1]) if isinstance(of, tuple | list) and len(of) == 2 else (None, of)
-    return Collision(start, end, unit, part, letter, ends, (tuple(along), restitution))
+    bodies = (body_at(start, ends[0]), body_at(end, ends[1]))
+    return Collision(start, end, unit, part, letter, bodies, (tuple(along), restitution))
 
 
 @dataclass(frozen=True)

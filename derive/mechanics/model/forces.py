@@ -16,7 +16,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
 from derive.algebra.expressions import TIME, TimeRate, as_expr, explicit, rate
 from derive.errors import Complaint, Rejected
-from derive.mechanics.bodies.placed import PointOfBody
+from derive.mechanics.bodies.placed import body_at
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.dalembert import Load, MagneticForce
@@ -227,7 +227,7 @@ def force(components: Any, at: Location, of: Any = None, by: Any = None) -> Give
     by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
     place = _place("force", at)
-    of = at.body if of is None and isinstance(at, PointOfBody) else of
+    of = body_at(at, of)
     found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
     for each in (found, found.opposite):
         if each is not None:
@@ -250,7 +250,7 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
     """
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
-        found = Damper(constant, at.components, at.body if of is None and isinstance(at, PointOfBody) else of)
+        found = Damper(constant, at.components, body_at(at, of))
         found.load(())  # raises an error if `of` is not a body or particle
         return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):

@@ -13,8 +13,9 @@ from derive.algebra.tidy import tidied
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Faults, rejected
+from derive.errors import Complaint, Faults, Rejected, rejected
 from derive.mechanics import RigidBody, no_slip, rolling_constraint
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Axes, Location, angle_of
 from derive.mechanics.model.surfaces import dot, unit
 from derive.steps.step import is_zero
@@ -227,6 +228,11 @@ def _made(body: DescribedBody | RigidBody) -> Any:
 def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, ...]:
     """Return the conditions of rolling: with `force`, as constraints that this force enforces; otherwise, solved for
     coordinates or rates."""
+    if isinstance(at, PointOfBody):
+        message = "the place of contact moves along the body, but this is a fixed point of the body"
+        raise Rejected(
+            Complaint("wrong-argument", message, help="describe the surface and the contact under `contacts`")
+        )
     if force:
         return rolling_constraint(body, at, force, ground)
     found = no_slip(body, at, ground)
