@@ -10,11 +10,11 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sin, sqrt
 
-from derive.algebra.expressions import column, explicit
+from derive.algebra.expressions import TIME, column, explicit
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import LengthMark, PointMark
+from derive.figures.annotations import Arrow, LengthMark, PointMark
 from derive.figures.marks import Mark
 from derive.figures.parts import (
     BarMark,
@@ -49,7 +49,7 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 # Values of free coordinates, relative to the largest body.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-FARTHEST = Rational(16, 5)  # the same for a coordinate of what carries a surface
+WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BENEATH = 18.0  # the distance of dimension lines beneath what carries a plane, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
@@ -101,7 +101,7 @@ class ConnectedScene:
         carriers = [each.through for each in self._planes if each.of is not None]
         carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
         for i, q in enumerate(sorted(free, key=lambda q: q in carried)):
-            found[q] = self._size * (FARTHEST if q in carried else AWAY[i % len(AWAY)])
+            found[q] = self._size * (self._farthest if q in carried else AWAY[i % len(AWAY)])
         chosen = {q: found[q] for q in free}
         return {letter: value.subs(chosen) for letter, value in found.items()}
 
@@ -129,6 +129,12 @@ class ConnectedScene:
             if share != 0 and not moving_in(self.system, share):
                 return {q: tidied(q - residual / share)}
         return {}
+
+    @property
+    def _farthest(self) -> Rational:
+        """The coordinate of a carrier: a wedge is to the right of the body on it, the middle of a plank to the left."""
+        slopes = [each for each in self._planes if each.of is not None and tidied(each.unit_normal.components[0]) != 0]
+        return Rational(16, 5) if slopes else Rational(4, 5)
 
     @property
     def _span(self) -> Expr:
@@ -180,10 +186,21 @@ class ConnectedScene:
         elif isinstance(surface, Plane):
             low, high = self._ends(surface, contacts)
             if surface.of is None:
-                yield GroundMark(column_of(low), column_of(high), column_of(-surface.unit_normal))
+                yield from self._plane(surface, low, high)
                 yield from self._slope(surface, low, high)
             elif isinstance(surface.of, Particle):
                 yield from self._carrier(surface, low, high)
+
+    def _plane(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
+        """Yield the hatched line of a fixed plane; a moving plane, such as a belt, has no hatches, and an arrow."""
+        if not isinstance(plane.moves, Location):
+            yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
+            return
+        velocity = Location(tuple(diff(c, TIME) for c in plane.moves.components))
+        size = tidied(sqrt(Add(*(c**2 for c in velocity.components))))
+        yield BarMark(column_of(low), column_of(high))
+        start = low + Rational(1, 10) * (high - low) - self._size * Rational(1, 5) * plane.unit_normal
+        yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
 
     def _ends(self, plane: Plane, contacts: Sequence[Contact]) -> tuple[Location, Location]:
         """The ends of the drawn part of a plane, from the lower or left end to the other end."""
@@ -197,6 +214,10 @@ class ConnectedScene:
         past = self._size * PAST
         meets = any(other != plane and same(other.through, plane.through) for other in self._planes)
         first, last = (choice([*ways, ZERO] if meets else ways, key=self._number) for choice in (min, max))
+        if isinstance(plane.of, Particle) and abs(self._number(along.components[1])) <= SMALL:
+            half = max((tidied(way) for way in ways), key=lambda way: abs(self._number(way)))
+            far = (half if self._number(half) > 0 else -half) + past
+            return plane.through - far * along, plane.through + far * along  # the place of a plank is its middle
         low = first if meets and first == 0 else first - past
         high = last if meets and last == 0 else last + past
         return plane.through + low * along, plane.through + high * along
@@ -279,19 +300,22 @@ class ConnectedScene:
         elif len(places) == 3 and is_fixed(self.system, line.through[1]):
             yield CornerRopeMark(*places)
         else:
-            radii = tuple(None if 0 < i < len(places) - 1 else ZERO for i in range(len(places)))
+            wheel = self._span * WHEEL
+            radii = tuple(wheel if 0 < i < len(places) - 1 else ZERO for i in range(len(places)))
             yield RopeMark(tuple(places), radii, label=letter if len(places) == 2 else None)
         if len(places) == 2:
             yield from angle_marks(self.system, link_between(*line.through))
         for place in line.through[1:-1] if len(places) != 3 or not is_fixed(self.system, line.through[1]) else ():
             particle = next((one for one in self.system.particles if same(one.at, place)), None)
-            yield WheelMark(column_of(place), label=particle.mass if particle else None)
+            yield WheelMark(column_of(place), self._span * WHEEL, label=particle.mass if particle else None)
             if particle is None and is_fixed(self.system, place):
                 yield BarMark(column_of(place), column_of(place + Location((ZERO, HANGER * self._span))))
                 yield FixedEnd(column_of(place + Location((ZERO, HANGER * self._span))), downwards(2))
         for place, other in ((line.through[0], line.through[1]), (line.through[-1], line.through[-2])):
-            if any(force.of is None and same(force.at, place) for force in line.forces):
-                yield FixedEnd(column_of(place), column_of(other - place), line.is_rod)
+            within = any(same(place, pulley) for pulley in line.through[1:-1])
+            if not within and any(force.of is None and same(force.at, place) for force in line.forces):
+                below = self._number((other - place).components[1]) < 0 or line.is_rod
+                yield FixedEnd(column_of(place), downwards(2) if below else column_of(other - place), line.is_rod)
 
     def _spring(self, each: Central) -> Iterable[Mark]:
         a, b = column_of(each.start), column_of(each.end)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
+from sympy import Add, Expr, Float, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import explicit, rate
@@ -49,10 +50,39 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     if _has_others(system) or not _moves_by(system, of, acting, found):
         return None
     scene = ConnectedScene(system)
-    marks = [*_outline(of), *_weight(system, of)]
-    for force, times in Counter(acting).items():  # a string pulls a pulley twice
-        marks += _arrow(system, force, times, found, scene.values, marks)
-    return drawing(key, marks, values=scene.values)
+    drawn = [*_weight(system, of), *_forces(system, acting, found, scene.values)]
+    sizes = _numbers([each.value for each in drawn], scene.values)
+    long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
+    arrows = [each.arrow(long * _share(size, max(sizes))) for each, size in zip(drawn, sizes, strict=True)]
+    return drawing(key, [*_outline(of), *arrows], values=scene.values)
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """A force in a diagram; `value` is its value in the drawn state, N, and `pushes` puts its tip at the body."""
+
+    at: Location
+    way: Any
+    value: Expr
+    label: Expr
+    keys: tuple[str, ...] = ()
+    pushes: bool = False
+
+    def arrow(self, size: Rational) -> Arrow:
+        return Arrow(column_of(self.at), self.way, size, False, self.pushes, label=self.label, keys=self.keys)
+
+
+def _numbers(values: Sequence[Expr], at: Mapping[Symbol, Any]) -> list[float]:
+    """Return the sizes of the forces, all with the same numbers for their symbols."""
+    there = [value.subs(at).subs(at) for value in values]
+    letters = sorted(set().union(*(value.free_symbols for value in there)), key=str)
+    numbers = {letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}
+    return [abs(float(value.xreplace(numbers).evalf())) for value in there]
+
+
+def _share(size: float, greatest: float) -> Rational:
+    """Return the length of an arrow relative to the longest; small forces stay visible."""
+    return Rational(max(round(60 * size / greatest), 12), 60)
 
 
 def _has_others(system: System) -> bool:
@@ -88,51 +118,39 @@ def _multipliers(system: System, force: PointForce) -> list[Symbol]:
 
 def _outline(of: Any) -> Iterator[Mark]:
     if isinstance(of, PlacedBody):
-        yield from placed_outline(with_its_shape(of))
+        yield from (replace(mark, label=None) for mark in placed_outline(with_its_shape(of)))
         yield PointMark(column_of(of.centre))
     else:
         yield ParticleMark(column_of(of.at), label=of.mass)
 
 
-def _weight(system: System, of: Any) -> Iterator[Mark]:
+def _weight(system: System, of: Any) -> Iterator[_Drawn]:
     if system.weights:
         centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
-        yield Arrow(column_of(centre), downwards(2), _length(of), False, label=explicit(mass) * system.gravity)
+        weight = explicit(mass) * system.gravity
+        yield _Drawn(centre, downwards(2), weight, weight)
 
 
-def _arrow(
-    system: System,
-    force: PointForce,
-    times: int,
-    found: Mapping[Symbol, Quantity],
-    values: Mapping[Symbol, Any],
-    drawn: Sequence[Mark],
-) -> list[Mark]:
-    """Return the arrow of a force, reversed if the force is negative in the drawn state; a zero force is not drawn.
-
-    The arrow is longer than earlier arrows in the same direction, so that the tip of each is visible.
-    """
-    letters = _multipliers(system, force)
-    size = force.size
-    direction = Location(force.direction)
-    if size == 1:  # friction, whose direction contains its size
-        size, direction = _size_and_direction(direction, letters)
+def _forces(
+    system: System, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity], values: Mapping[Symbol, Any]
+) -> Iterator[_Drawn]:
+    """Yield the forces, each reversed if it is negative in the drawn state; a zero force is not drawn."""
     still = {rate(q): Integer(0) for q in system.coordinates}
-    value = size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
-    if is_zero(value):
-        return []
-    sign = 1 if numeric(value.subs(values), values) > 0 else -1
-    keys = tuple(found[letter].key for letter in letters)
-    way = ImmutableDenseMatrix([sign * c for c in direction.components])
-    at = force.at if isinstance(force.of, PlacedBody) else force.of.at
-    before = sum(1 for mark in drawn if isinstance(mark, Arrow) and _is_along(mark.value, way, values))
-    long = _length(force.of) * (1 + before * Rational(1, 2))
-    return [Arrow(column_of(at), way, long, label=sign * times * size, keys=keys)]
-
-
-def _is_along(one: Any, other: Any, values: Mapping[Symbol, Any]) -> bool:
-    (x, y), (u, v) = ([numeric(c.subs(values), values) for c in way] for way in (one, other))
-    return abs(x * v - y * u) < 1e-9 and x * u + y * v > 0
+    surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
+    for force, times in Counter(acting).items():  # a string pulls a pulley twice
+        letters = _multipliers(system, force)
+        size, direction = force.size, Location(force.direction)
+        if size == 1:  # friction, whose direction contains its size
+            size, direction = _size_and_direction(direction, letters)
+        value = times * size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
+        if is_zero(value):
+            continue
+        sign = 1 if numeric(value.subs(values), values) > 0 else -1
+        keys = tuple(found[letter].key for letter in letters)
+        way = ImmutableDenseMatrix([sign * c for c in direction.components])
+        is_body = isinstance(force.of, PlacedBody)
+        pushes = is_body and sign == 1 and size in surfaces
+        yield _Drawn(force.at if is_body else force.of.at, way, value, sign * times * size, keys, pushes)
 
 
 def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, Location]:
@@ -143,7 +161,3 @@ def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, L
             size = Mul(*(f for f in Mul.make_args(c) if f.is_Symbol))
             return size, Location(tuple(each / size for each in force.components))
     return Integer(1), force
-
-
-def _length(of: Any) -> Expr:
-    return LONG if isinstance(of, PlacedBody) else ON_PARTICLE

@@ -59,6 +59,13 @@ def _power_beside(of: Quantity) -> Expr:
     return explicit(Add(*works, *_powers_of_conditions(of)))
 
 
+def _constrained(of: Quantity) -> dict[str, str]:
+    """Return the word that constraint forces act and no constraint contains the time, if this is so."""
+    kept = of.fact(Constrained)
+    fixed = kept is not None and not any(each.residual.has(TIME) for each in kept.constraints)
+    return {"constrained": "constrained"} if fixed else {}
+
+
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
     """Return -lambda df/dt for each moving constraint; the force of a fixed constraint does no work."""
     kept, moving = of.fact(Constrained), list(of.coordinates)
@@ -133,7 +140,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
         if energies is not None
         else {"energy_identity": identity, "stretched": stretched},
         outcome=lambda value: outcome_of_energy(value, of),
-        phrase_data=PhraseData(formulas=told_of_excess(plain, of, rates)),
+        phrase_data=PhraseData(words=_constrained(of), formulas=told_of_excess(plain, of, rates)),
         key=key,
         kind=of.step.kind,
         facts=[FromLagrangian(of)],

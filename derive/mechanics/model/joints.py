@@ -60,7 +60,8 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
         message = "the coordinates keep the two points together, so the force of the joint does not appear"
         help_line = "place one of the bodies by coordinates of its own, so that the joint keeps it there"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
-    return Pin(tuple(force for each in found for force in each.forces), here), *found
+    fixed = there if other is None else here
+    return Pin(tuple(force for each in found for force in each.forces), fixed), *found
 
 
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:

@@ -146,7 +146,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         phrase_data=PhraseData(
             formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
-            words={"enforcer": enforcer},
+            words={"enforcer": enforcer} if enforcer else {},
             named={"from": Relation(unknown, "=", start)},
             outcome_data={
                 "unknown": unknown,
