@@ -52,6 +52,7 @@ AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BENEATH = 18.0  # the distance of dimension lines beneath what carries a plane, in points
+BOWL = 4  # the radius of a bowl, relative to the largest body in it
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
@@ -91,6 +92,9 @@ class ConnectedScene:
     def values(self) -> dict[Symbol, Any]:
         """A value for each coordinate: a position in which each constraint is satisfied."""
         found: dict[Symbol, Any] = {}
+        for circle in (each.surface for each in self.contacts if isinstance(each.surface, Circle)):
+            if circle.inside and circle.radius.is_Symbol and self._size != ONE:
+                found[circle.radius] = BOWL * self._size
         for each in self.contacts:
             if isinstance(each.surface, Circle) and set(each.at.components) and not each.is_kept:
                 found |= self._on_circle(each)
@@ -102,7 +106,7 @@ class ConnectedScene:
         carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
         for i, q in enumerate(sorted(free, key=lambda q: q in carried)):
             found[q] = self._size * (self._farthest if q in carried else AWAY[i % len(AWAY)])
-        chosen = {q: found[q] for q in free}
+        chosen = {letter: found[letter] for letter in found if letter in free or letter not in self.system.coordinates}
         return {letter: value.subs(chosen) for letter, value in found.items()}
 
     def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:

@@ -44,6 +44,8 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     The result is None if no such force acts on the body, if a force is not among `found`, or if further forces act: the
     diagram would not show all forces on the body.
     """
+    if len(system.places[0].components) != 2:
+        return None
     acting = [force for each in connections_of(system) for force in each.on(of)]
     if not acting or any(letter not in found for force in acting for letter in _multipliers(system, force)):
         return None
@@ -89,7 +91,8 @@ def _has_others(system: System) -> bool:
     """Whether forces act in the system that are neither weights nor forces of connections."""
     frictions = [force for each in connections_of(system) for force in each.forces if force.size == 1]
     given = len(system.given_forces) > len(frictions)
-    return bool(given or system.between or system.dampers or system.charges or system.stored)
+    couples = any(not each.forces for each in system.constraints)  # a motor, a rigid joint or a formula
+    return bool(couples or given or system.between or system.dampers or system.charges or system.stored)
 
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:

@@ -16,6 +16,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.model import contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
 from tests.loops import sampled
+from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
 from tests.stock.described import edited, messages, solved
 
@@ -134,6 +135,18 @@ parts:
         ("{sliding: mu, direction: [1, 0]}", "{direction: [1, 0]}", "needs either `rolling` or `sliding`"),
         ("{sliding: mu, direction: [1, 0]}", "rolling", "a friction must prevent slipping"),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "neither a plane nor a circle"),
+        ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface is not constant"),
+        ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "is not along the surface"),
+        (
+            "{through: [0, 0], along: [1, 0]}",
+            "{through: [x, 0], along: [1, 0]}",
+            "moves with x, but no body carries it",
+        ),
+        (
+            "{through: [0, 0], along: [1, 0]}",
+            "{centre: [0, -R], radius: R, velocity: [sqrt(g*a), 0]}",
+            "its material moves with its centre",
+        ),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [x, 1]}", "different dimensions"),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [1, 0], side: inside}", "belongs to a circle"),
         ("centre: [x, y]", "centre: [x, a]", "keep the body on the surface"),
@@ -156,6 +169,51 @@ def test_a_contact_that_cannot_be_meant_is_told(old: str, new: str, said: str, t
 def test_a_string_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
     (message, *_) = messages(tmp_path, edited(problem(MOVABLE), (old, new)))
     assert said in message
+
+
+def test_a_driven_wedge_carries_the_cylinder_that_rolls_on_it(tmp_path: Path) -> None:
+    """In the frame of the wedge gravity has the components (-A, -g), so F = m (A cos alpha - g sin alpha)/3."""
+    text = edited(
+        problem(on_a_surface_called("disc-incline-rolling")),
+        ("through: [0, 0], normal", "through: [P/M*t**2/2, 0], normal"),
+        ("forces: {components: [P, 0], at: one}", "assume: a < R"),
+    )
+    value = explicit(solved(tmp_path, text)["F"].value)
+    numbers = {"m": 2.0, "P": 3.0, "M": 5.0, "g": 7.0, "alpha": 0.4}
+    wanted = 2.0 * (3.0 / 5.0 * float(cos(0.4)) - 7.0 * float(sin(0.4))) / 3
+    assert value_at(value, numbers) == pytest.approx(wanted)
+
+
+def test_a_pulley_may_be_at_a_place_that_moves_with_a_particle(tmp_path: Path) -> None:
+    """A block on a cart, a string over a pulley at its edge, and a weight that hangs in front of the cart."""
+    text = """\
+title: A block on a cart
+solve: system
+symbols: {m: mass, M: mass, g: acceleration, d: length, l: length}
+given:
+  coordinates: {X: length, x: positive length, y: positive length}
+  particles: {cart: {mass: M, at: [X, 0]}, block: {mass: m, at: [X - x, d]}, w: {mass: m, at: [X, d - y]}}
+  gravity: g
+  strings: {from: block, over: [{from: cart, by: [0, d]}], to: w, length: l, tension: T}
+statement: A block on a cart.
+parts:
+  - ask: Find the tension.
+    answer: [T, acceleration_X]
+"""
+    steps = solved(tmp_path, text)
+    numbers = {"m": 2.0, "M": 5.0, "g": 7.0}
+    rows = [  # M X'' = -T - S ..., with the unknown horizontal force S of the cart on the weight
+        {"X": 5.0, "T": 1.0, "S": 1.0},
+        {"X": 2.0, "x": -2.0, "T": -1.0},
+        {"X": 2.0, "S": -1.0},
+        {"y": 2.0, "T": 1.0, "": -2.0 * 7.0},
+        {"x": 1.0, "y": 1.0},
+    ]
+    wanted = newton(rows)
+    assert value_at(explicit(steps["T"].value), numbers) == pytest.approx(wanted["T"])
+    assert value_at(explicit(steps["acceleration_X"].value), numbers) == pytest.approx(wanted["X"])
+    (said,) = messages(tmp_path, edited(text, ("{from: cart, by: [0, d]}", "[X, d]")))
+    assert "moves with X, but it belongs to no body" in said
 
 
 ROD = """\

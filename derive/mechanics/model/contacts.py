@@ -8,20 +8,20 @@ from typing import Any, Self, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, scalar
+from derive.algebra.expressions import TIME, as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.kinematics.places import Location
+from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Surface, dot, unit, vector
-from derive.steps.record import require_constant
+from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
+from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact"]
@@ -53,6 +53,11 @@ class Contact(Connection):
         return is_zero(self.gap)
 
     @property
+    def foot(self) -> Location:
+        """The place on the surface that touches the body."""
+        return self.surface.foot(self.at, self.normal)
+
+    @property
     def tangent(self) -> Location:
         """In a plane, the unit vector along the surface; the free side is on its left."""
         x, y = self.normal.components
@@ -72,7 +77,7 @@ class Contact(Connection):
         """The force along a direction on the body, and the opposite force on the surface."""
         return (
             PointForce(size, direction.components, self.at, self.of),
-            PointForce(size, (-direction).components, self.at, self.surface.of),
+            PointForce(size, (-direction).components, self.foot, self.surface.of),
         )
 
 
@@ -99,6 +104,7 @@ def contact(
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
     """
     touch = _contact(of, on)
+    _check_carried(touch, bool(rolling) or sliding is not None)
     if rolling and sliding is not None:
         raise Rejected(Complaint("wrong-argument", "a body either rolls or slides: give `rolling` or `sliding`"))
     found: list[Part] = []
@@ -113,6 +119,20 @@ def contact(
     elif direction is not None:
         raise Rejected(Complaint("unused-key", "`direction` is the direction of slip, so it needs `sliding`"))
     return replace(touch, forces=tuple(_forces_of(touch, found))), *found
+
+
+def _check_carried(touch: Contact, rough: bool) -> None:
+    """Require the body that carries a surface that moves with coordinates, and the motion of a rough surface that
+    rotates."""
+    surface = touch.surface
+    turning = touch.normal.components if isinstance(surface, Plane) else ()
+    moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
+    if surface.of is None and moving and not isinstance(surface.moves, Axes):
+        message = f"the surface moves with {next(iter(moving))}, but no body carries it, so nothing bears its reaction"
+        raise Rejected(Complaint("which-body", message, help="name the body that carries the surface, `of: wedge`"))
+    if rough and surface.of is None and any(c.has(TIME) for c in turning):
+        message = "the surface rotates, so the velocity of its material is unknown"
+        raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: plate`"))
 
 
 def _normal(touch: Contact, letter: str) -> Constraint:
@@ -191,13 +211,13 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
     if touch.is_kept and rolling is True:
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
-    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.at)
+    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
     along = tidied(dot(touch.tangent, slip))
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
     letter = scalar(rolling)
-    of_particles = velocity_of_particle(touch.of, touch.at, ground)
+    of_particles = velocity_of_particle(touch.of, touch.at, ground, touch.foot)
     by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
     if not is_zero(tidied(along - by_particles)):
         raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))

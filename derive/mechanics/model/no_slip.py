@@ -350,8 +350,12 @@ def _particle_of_ground(ground: Ground, at: Location) -> MaterialPoint:
     return particle_of(ground, at) if isinstance(ground, PlacedBody) else MaterialPoint(ground.components)
 
 
-def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) -> list[Expr]:
+def velocity_of_particle(
+    body: PlacedBody, at: Location, ground: Ground | None, foot: Location | None = None
+) -> list[Expr]:
     """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
+
+    foot   the place of the particle of the surface; by default the place of the particle of the body
 
     The position of the particle in the body is constant.
     """
@@ -361,6 +365,6 @@ def velocity_of_particle(body: PlacedBody, at: Location, ground: Ground | None) 
     fast = [by_functions_of_time(c, moving).subs(point.values) for c in place]
     if ground is None:
         return fast
-    surface = _particle_of_ground(ground, at)
+    surface = _particle_of_ground(ground, foot or at)
     slow = [by_functions_of_time(c, list(coordinates_in(c))).subs(surface.values) for c in surface.place]
     return [a - b for a, b in zip(fast, slow, strict=True)]

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, factor, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
+from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import TIME, as_expr
 from derive.algebra.tidy import tidied
@@ -15,6 +16,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.part import moved
 from derive.steps.record import coordinates_in
+from derive.steps.step import is_zero
 
 __all__ = ["circle", "plane"]
 
@@ -46,12 +48,24 @@ class Surface:
         """The distance of a place from the surface along a known normal, m."""
         raise NotImplementedError
 
+    def foot(self, at: Location, normal: Location) -> Location:
+        """The place on the surface that is nearest to a place."""
+        raise NotImplementedError
+
+    @property
+    def place(self) -> Location:
+        """A place that moves with the surface, if the surface does not rotate."""
+        raise NotImplementedError
+
     @property
     def ground(self) -> Ground | None:
         """What gives the velocity of the material of the surface; None if it is at rest."""
-        if self.of is None:
+        if isinstance(self.of, PlacedBody) or isinstance(self.moves, Axes):
+            return self.of or self.moves
+        still = not coordinates_in(column_of(self.place)) and not any(c.has(TIME) for c in self.place.components)
+        if still and self.of is None:
             return self.moves
-        return self.of if isinstance(self.of, PlacedBody) else self.of.at
+        return self.place if self.moves is None else self.place + self.moves
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(self, of=moved(self.of, known))
@@ -72,6 +86,13 @@ class Plane(Surface):
 
     def height(self, at: Location, normal: Location) -> Expr:
         return dot(normal, at - self.through)
+
+    def foot(self, at: Location, normal: Location) -> Location:
+        return at
+
+    @property
+    def place(self) -> Location:
+        return self.through
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through, normal = self.through.with_values(known), self.unit_normal.with_values(known)
@@ -96,6 +117,14 @@ class Circle(Surface):
     def height(self, at: Location, normal: Location) -> Expr:
         return dot(normal, at - self.centre) + (self.radius if self.inside else -self.radius)
 
+    def foot(self, at: Location, normal: Location) -> Location:
+        out = -self.radius if self.inside else self.radius
+        return self.centre + Location(tuple(out * c for c in normal.components))
+
+    @property
+    def place(self) -> Location:
+        return self.centre
+
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))
 
@@ -114,16 +143,46 @@ def plane(
     if (normal is None) == (along is None):
         raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
     across = vector("plane", normal, through) if along is None else _left_of(vector("plane", along, through))
-    return Plane(of, moves, through, unit("plane", across))
+    found = Plane(of, moves, through, unit("plane", across))
+    _check_motion(found)
+    return found
+
+
+def _check_motion(surface: Plane) -> None:
+    """Require a constant velocity along the plane, and axes in space only for a system in space."""
+    if isinstance(surface.moves, Axes) and len(surface.through.components) == 2:
+        message = "a surface rotates with axes only in space; this system moves in a plane"
+        raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
+    if isinstance(surface.moves, Location):
+        velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
+        if any(c.has(TIME) or coordinates_in(column_of(velocity)) for c in velocity.components):
+            message = "the velocity of a surface is not constant"
+            help_line = "give a place on the surface as a function of time, `through: [A*t**2/2, 0]`"
+            raise Rejected(Complaint("changes", message, help=help_line))
+        if not is_zero(tidied(dot(velocity, surface.unit_normal))):
+            message = "the velocity of the surface is not along the surface"
+            help_line = "give a place on the surface as a function of time, `through: [0, v*t]`"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, moves: Any = None) -> Circle:
     """A circular surface in a plane of motion, or a spherical surface in space.
 
     inside   whether the free side is inside, as in a bowl; by default it is outside
-    of, moves   as for `plane`
+    of       as for `plane`; without it, the material moves with the centre
+    moves    the axes in which the sphere is at rest
     """
+    if isinstance(moves, Location):
+        message = "a circle has no `velocity`: its material moves with its centre, or with the body that carries it"
+        raise Rejected(Complaint("wrong-argument", message, help="give `centre` as a function of time, or `of`"))
+    if isinstance(moves, Axes) and len(centre.components) == 2:
+        message = "a surface rotates with axes only in space; this system moves in a plane"
+        raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
     return Circle(of, moves, centre, as_expr(radius), inside)
+
+
+def column_of(place: Location) -> ImmutableMatrix:
+    return ImmutableDenseMatrix(place.components)
 
 
 def dot(u: Location, v: Location) -> Expr:
@@ -182,8 +241,9 @@ def _positive(length: Expr) -> Expr:
         if (sign * length).is_positive or (sign * at_zero).is_positive:
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
+    name = next(iter(moving), length)
     help_line = Spelled(
-        f'make the coordinate positive: `coordinate("{length}", "length", positive=True)`',
-        "make the coordinate positive: `y: positive length`",
+        f'make the coordinate positive: `coordinate("{name}", "length", positive=True)`',
+        f"make the coordinate positive: `{name}: positive length`",
     )
     raise Rejected(Complaint("sign", message, help=help_line))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from derive.algebra.expressions import TIME
@@ -283,6 +283,11 @@ def material(name: Word, known: Connected) -> Material:
 
 def _end(written: WrittenPlace, known: Connected, name: str) -> Any:
     """Return the body, particle or point of a body at an end, or a place in space."""
+    way = written.way
+    if way is not None and way.start is not None and str(way.start) in known.places.carried and way.axes is None:
+        by = known.places.at(WrittenPlace(None, replace(way, start=None), written.place), name)
+        if isinstance(by, Location):
+            return Material(str(way.start), None, by)  # a place that moves with a particle
     if written.name is not None and written.name.partition(".")[0] in known.bodies:
         if "." in written.name or written.name not in known.places.written:
             return material(written.name, known)

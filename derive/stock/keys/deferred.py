@@ -13,6 +13,7 @@ from typing import Any, Generic, TypeVar
 
 from derive.course.stock import told_at
 from derive.errors import Place
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.acted_on import ActsOnNothing
 
@@ -68,8 +69,10 @@ class Material:
         return Material(self.body, self.point, by if self.by is None else self.by + by)
 
     def made(self, known: Mapping[str, Any]) -> Any:
-        if self.point is None:
+        if self.point is None and self.by is None:
             return known[self.body]
+        if self.point is None:
+            return PointOfBody((known[self.body].at + self.by).components, body=known[self.body])
         found = known[self.body].place_of(self.point)
         return found if self.by is None else found + self.by
 
