@@ -175,26 +175,38 @@ def _check(touch: Contact) -> None:
 
 
 def _surface_of(body: Any) -> Circle:
-    if not isinstance(body, PlacedBody):
-        raise Rejected(Complaint("wrong-argument", "`contact` needs a surface, or a round body"))
-    return Circle(body, None, body.centre, radius_of(body))
+    radius = _round_radius(body) if isinstance(body, PlacedBody) else None
+    if radius is None:
+        message = "`contact` needs a surface, or a round body whose rim is the surface"
+        help_line = Spelled(
+            "describe a face of the body: `plane(..., of=body)`",
+            "describe a face of the body under `surfaces`, with `of`",
+        )
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    return Circle(body, None, body.centre, radius)
 
 
 def radius_of(placed: PlacedBody) -> Expr:
     """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
+    radius = _round_radius(placed)
+    if radius is None:
+        message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
+        help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    return radius
+
+
+def _round_radius(placed: PlacedBody) -> Expr | None:
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    if isinstance(outer, Round) and placed.across in (2, None):
-        z = Symbol("z_along", real=True)
-        middle = (outer.ends[0] + outer.ends[1]) / 2
-        radius = outer.radius_at(middle)
-        is_widest = is_zero(outer.radius_at(z).diff(z).subs(z, middle))
-        is_ball = is_zero(outer.radius_at(z) ** 2 + (z - middle) ** 2 - radius**2)
-        if is_ball or is_widest and placed.across == 2:
-            return radius
-    message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
-    help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
-    raise Rejected(Complaint("no-contact", message, help=help_line))
+    if not isinstance(outer, Round) or placed.across not in (2, None):
+        return None
+    z = Symbol("z_along", real=True)
+    middle = (outer.ends[0] + outer.ends[1]) / 2
+    radius = outer.radius_at(middle)
+    is_widest = is_zero(outer.radius_at(z).diff(z).subs(z, middle))
+    is_ball = is_zero(outer.radius_at(z) ** 2 + (z - middle) ** 2 - radius**2)
+    return radius if is_ball or is_widest and placed.across == 2 else None
 
 
 def _reject_normal(letter: str, touch: Contact) -> None:
