@@ -46,7 +46,6 @@ from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
 HIGHEST = 6  # highest degree of a polynomial in the coordinate that is solved
-LARGEST_PRODUCT = 60  # a sum with more operations than this is not tested for being a product
 ZERO, ONE = Integer(0), Integer(1)
 
 
