@@ -15,6 +15,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 from derive.algebra.expressions import TIME, column, explicit
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.annotations import Line as Edge
 from derive.figures.marks import Mark
 from derive.figures.parts import (
     BarMark,
@@ -23,6 +24,7 @@ from derive.figures.parts import (
     CornerRopeMark,
     DashpotMark,
     ParticleMark,
+    PlankMark,
     RopeMark,
     SpringMark,
     WedgeMark,
@@ -31,6 +33,7 @@ from derive.figures.parts import (
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.recognition import Link, is_fixed, is_spring, moving_in, same
+from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
 from derive.figures.surroundings import AngleBetween, FixedEnd, FloorMark, GravityMark, GroundMark
@@ -107,7 +110,7 @@ class ConnectedScene:
         for i, q in enumerate(sorted(free, key=lambda q: q in carried)):
             found[q] = self._size * (self._farthest if q in carried else AWAY[i % len(AWAY)])
         chosen = {letter: found[letter] for letter in found if letter in free or letter not in self.system.coordinates}
-        return {letter: value.subs(chosen) for letter, value in found.items()}
+        return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:
         """Values of Cartesian coordinates of a body on a circle with its centre at a fixed place."""
@@ -202,7 +205,7 @@ class ConnectedScene:
             return
         velocity = Location(tuple(diff(c, TIME) for c in plane.moves.components))
         size = tidied(sqrt(Add(*(c**2 for c in velocity.components))))
-        yield BarMark(column_of(low), column_of(high))
+        yield Edge(column_of(low), column_of(high), "edge")
         start = low + Rational(1, 10) * (high - low) - self._size * Rational(1, 5) * plane.unit_normal
         yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
 
@@ -247,13 +250,14 @@ class ConnectedScene:
         if abs(self._number(y)) <= SMALL:
             down = Location((ZERO, -self._size * Rational(1, 3)))
             corners: tuple[Location, ...] = (low, high, high + down, low + down)
+            sort: type[WedgeMark] = PlankMark
         else:
-            corners = (low, high, Location((high.components[0], low.components[1])))
+            corners, sort = (low, high, Location((high.components[0], low.components[1]))), WedgeMark
             angle = _angle_in(plane.unit_normal)
             level = _direction(1 if self._number(x) > 0 else -1, 0)
             if angle is not None:
                 yield AngleBetween(column_of(low), level, column_of(high - low), label=angle)
-        yield WedgeMark(tuple(map(column_of, corners)), label=label)
+        yield sort(tuple(map(column_of, corners)), label=label)
         yield FloorMark(tuple(column_of(corner) for corner in corners[-2:]))
 
     def _circle(self, circle: Circle, contacts: Sequence[Contact]) -> Iterable[Mark]:

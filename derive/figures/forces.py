@@ -11,6 +11,7 @@ from sympy import Add, Expr, Float, ImmutableDenseMatrix, Integer, Mul, Rational
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import explicit, rate
+from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, PointMark
 from derive.figures.connected import ConnectedScene, connections_of
 from derive.figures.marks import Drawing, Mark
@@ -18,13 +19,13 @@ from derive.figures.parts import ParticleMark
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.space import numeric
 from derive.figures.turning import downwards
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import PointForce
 from derive.mechanics.model.system import System
-from derive.steps.record import coordinates_in
+from derive.steps.record import coordinates_in, current_run
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["force_diagram"]
@@ -41,8 +42,8 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
     at rest, determines the direction of the arrow
-    The result is None if no such force acts on the body, if a force is not among `found`, or if further forces act: the
-    diagram would not show all forces on the body.
+    The result is None if no such force acts on the body, if a force is not among `found`, if further forces act, so
+    that the diagram would not show all forces on the body, or if the direction of a force is not decided.
     """
     if len(system.places[0].components) != 2:
         return None
@@ -52,7 +53,10 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     if _has_others(system) or not _moves_by(system, of, acting, found):
         return None
     scene = ConnectedScene(system)
-    drawn = [*_weight(system, of), *_forces(system, acting, found, scene.values)]
+    forces = _forces(system, acting, found, {q: scene.values[q] for q in system.coordinates if q in scene.values})
+    if forces is None:
+        return None
+    drawn = [*_weight(system, of), *forces]
     sizes = _numbers([each.value for each in drawn], scene.values)
     long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
     arrows = [each.arrow(long * _share(size, max(sizes))) for each, size in zip(drawn, sizes, strict=True)]
@@ -78,7 +82,9 @@ def _numbers(values: Sequence[Expr], at: Mapping[Symbol, Any]) -> list[float]:
     """Return the sizes of the forces, all with the same numbers for their symbols."""
     there = [value.subs(at).subs(at) for value in values]
     letters = sorted(set().union(*(value.free_symbols for value in there)), key=str)
-    numbers = {letter: Float(0.6 + 0.07 * i) for i, letter in enumerate(letters)}
+    run = current_run.get()
+    given = run.numbers if run is not None else {}
+    numbers = {letter: given.get(letter, Float(0.6 + 0.07 * i)) for i, letter in enumerate(letters)}
     return [abs(float(value.xreplace(numbers).evalf())) for value in there]
 
 
@@ -92,7 +98,8 @@ def _has_others(system: System) -> bool:
     frictions = [force for each in connections_of(system) for force in each.forces if force.size == 1]
     given = len(system.given_forces) > len(frictions)
     couples = any(not each.forces for each in system.constraints)  # a motor, a rigid joint or a formula
-    return bool(couples or given or system.between or system.dampers or system.charges or system.stored)
+    unnamed = bool(system.conditions)  # rolling by a friction without a symbol
+    return bool(couples or unnamed or given or system.between or system.dampers or system.charges or system.stored)
 
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
@@ -136,8 +143,13 @@ def _weight(system: System, of: Any) -> Iterator[_Drawn]:
 
 def _forces(
     system: System, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity], values: Mapping[Symbol, Any]
-) -> Iterator[_Drawn]:
-    """Yield the forces, each reversed if it is negative in the drawn state; a zero force is not drawn."""
+) -> list[_Drawn] | None:
+    """Return the forces, each reversed if it is negative in the drawn state; a zero force is not drawn.
+
+    The result is None if the direction of a force depends on the numbers of other symbols, such as a difference of
+    masses.
+    """
+    drawn = []
     still = {rate(q): Integer(0) for q in system.coordinates}
     surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
@@ -148,12 +160,15 @@ def _forces(
         value = times * size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
         if is_zero(value):
             continue
-        sign = 1 if numeric(value.subs(values), values) > 0 else -1
+        sign = sign_known(tidied(value.subs(values).subs(values)))
+        if sign not in (1, -1):
+            return None
         keys = tuple(found[letter].key for letter in letters)
         way = ImmutableDenseMatrix([sign * c for c in direction.components])
         is_body = isinstance(force.of, PlacedBody)
         pushes = is_body and sign == 1 and size in surfaces
-        yield _Drawn(force.at if is_body else force.of.at, way, value, sign * times * size, keys, pushes)
+        drawn.append(_Drawn(force.at if is_body else force.of.at, way, value, sign * times * size, keys, pushes))
+    return drawn
 
 
 def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, Location]:

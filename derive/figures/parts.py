@@ -396,6 +396,11 @@ class WedgeMark(_Piecewise):
         return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), Tag(self.label, (x, y), (0.0, 0.0), on=True)]
 
 
+@dataclass(frozen=True)
+class PlankMark(WedgeMark):
+    """A plank seen from its side, given by its corners."""
+
+
 def _opening(before: Spot, corner: Spot, after: Spot) -> float:
     (x, y), (u, v) = direction(corner, before), direction(corner, after)
     return acos(max(-1.0, min(1.0, x * u + y * v)))

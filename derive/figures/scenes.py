@@ -57,13 +57,13 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
     run = current_run.get()
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
-    chosen = {**_drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
+    chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
     found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()))
     noted(found)
     return found
 
 
-def _drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
+def drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
     """Return a value for each coordinate that is an angle; successive values differ."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}

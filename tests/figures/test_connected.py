@@ -128,3 +128,28 @@ def test_a_bowl_is_a_circle(tmp_path: Path) -> None:
     far = sum(numeric(c.subs(values)) ** 2 for c in wheel.centre) ** 0.5
     assert far == pytest.approx(numeric((circle.radius - wheel.radius).subs(values)))
     assert not of_class(drawn, ParticleMark)
+
+
+DRUM = """\
+title: A disc in a drum
+solve: system
+symbols: {m: mass, M: mass, a: length, R: length, g: acceleration}
+given:
+  coordinates: {x: length, y: length, phi: angle, psi: angle}
+  bodies:
+    drum: {shape: hoop, radius: R, mass: M, centre: [0, 0], turned: psi, across: z}
+    disc: {shape: disc, radius: a, mass: m, centre: [x, y], turned: phi, across: z}
+  gravity: g
+  surfaces: {inside: {centre: [0, 0], radius: R, side: inside, of: drum}}
+  contacts: {of: disc, on: inside, normal: N, friction: {rolling: F}}
+statement: A disc in a drum.
+parts:
+  - ask: Find the forces.
+    answer: [N, F]
+"""
+
+
+def test_a_force_whose_direction_is_not_decided_has_no_diagram(tmp_path: Path) -> None:
+    """Whether the disc is below the axis depends on the sign of R - a."""
+    assert "forces_disc" not in drawings(tmp_path, DRUM)
+    assert "forces_disc" in drawings(tmp_path, edited(DRUM, ("  gravity: g", "  assume: a < R\n  gravity: g")))

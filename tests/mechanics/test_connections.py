@@ -11,14 +11,16 @@ import pytest
 from sympy import Expr, Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import explicit
+from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.model import contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
+from derive.steps.record import Run
 from tests.loops import sampled
 from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
-from tests.stock.described import edited, messages, solved
+from tests.stock.described import edited, loaded, messages, solved
 
 
 def on_a_surface_called(name: str) -> Trial:
@@ -135,6 +137,7 @@ parts:
         ("{sliding: mu, direction: [1, 0]}", "{direction: [1, 0]}", "needs either `rolling` or `sliding`"),
         ("{sliding: mu, direction: [1, 0]}", "rolling", "a friction must prevent slipping"),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "neither a plane nor a circle"),
+        ("on: ground, normal", "on: one, normal", "no contact uses the surface `ground`"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface is not constant"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "is not along the surface"),
         (
@@ -214,6 +217,56 @@ parts:
     assert value_at(explicit(steps["acceleration_X"].value), numbers) == pytest.approx(wanted["X"])
     (said,) = messages(tmp_path, edited(text, ("{from: cart, by: [0, d]}", "[X, d]")))
     assert "moves with X, but it belongs to no body" in said
+
+
+def assumptions(folder: Path, text: str) -> set[str]:
+    run = Run()
+    run_solve(loaded(folder, text), run)
+    return {str(each) for each in run.assumed}
+
+
+def test_the_direction_of_slip_is_an_assumption_of_the_page(tmp_path: Path) -> None:
+    assert any(
+        "x_dot" in each and "phi_dot" in each and "> 0" in each for each in assumptions(tmp_path, problem(SLIDES))
+    )
+
+
+def test_a_length_of_string_that_may_change_its_sign_is_an_assumption(tmp_path: Path) -> None:
+    given = problem(MOVABLE)
+    text = edited(given, ("x: positive length", "x: length"), ("at: [0, -x]", "at: [0, -P/M - x]")).replace(
+        "P: positive force", "P: length"
+    )
+    text = text.replace("-P/M - x", "-P - x")
+    assert any("P + x > 0" in each for each in assumptions(tmp_path, text))
+
+
+CARTS = """\
+title: Two carts and a dashpot
+solve: system
+symbols: {m: mass, M: mass, c: damping constant, d: length, g: acceleration}
+given:
+  coordinates: {x: length, y: length, z: length}
+  particles: {one: {mass: m, at: [x, 0]}, two: {mass: M, at: [d + y, z]}}
+  dashpots: {constant: c, from: one, to: two}
+statement: Two carts.
+parts:
+  - ask: Find the motion.
+    answer: equations_of_motion
+"""
+
+
+def test_a_dashpot_that_acts_on_one_end_only_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    solved(tmp_path, CARTS)
+    loads = joints.DragAlong.other_loads
+    monkeypatch.setattr(joints.DragAlong, "other_loads", lambda *given: loads(*given)[:1])
+    with pytest.raises(DeriveError, match="disagrees"):
+        solved(tmp_path, CARTS)
+
+
+def test_a_dashpot_ends_at_bodies_or_at_the_ground(tmp_path: Path) -> None:
+    (said,) = messages(tmp_path, edited(CARTS, ("to: two", "to: [d + y, 0]")))
+    assert "moves with y, but it belongs to no body" in said
+    solved(tmp_path, edited(CARTS, ("to: two", "to: [-d, 0]")))
 
 
 ROD = """\

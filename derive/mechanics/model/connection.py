@@ -10,13 +10,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
-from sympy import Expr, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Symbol
 
+from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.dalembert import Load
 from derive.mechanics.model.material import material_point
 from derive.mechanics.model.part import Part, moved
+from derive.steps.record import coordinates_in
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,16 @@ def end_of(given: Any) -> tuple[Location, Any]:
     if isinstance(given, Location):
         return given, None
     return given.at, given
+
+
+def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]]) -> None:
+    """Require the body or particle of each place that moves with coordinates, because a force acts there."""
+    for place, of in ends:
+        if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
+            where = ", ".join(map(str, place.components))
+            message = f"`{verb}`: the place ({where}) moves with {next(iter(moving))}, but it belongs to no body"
+            help_line = "name a particle or a point of a body: `cart`, `{from: cart, by: [0, d]}`, `rod.end`"
+            raise Rejected(Complaint("which-body", message, help=help_line))
 
 
 def is_end(given: Any) -> bool:

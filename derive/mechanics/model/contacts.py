@@ -8,7 +8,7 @@ from typing import Any, Self, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import TIME, as_expr, scalar
+from derive.algebra.expressions import TIME, Relation, as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
@@ -21,7 +21,7 @@ from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
-from derive.steps.record import coordinates_in, require_constant
+from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact"]
@@ -263,6 +263,8 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
     along = unit("contact", vector("contact", direction, touch.at))
     if not is_zero(ImmutableDenseMatrix([tidied(dot(along, touch.normal))])):
         raise Rejected(Complaint("wrong-argument", "the direction of slip must be along the surface"))
+    slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
+    assume(Relation(tidied(dot(along, slip)), ">", ZERO))  # otherwise the friction has the opposite direction
     force = tuple(-mu * scalar(letter) * c for c in along.components)
     by = touch.surface.of if touch.surface.of is not None else GROUND
     return GivenForce(force, touch.at.components, touch.of, by)

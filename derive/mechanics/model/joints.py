@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
-from sympy import Expr, Integer, Symbol
+from sympy import Add, Expr, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, explicit, scalar
+from derive.algebra.expressions import TimeRate, as_expr, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
+from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint, constraint
+from derive.mechanics.model.dalembert import Load
 from derive.mechanics.model.forces import Damper, damping
+from derive.mechanics.model.material import material_point
+from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import raw_distance
 from derive.steps.record import coordinates_in
 from derive.steps.step import is_zero
@@ -48,6 +51,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
             message = "`pin` needs points of bodies, particles or places"
             raise Rejected(Complaint("wrong-argument", message, help='give a point as `rod.place_of("end")`'))
     (here, body), (there, other) = end_of(of), end_of(to)
+    require_bodies("pin", [(here, body), (there, other)])
     gaps = [tidied(c) for c in (here - there).components]
     found: list[Constraint] = []
     for i, gap in enumerate(gaps):
@@ -103,6 +107,36 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 
 
 @dataclass(frozen=True)
+class DragAlong(Damper):
+    """Drag -c d_dot along a distance d. Second routes use the two forces on the material points at its ends.
+
+    ends   the two places, each with its body or particle; None for the ground
+    """
+
+    ends: tuple[tuple[Location, Any], tuple[Location, Any]] = ((Location(()), None), (Location(()), None))
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        (start, one), (end, other) = self.ends
+        ends = (start.with_values(known), moved(one, known)), (end.with_values(known), moved(other, known))
+        return replace(super().moved(known), ends=ends)
+
+    def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
+        """The forces c (u.v) u and -c (u.v) u, where u is the unit vector and v the relative velocity of the ends."""
+        points = [material_point("dashpot", of, place) for place, of in self.ends]
+        start, end = ([explicit(TimeRate(c, *moving)).xreplace(point.values) for c in point.place] for point in points)
+        way = [b - a for a, b in zip(self.ends[0][0].components, self.ends[1][0].components, strict=True)]
+        square = Add(*(c**2 for c in way))
+        rate_of_square = Add(*(c * (b - a) for c, a, b in zip(way, start, end, strict=True)))
+        drag = [self.constant * rate_of_square * c / square for c in way]
+        pairs = zip(self.ends, points, (1, -1), strict=True)
+        return [
+            Load(tuple(sign * c for c in drag), point.place, point.held)
+            for (_, of), point, sign in pairs
+            if of is not None
+        ]
+
+
+@dataclass(frozen=True)
 class Dashpot(Connection):
     """A dashpot between two places, with its damping constant."""
 
@@ -124,5 +158,8 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     """
     if not all(map(is_end, (start, end))):
         raise Rejected(Complaint("wrong-argument", "`dashpot` ends at particles, points of bodies, or places"))
-    places = end_of(start)[0], end_of(end)[0]
-    return Dashpot((), as_expr(constant), *places), damping(constant, raw_distance(*places))
+    ends = end_of(start), end_of(end)
+    require_bodies("dashpot", ends)
+    (one, _), (other, _) = ends
+    along = damping(constant, raw_distance(one, other))
+    return Dashpot((), as_expr(constant), one, other), DragAlong(along.constant, along.at, None, ends)

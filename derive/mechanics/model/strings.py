@@ -7,19 +7,19 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Self
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy import Add, Expr, Integer, Symbol
 
 from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
+from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import radius_of
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.surfaces import direction_between, distance_between, dot
-from derive.steps.record import coordinates_in, require_constant
+from derive.steps.record import require_constant
 from derive.steps.step import is_zero
 
 __all__ = ["massless_rod", "string", "wound_string"]
@@ -90,7 +90,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
     through = [end_of(each) for each in ends]
-    _check_bodies(verb, through)
+    require_bodies(verb, through)
     places = tuple(place for place, _ in through)
     found = _length(places)
     if is_zero(found - whole):
@@ -102,16 +102,6 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     is_rod = verb == "massless_rod"
     kept = Constraint(whole, found, force, forces=pulls, enforcer="rod" if is_rod else "string")
     return Line(pulls, places, is_rod), kept
-
-
-def _check_bodies(verb: str, through: Sequence[tuple[Location, Any]]) -> None:
-    """Require the body or particle of each place that moves with coordinates."""
-    for place, of in through:
-        if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
-            where = ", ".join(map(str, place.components))
-            message = f"`{verb}`: the place ({where}) moves with {next(iter(moving))}, but it belongs to no body"
-            help_line = "name a particle or a point of a body: `cart`, `{from: cart, by: [0, d]}`, `rod.end`"
-            raise Rejected(Complaint("which-body", message, help=help_line))
 
 
 def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:
@@ -129,6 +119,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
         message = "`wound_string` goes from a particle, a point of a body or a place to a round body in a plane"
         raise Rejected(Complaint("wrong-argument", message))
     place, body = end_of(end)
+    require_bodies("wound_string", [(place, body)])
     rim = _rim(place, on)
     along = direction_between(rim, place)
     slip = velocity_at(body if body is not None else place, place) - velocity_at(on, rim)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
@@ -9,13 +10,13 @@ from typing import Any, Self, TypeAlias
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, as_expr
+from derive.algebra.expressions import TIME, Relation, as_expr
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.part import moved
-from derive.steps.record import coordinates_in
+from derive.steps.record import assume, coordinates_in
 from derive.steps.step import is_zero
 
 __all__ = ["circle", "plane"]
@@ -25,7 +26,7 @@ Ground: TypeAlias = Location | Axes | PlacedBody
 
 
 @dataclass(frozen=True)
-class Surface:
+class Surface(ABC):
     """A surface with a free side, where the bodies that touch it are.
 
     of      the body or particle that carries the surface; None if no described body does
@@ -36,34 +37,35 @@ class Surface:
     of: Any
     moves: Location | Axes | None
 
+    @abstractmethod
     def distance(self, at: Location) -> Expr:
         """The distance of a place from the surface, m; positive on the free side."""
-        raise NotImplementedError
 
+    @abstractmethod
     def normal(self, at: Location) -> Location:
         """The unit vector perpendicular to the surface, towards the free side, on the normal through a place."""
-        raise NotImplementedError
 
+    @abstractmethod
     def height(self, at: Location, normal: Location) -> Expr:
         """The distance of a place from the surface along a known normal, m."""
-        raise NotImplementedError
 
+    @abstractmethod
     def foot(self, at: Location, normal: Location) -> Location:
         """The place on the surface that is nearest to a place."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def place(self) -> Location:
         """A place that moves with the surface, if the surface does not rotate."""
-        raise NotImplementedError
 
     @property
     def ground(self) -> Ground | None:
         """What gives the velocity of the material of the surface; None if it is at rest."""
-        if isinstance(self.of, PlacedBody) or isinstance(self.moves, Axes):
-            return self.of or self.moves
-        still = not coordinates_in(column_of(self.place)) and not any(c.has(TIME) for c in self.place.components)
-        if still and self.of is None:
+        if self.of is not None:
+            return self.of if isinstance(self.of, PlacedBody) else self.of.at
+        if isinstance(self.moves, Axes):
+            return self.moves
+        if not any(c.has(TIME) for c in self.place.components):
             return self.moves
         return self.place if self.moves is None else self.place + self.moves
 
@@ -149,7 +151,10 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Require a constant velocity along the plane, and axes in space only for a system in space."""
+    """Require one motion of the material: a constant velocity along the plane, axes in space, or that of a body."""
+    if surface.of is not None and surface.moves is not None:
+        message = "the body that carries the surface determines its motion"
+        raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))
     if isinstance(surface.moves, Axes) and len(surface.through.components) == 2:
         message = "a surface rotates with axes only in space; this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
@@ -238,7 +243,10 @@ def _positive(length: Expr) -> Expr:
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
                     if not term.has(TIME)))  # fmt: skip
     for sign in (1, -1):
-        if (sign * length).is_positive or (sign * at_zero).is_positive:
+        if (sign * length).is_positive:
+            return sign * length
+        if (sign * at_zero).is_positive:
+            assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
     name = next(iter(moving), length)

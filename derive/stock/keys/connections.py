@@ -70,6 +70,9 @@ class SurfaceKeys(Record):
         )
 
     def _motion(self, places: Places, letters: InLetters) -> Any:
+        if self.axes is not None and self.velocity:
+            message = "`in` and `velocity` both specify the motion of the surface"
+            rejected("twice", message, self.places["velocity"], "leave one of them out")
         if self.axes is not None:
             return places.axes(self.axes)
         if self.velocity:

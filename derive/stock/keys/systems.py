@@ -253,9 +253,20 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     surfaces = by_name(written.surfaces, places, known, names)
     connected = Connected(names, surfaces, places, known)
     acting += of_each(_connections(written), connected)
+    _check_surfaces_used(written, faults)
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
     return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
+
+
+def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
+    """Report a surface that no contact names, unless a contact names something that is not described."""
+    used = {str(each.on) for each in written.contacts}
+    if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
+        for name in written.surfaces:
+            if name not in used:
+                help_line = "describe the contact under `contacts`, or leave the surface out"
+                faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
 
 def _connections(written: SystemKeys) -> list[Any]:
