@@ -207,7 +207,7 @@ class LinearSystem:
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
         """The irreducible factors of the determinant as a polynomial in the root."""
-        raise NotImplementedError
+        raise NotImplementedError  # a system whose class is still unknown has matrices, but no roots
 
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
@@ -215,7 +215,7 @@ class LinearSystem:
         return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=_in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
-        raise NotImplementedError
+        raise NotImplementedError  # as for `factors`
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:

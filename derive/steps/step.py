@@ -5,6 +5,7 @@ A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.ste
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -118,12 +119,12 @@ class Fact:
     eliminates: tuple[Symbol, ...] = ()  # coordinates of the parents on which the quantity no longer depends
 
 
-class Witness(Fact):
+class Witness(Fact, ABC):
     """The described system to which a quantity belongs; its motion can be integrated numerically."""
 
+    @abstractmethod
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
         """Test numerically whether a step is true of the motion; return None if there is no test for it."""
-        raise NotImplementedError
 
 
 F = TypeVar("F", bound=Fact)

@@ -86,8 +86,8 @@ class RateByParticles(Fact):
 
     def rate(self) -> Any:
         """Return the rate as a sum over the particles, from their accelerations."""
-        raise NotImplementedError
+        raise NotImplementedError  # each subclass defines it; an abstract class could not be asked for as a fact
 
     def in_any_axes(self, torque: Any) -> Any:
         """Return the rate for this torque along any body axes: the tensor may have products of inertia."""
-        raise NotImplementedError
+        raise NotImplementedError  # each subclass defines it; an abstract class could not be asked for as a fact
