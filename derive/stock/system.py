@@ -47,11 +47,11 @@ from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.acted_on import check_ground
 from derive.mechanics.model.part import moved
 from derive.steps.derivation import returned_quantities
-from derive.steps.record import assume, current_run
+from derive.steps.record import assume, assumed, current_run
 from derive.steps.step import Quantity, is_zero
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
-from derive.stock.answering.moments import started, struck
+from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
@@ -77,6 +77,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                 impact = struck(self.of_impact.impact) if self.of_impact is not None else None
                 named = made(self.described.named, self.parts_by_name)
                 sketch(SYSTEM, self.system, named=named, start=start, impact=impact)
+            sliding = next((part.place for part in self.described.acting if "sliding" in part.named), None)
+            if sliding is not None:
+                with told_at(sliding):
+                    check_starts(self.described.results, assumed())
         answers = super().solve(asked)
         self._check_letters()
         if self.described.given is None:

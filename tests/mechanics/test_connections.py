@@ -17,6 +17,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.model import contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
 from derive.steps.record import Run
+from tests.courses import ROOT
 from tests.loops import sampled
 from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
@@ -229,6 +230,14 @@ def test_the_direction_of_slip_is_an_assumption_of_the_page(tmp_path: Path) -> N
     assert any(
         "x_dot" in each and "phi_dot" in each and "> 0" in each for each in assumptions(tmp_path, problem(SLIDES))
     )
+
+
+def test_a_direction_of_slip_that_is_false_at_the_start_is_refused(tmp_path: Path) -> None:
+    """The ball is thrown to the right without rotation, so its lowest point slips to the right."""
+    text = (ROOT / "problems" / "library" / "contacts" / "sliding_to_rolling.yaml").read_text(encoding="utf-8")
+    assert "far" in solved(tmp_path, text)
+    (said,) = messages(tmp_path, edited(text, ("direction: [1, 0]", "direction: [-1, 0]")))
+    assert "but the direction of slip requires" in said
 
 
 def test_a_length_of_string_that_may_change_its_sign_is_an_assumption(tmp_path: Path) -> None:

@@ -6,11 +6,14 @@ from collections.abc import Sequence
 
 from sympy import Expr, Integer, Symbol
 
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
 from derive.figures.velocities import Moment
 from derive.mechanics import Impact, System
 from derive.mechanics.impacts.impact import Collision, Impulse
 from derive.mechanics.kinematics.places import Location
+from derive.steps.signs import sign_known
 from derive.stock.keys.results import Result
 
 SOLUTION = "solution"
@@ -30,6 +33,27 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
                 at.setdefault(q, result.values.get("start", Integer(0)))
                 rates.setdefault(q, result.values["start_rate"])
     return Moment(at, rates) if rates else None
+
+
+def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None:
+    """Reject an assumption about rates, such as the direction of slip, that is false at the start of the requested
+    motions.
+
+    An assumption is tested if the start of a motion is known for each coordinate whose rate it contains.
+    """
+    starts: dict[Symbol, Expr] = {}
+    for result in results:
+        if result.verb.name == SOLUTION and "q" in result.values:
+            q = result.values["q"]
+            starts.setdefault(rate(q), result.values.get("start_rate", Integer(0)))
+            starts.setdefault(q, result.values.get("start", Integer(0)))
+    rates = {rate(q) for q in starts}
+    for each in assumed:
+        at_start = tidied(explicit(each.residual).subs(starts).subs(TIME, 0))
+        is_slip = each.operator == ">" and bool(explicit(each.residual).free_symbols & rates)
+        if is_slip and at_start != each.residual and sign_known(at_start) == -1:
+            message = f"at the start {each.left} is {at_start}, but the direction of slip requires a positive value"
+            raise Rejected(Complaint("contradiction", message, help="reverse `direction`, or correct the start"))
 
 
 def struck(impact: Impact) -> Moment:
