@@ -41,17 +41,17 @@ def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None
 
     An assumption is tested if the start of a motion is known for each coordinate whose rate it contains.
     """
-    starts: dict[Symbol, Expr] = {}
+    at: dict[Symbol, Expr] = {}
+    rates: dict[Symbol, Expr] = {}
     for result in results:
         if result.verb.name == SOLUTION and "q" in result.values:
             q = result.values["q"]
-            starts.setdefault(rate(q), result.values.get("start_rate", Integer(0)))
-            starts.setdefault(q, result.values.get("start", Integer(0)))
-    rates = {rate(q) for q in starts}
+            at.setdefault(q, result.values.get("start", Integer(0)))
+            rates.setdefault(rate(q), result.values.get("start_rate", Integer(0)))
     for each in assumed:
-        at_start = tidied(explicit(each.residual).subs(starts).subs(TIME, 0))
-        is_slip = each.operator == ">" and bool(explicit(each.residual).free_symbols & rates)
-        if is_slip and at_start != each.residual and sign_known(at_start) == -1:
+        slip = explicit(each.residual)
+        at_start = tidied(slip.subs({**rates, **at, TIME: Integer(0)}))
+        if each.operator == ">" and slip.free_symbols & rates.keys() and sign_known(at_start) == -1:
             message = f"at the start {each.left} is {at_start}, but the direction of slip requires a positive value"
             raise Rejected(Complaint("contradiction", message, help="reverse `direction`, or correct the start"))
 
