@@ -5,7 +5,9 @@ from __future__ import annotations
 import gc
 import os
 import signal
+from collections import Counter
 from collections.abc import Generator, Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -35,12 +37,34 @@ def pytest_collection() -> Generator[None, object, object]:
     return found
 
 
+FAMILY, EVERY = 4, 3  # of a test with at least FAMILY cases, one case of EVERY is tried
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the tests of pages in a browser if none is installed."""
-    if chromium() is None:
-        left_out = [item for item in items if item.get_closest_marker("browser")]
-        config.hook.pytest_deselected(items=left_out)
-        items[:] = [item for item in items if not item.get_closest_marker("browser")]
+    """Leave out tests of pages in a browser if none is installed, and most cases of tests with many cases.
+
+    `DERIVE_ALL_TESTS=1 make test` tries all cases; so does a run that names single files or tests.
+    """
+    kept = items if chromium() is not None else [item for item in items if not item.get_closest_marker("browser")]
+    names_files = any(Path(each.partition("::")[0]).suffix == ".py" for each in config.args)
+    if not names_files and not os.environ.get("DERIVE_ALL_TESTS"):
+        kept = _sampled(kept)
+    chosen = set(kept)
+    config.hook.pytest_deselected(items=[item for item in items if item not in chosen])
+    items[:] = kept
+
+
+def _sampled(items: list[pytest.Item]) -> list[pytest.Item]:
+    """Return the first of every few cases of each test with many cases, and all other tests."""
+    sizes = Counter(item.nodeid.partition("[")[0] for item in items)
+    seen: Counter[str] = Counter()
+    kept = []
+    for item in items:
+        family = item.nodeid.partition("[")[0]
+        if sizes[family] < FAMILY or seen[family] % EVERY == 0:
+            kept.append(item)
+        seen[family] += 1
+    return kept
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -9,10 +9,10 @@ from sympy import Add, Expr, Integer, Rational, cos, pi, sqrt
 from derive.algebra.expressions import column
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Line, PointMark, Turn
+from derive.figures.links import Link, is_fixed, link_from_fixed, moving_in
 from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, link_from_fixed, moving_in
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle
 from derive.figures.surroundings import UprightAngle, WayMark

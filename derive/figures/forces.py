@@ -13,7 +13,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import explicit, rate
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, PointMark
-from derive.figures.connected import ConnectedScene, connections_of
+from derive.figures.connections import Connections, connections_of
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import ParticleMark
 from derive.figures.placed_bodies import placed_outline, with_its_shape
@@ -22,7 +22,7 @@ from derive.figures.scenes import drawing
 from derive.figures.turning import downwards
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.connection import PointForce
+from derive.mechanics.model.connection import Connection, PointForce
 from derive.mechanics.model.system import System
 from derive.steps.record import coordinates_in, current_run
 from derive.steps.signs import sign_known
@@ -47,12 +47,12 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     """
     if len(system.places[0].components) != 2:
         return None
-    acting = [force for each in connections_of(system) for force in each.on(of)]
+    acting = [force for each in connections_of(system, Connection) for force in each.on(of)]
     if not acting or any(letter not in found for force in acting for letter in _multipliers(system, force)):
         return None
     if _has_others(system) or not _moves_by(system, of, acting, found):
         return None
-    scene = ConnectedScene(system)
+    scene = Connections(system)
     forces = _forces(system, acting, found, {q: scene.values[q] for q in system.coordinates if q in scene.values})
     if forces is None:
         return None
@@ -95,7 +95,7 @@ def _share(size: float, greatest: float) -> Rational:
 
 def _has_others(system: System) -> bool:
     """Whether forces act in the system that are neither weights nor forces of connections."""
-    frictions = [force for each in connections_of(system) for force in each.forces if force.size == 1]
+    frictions = [force for each in connections_of(system, Connection) for force in each.forces if force.size == 1]
     given = len(system.given_forces) > len(frictions)
     couples = any(not each.forces for each in system.constraints)  # a motor, a rigid joint or a formula
     unnamed = bool(system.conditions)  # rolling by a friction without a symbol

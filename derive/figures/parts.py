@@ -393,12 +393,25 @@ class WedgeMark(_Piecewise):
         sharp = min(range(len(spots)), key=lambda i: _opening(spots[i - 1], spots[i], spots[(i + 1) % len(spots)]))
         shares = [0.2 if i == sharp else 0.8 / (len(spots) - 1) for i in range(len(spots))]
         x, y = (sum(share * spot[k] for share, spot in zip(shares, spots, strict=True)) for k in (0, 1))
-        return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), Tag(self.label, (x, y), (0.0, 0.0), on=True)]
+        return self._shown(spots, (x, y))
+
+    def _shown(self, spots: tuple[Spot, ...], label: Spot) -> list[Piece]:
+        return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), Tag(self.label, label, (0.0, 0.0), on=True)]
 
 
 @dataclass(frozen=True)
 class PlankMark(WedgeMark):
-    """A plank seen from its side, given by its corners."""
+    """A plank seen from its side, given by its corners: the upper corners first, from left to right."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spots = paper.spots(*self.places(paper.numbers))
+        left, right = midway(spots[0], spots[3]), midway(spots[1], spots[2])
+        return self._shown(spots, _near_end(left, right))
+
+
+def _near_end(left: Spot, right: Spot) -> Spot:
+    """Return the place of the label of a plank, near its right end and clear of dimension lines."""
+    return left[0] + 0.9 * (right[0] - left[0]), left[1] + 0.9 * (right[1] - left[1])
 
 
 def _opening(before: Spot, corner: Spot, after: Spot) -> float:

@@ -12,17 +12,16 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, diff,
 from derive.algebra.expressions import TIME, column
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import PointMark, Support
+from derive.figures.annotations import Line, PointMark, Support
 from derive.figures.bodies import EDGE, ORIGIN, Pose, X, Y, Z, in_space, round_outline, widest_of, words_of
+from derive.figures.links import Link, is_fixed, links_about_fixed, moving_in, same
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.parts import BarMark, ConnectionMark, WheelMark, beside
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
-from derive.figures.recognition import Link, is_fixed, links_about_fixed, moving_in, same, track_of
-from derive.figures.rollers import roller_of, rolling_marks, way_marks
 from derive.figures.space import Spot, Vector, hull, numeric
 from derive.figures.surfaces import Cavity, Circle, Hole, Revolved, ThinRod
-from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, GroundMark
+from derive.figures.surroundings import DistanceMark, FixedEnd
 from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, turns_about_axes
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.boundary import Boundary, Extruded, Faces, Hollowed, Rim, Round, Segment
@@ -35,7 +34,6 @@ from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
 STEPS = 24  # number of steps along the side of a round body
-FAR = Rational(8, 5)  # length of the ground under a rolling disc, relative to the coordinate
 
 
 @dataclass(frozen=True)
@@ -66,13 +64,13 @@ class ThickBar(BarMark):
 
 
 def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
-    """Yield the outline of a body of a system, its support or rolling surface, and its rotation angle."""
+    """Yield the outline of a body of a system, its support, and its rotation angle."""
     placed = with_its_shape(placed)
     outline = placed_outline(placed)
-    roller = None if outline else roller_of(system, placed)
-    if roller is not None:
-        outline = list(rolling_marks(system, placed, roller))
     yield from outline
+    if placed.rim is not None:
+        yield from _centre_in_rim(system, placed)
+        return
     centre: Location = placed.centre
     in_space = len(centre.components) == 3
     square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
@@ -91,10 +89,27 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
             yield from sizes_of_top(placed)
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
-    elif not in_space and roller is None and any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
-        yield from _own_angle(system, outline)
-    for wheel in (mark for mark in outline if isinstance(mark, WheelMark) and system.weights):
-        yield from _ground_of(system, Location(tuple(wheel.centre)), wheel.radius)
+    elif not in_space:
+        if any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
+            yield from _own_angle(system, outline)
+        if square == 0 and is_fixed(system, centre):
+            yield FixedEnd(column_of(centre), downwards(2), True)
+
+
+def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
+    """Yield the line from the centre of the rim to the centre of mass, and its angle; for a body that is balanced about
+    the centre of its rim, the rotation angle."""
+    hub, centre = placed.hub, placed.centre
+    yield PointMark(column_of(hub))
+    if same(hub, centre):
+        yield from _own_angle(system, placed_outline(placed))
+        return
+    right = hub + Location((placed.rim[1], Integer(0)))
+    yield Line(column_of(hub), column_of(right), "construction", label=placed.rim[1])
+    link = Link(hub, centre, sqrt(tidied(Add(*(c**2 for c in (centre - hub).components)))), True)
+    yield Line(column_of(hub), column_of(centre), "construction", label=link.length)
+    yield PointMark(column_of(centre))
+    yield from angle_marks(system, link)
 
 
 def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
@@ -298,28 +313,14 @@ def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
         yield from angle_marks(system, Link(start, end, sqrt(square), True))
 
 
-def _ground_of(system: System, centre: Location, radius: Expr) -> Iterable[Mark]:
-    """Yield the ground under a disc that rolls along a fixed straight line, with the angle of a slope."""
-    track = track_of(system, centre)
-    if track is None or not track.is_unit or not is_fixed(system, track.start) or track.way.components[0] == 0:
-        return
-    x, y = track.way.components
-    below = Location((y, -x)) if numeric(x) > 0 else Location((-y, x))
-    foot = track.start + radius * below
-    far: Location = (FAR * track.by + radius) * track.way
-    near: Location = -radius * track.way
-    ends = foot + near, foot + far
-    yield GroundMark(column_of(ends[0]), column_of(ends[1]), column_of(below))
-    yield from way_marks(foot, foot + track.by * track.way, below, track.by)
-    slope = [f.args[0] for f in y.atoms(sin)]
-    if slope and slope[0].is_Symbol:
-        low, high = ends if numeric(y) > 0 else ends[::-1]
-        level = ImmutableDenseMatrix([(high - low).components[0], 0])
-        yield AngleBetween(column_of(low), level, column_of(high - low), True, label=slope[0])
-
-
 def placed_outline(placed: Any) -> list[Mark]:
     """Return the outline of a body at its place; an empty list if the shape is unknown or cannot be drawn."""
+    if placed.rim is not None:
+        hub, radius = placed.rim
+        ahead = column_of(Location((cos(placed.turned), sin(placed.turned))))
+        pointer = ahead if same(hub, placed.centre) else None
+        label, measures = radius if pointer is not None else None, (("radius", radius),)
+        return [WheelMark(column_of(hub), radius, pointer, label=label, name="round_body", measures=measures)]
     shown = _as_it_looks(placed)
     body, boundary = shown.body, getattr(shown.body, "boundary", None)
     if hasattr(body, "parts"):

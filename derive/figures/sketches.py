@@ -1,63 +1,48 @@
-"""A drawing of a system that needs only the formulas of the system: `sketch("pendulum", System(...))`.
+"""The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
-A particle at a constant distance from a point is drawn on a rod. A particle on a straight line is drawn as a block on a
-floor, a wedge or a string, and a particle with one coordinate on the curve on which it moves. All other particles are
-drawn without further parts, because the drawing shows only what follows from the formulas.
+Bodies, springs, strings, rods, wires, surfaces and joints are drawn as what they are. A particle that nothing holds is
+a small disc, with the dashed lines of its coordinates and the curve on which it moves. Nothing is guessed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from itertools import combinations
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
 
 from derive.algebra.expressions import TIME, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Axis, AxisOfRotation, PointMark, Weight
-from derive.figures.completeness import is_whole
-from derive.figures.connected import ConnectedScene, dashpot_marks, is_described
+from derive.figures.annotations import Axis, AxisOfRotation, LengthMark, PointMark, Weight
+from derive.figures.connections import Connections
 from derive.figures.contacts import contact_marks
+from derive.figures.elements import CLEAR
+from derive.figures.links import Link, angle_of_link, is_fixed, is_spring, link_to, moving_in, same
 from derive.figures.marks import Drawing, Mark, Marks
-from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
-from derive.figures.placed_bodies import placed_marks, with_its_shape
+from derive.figures.parts import BLOCK, ConnectionMark, ParticleMark, SpringMark, WheelMark
+from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
-from derive.figures.pulleys import HangingPulley
-from derive.figures.recognition import (
-    Link,
-    angle_of_link,
-    is_fixed,
-    is_rod,
-    is_spring,
-    kept_length,
-    link_to,
-    moving_in,
-    same,
-    through_hole,
-)
-from derive.figures.rollers import carrying_marks, roller_with
 from derive.figures.scenes import drawing
-from derive.figures.sliding import Sliding
-from derive.figures.space import numeric
-from derive.figures.surroundings import FieldMark, FixedEnd, FloorMark, GravityMark, WayMark
+from derive.figures.surroundings import AngleBetween, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
-from derive.figures.touching import Touching
-from derive.figures.turning import angle_marks, downwards, turning_marks
+from derive.figures.turning import downwards, link_marks
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.no_slip import Rolling
 from derive.mechanics.model.system import Central, Particle, System
 
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-HANGING = Rational(5, 2)  # length of a string through a hole in a table, relative to its part on the table
 FAR = Rational(8, 5)  # drawn range of a curve, relative to the value of its coordinate
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
 ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
+ALONE = (ParticleMark, PointMark, AngleBetween, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
+BENEATH = 18.0  # the distance of dimension lines from each other, in points
 
 
 def sketch(
@@ -70,12 +55,12 @@ def sketch(
     start: Moment | None = None,
     impact: Moment | None = None,
 ) -> Drawing | None:
-    """Return a drawing of a system from its positions and forces, which is recorded for the problem.
+    """Return a drawing of a system from its description, which is recorded for the problem.
 
     The result is None if the drawing would not show the whole system and no further marks are given.
 
     key       the name of the drawing, for `drawings:` in the problem
-    system    particles, bodies, springs, central forces and weights
+    system    particles, bodies, springs, connections, forces and weights
     more      further marks
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
@@ -83,9 +68,6 @@ def sketch(
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
-    if is_described(system) and len(system.places[0].components) == 2 and impact is None:
-        connected = ConnectedScene(system)
-        return drawing(key, connected.marks, *more, values={**connected.values, **(values or {})})
     scene = _Scene(system, named, weights, start, impact)
     if not more and not scene.is_whole:
         return None
@@ -93,7 +75,7 @@ def sketch(
 
 
 class _Scene:
-    """The recognised parts of a system, and their marks."""
+    """The marks of a system, and the numbers at which they are drawn."""
 
     def __init__(
         self,
@@ -103,46 +85,80 @@ class _Scene:
         start: Moment | None = None,
         impact: Moment | None = None,
     ):
-        self.system, self.named, self.weights = system, tuple(named), weights
-        self.start, self.impact = start, impact
+        self.system, self.weights, self.start, self.impact = system, weights, start, impact
         self.rows = len(system.places[0].components)
-        indices = range(len(system.particles))
-        self.links = {i: link for i in indices if (link := link_to(system, i, self.named)) is not None}
-        self.sliding = Sliding(system, self.links) if self.rows == 2 else None
-        self.pulley = HangingPulley(system)
-        if self.pulley.hung:
-            self.links, self.sliding = {}, None
-        held = {*self.links, *self.pulley.hung, *(self.sliding.tracks if self.sliding else ())}
-        self.free = [i for i in indices if i not in held]
-        self.touching = Touching(system)
-        self.touching.told |= any(True for _ in contact_marks(system))
-        self.rods = self._rigid() if self.rows == 2 else []
+        self.connections = Connections(system)
+        self.links = {
+            i: link for i in range(len(system.particles)) if (link := link_to(system, i, tuple(named))) is not None
+        }
 
-    def _rigid(self) -> list[tuple[int, int]]:
-        """Return pairs of particles at a constant distance, among the particles without a line and without a link."""
-        at = [particle.at for particle in self.system.particles]
-        return [(i, j) for i, j in combinations(self.free, 2) if is_rod(self.system, at[i], at[j])]
+    # --- completeness ---
 
     @property
     def is_whole(self) -> bool:
-        joined = [*self.rods, *((*self.sliding.ropes, *self.sliding.strings) if self.sliding else ())]
-        joined += [(self.pulley.hung[0], i) for i in self.pulley.hung[1:]]
-        joined += [(i, k) for i, (link, _, _) in self.strings.items() for k, one in self.links.items() if one == link]
-        joined += [(i, k) for i, links in self.tied.items() for k, one in self.links.items() if one in links]
-        return is_whole(self.system, self.marks, self.links.values(), joined, self.touching)
+        """Whether the drawing shows every part of the system.
 
-    @property
+        A constraint that is given as a formula has no picture. A drawing of several particles or of bodies cannot show
+        an energy that couples them.
+        """
+        return (
+            all(each.enforcer for each in self.system.constraints)
+            and self._bodies_are_seen()
+            and self._rolling_is_seen()
+            and self._energies_are_seen()
+            and self._shows_something()
+        )
+
+    def _bodies_are_seen(self) -> bool:
+        """Whether each body has an outline, or an axis from its fixed point in space."""
+        return all(
+            placed_outline(with_its_shape(placed)) or self.rows == 3 and not same(placed.at, placed.centre)
+            for placed in self.system.bodies
+        )
+
+    def _rolling_is_seen(self) -> bool:
+        """Whether a surface is drawn under each body that rolls."""
+        rolling = [r for each in self.system.conditions if (r := each.fact(Rolling)) is not None]
+        if not rolling or all(any(touch.of.body is r.body.body for touch in self._touching_bodies()) for r in rolling):
+            return True
+        return bool(list(contact_marks(self.system))) and (self.rows == 2 or len(self.system.conditions) == 1)
+
+    def _touching_bodies(self) -> list[Any]:
+        return [touch for touch in self.connections.contacts if hasattr(touch.of, "body") and self.rows == 2]
+
+    def _energies_are_seen(self) -> bool:
+        charged = len([each for each in self.system.charges if any(each.electric)])
+        own = self.system.stored[: len(self.system.stored) - charged]
+        many = len(self.system.particles) + len(self.system.bodies) > 1 or self.system.bodies
+        moving = self.system.coordinates
+        return not many or all(
+            diff(each.energy, p, q) == 0 for each in own for p in moving for q in moving_in(self.system, each.energy)
+        )
+
+    def _shows_something(self) -> bool:
+        """Whether the drawing shows more than particles and bodies with their angles and positions."""
+        outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
+        if any(not isinstance(mark, ALONE) and mark not in outlines for mark in self.marks):
+            return True
+        acts = self.system.weights or self.system.constraints or self.system.conditions or self.system.given_forces
+        return bool(
+            not self.system.bodies
+            and (self.links or self.system.between)
+            or any(pivot_of(self.system, placed) for placed in self.system.bodies if self.rows == 2)
+            or self.rows == 3
+            and outlines
+            and not acts
+        )
+
+    # --- numbers ---
+
+    @cached_property
     def values(self) -> Mapping[Symbol, Any]:
-        found = dict(self.sliding.values) if self.sliding else stance_values(self.system)
-        found.update(self.pulley.values)
-        for link in self.links.values():
-            if (radius := kept_length(self.system, link.length)) is not None:
-                found[link.length] = radius
-        found.update(self.touching.values)
+        found: dict[Symbol, Any] = dict(stance_values(self.system))
+        found |= {letter: value for letter, value in self.connections.values.items() if letter not in found}
         if self.impact is not None:
             found.update(moment_drawn(self.system, self.impact))
-        hanging = {string: HANGING * link.length for link, _, string in self.strings.values()}
-        return {**found, **self._carried_round(), **hanging}
+        return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
         """Return the time at which a system with a prescribed rotation about the vertical is clearly visible."""
@@ -161,11 +177,114 @@ class _Scene:
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
         return rates[0] if self.rows == 3 and len(rates) == 1 and not rates[0].has(TIME) else None
 
+    # --- marks ---
+
+    @cached_property
+    def marks(self) -> list[Mark]:
+        found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
+        if not any(isinstance(mark, AxisOfRotation) for mark in found):
+            found += self._axis_of_table()
+        if self.impact is not None:  # positions are fixed during an impact, so no displacement is shown
+            found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
+            found += impact_marks(self.system, self.impact)
+        return list(dict.fromkeys(found))
+
+    def _all(self) -> Iterable[Mark]:
+        for each in self.system.between:
+            yield from self._between(each)
+        yield from self.connections.marks
+        yield from self._rolling()
+        for placed in self.system.bodies:
+            yield from placed_marks(self.system, placed)
+            if isinstance(placed.at, PointOfBody):
+                yield PointMark(column_of(placed.at))
+        for i, particle in enumerate(self.system.particles):
+            yield from self._particle(i, particle)
+        relative = list(self._two_bodies())
+        yield from relative
+        if self.rows == 2 and not relative and self.impact is None:
+            yield from self._displacements()
+        if self.weights and self.system.weights:
+            yield from self._weights()
+        elif self.system.weights:
+            yield GravityMark(downwards(self.rows), label=self.system.gravity)
+        yield from self._fields()
+
+    def _rolling(self) -> Iterable[Mark]:
+        """Yield the surfaces of rolling conditions without a described surface."""
+        return () if self._touching_bodies() else contact_marks(self.system)
+
     def _axis_of_table(self) -> list[Mark]:
         """Return the vertical axis of the prescribed rotation, if there is one."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
+
+    # --- particles ---
+
+    def _particle(self, i: int, particle: Particle) -> Iterable[Mark]:
+        block = self.connections.block(particle)
+        if block is not None:
+            yield from block
+            return
+        yield ParticleMark(column_of(particle.at), label=particle.mass)
+        link = self.links.get(i)
+        if link is not None and not self._is_drawn(particle, link):
+            is_on_wire = self.connections.is_on_wire(particle.at)
+            marks = link_marks(self.system, link)
+            yield from (mark for mark in marks if not (is_on_wire and isinstance(mark, WayMark)))
+            if self.rows == 3:
+                yield from self._round(link)
+        elif not self._is_held(particle, link):
+            plain = [c for c in particle.at.components if c in self.system.coordinates]
+            yield from self._cartesian(particle.at) if len(plain) == self.rows else self._ways(particle.at)
+
+    def _is_held(self, particle: Particle, link: Link | None) -> bool:
+        """Whether a connection shows how the particle is placed."""
+        return self.connections.holds(particle) or link is not None and self.connections.runs_along(link)
+
+    def _is_drawn(self, particle: Particle, link: Link) -> bool:
+        """Whether a connection is drawn in place of the link."""
+        return self._is_held(particle, link) if link.is_constant else self.connections.runs_along(link)
+
+    def _round(self, link: Link) -> Iterable[Mark]:
+        """Yield the circle of a particle about a vertical axis, and this axis; otherwise the curves of the particle."""
+        *across, height = link.start.components
+        if (
+            link.is_constant
+            or is_fixed(self.system, link.start)
+            and TIME in moving_in(self.system, *link.way.components)
+        ):
+            return
+        if any(across) or height not in {*self.system.coordinates, ZERO}:
+            yield from self._ways(link.end)
+            return
+        for q in moving_in(self.system, *link.way.components):
+            if self.system.coordinates.get(q) == "angle":
+                yield WayMark(column_of(link.end), q, -pi, pi)
+        if height in self.system.coordinates:
+            yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
+
+    def _cartesian(self, at: Location) -> Iterable[Mark]:
+        for k, q in enumerate(at.components):
+            ahead = Location(tuple(q if i == k else ZERO for i in range(self.rows)))
+            origin, end = column_of(ahead) * 0, column_of(Rational(4, 3) * ahead)
+            yield Axis(origin, end, label=q)
+            if self.rows == 2:
+                yield ConnectionMark(column_of(at), column_of(ahead))
+
+    def _ways(self, at: Location) -> Iterable[Mark]:
+        """Yield the curve of a point for each coordinate."""
+        moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
+        for q in moving if len(moving) < self.rows else ():
+            ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
+            if any(diff(c, q, 2) != 0 for c in at.components) and not self.connections.is_on_wire(at):
+                yield WayMark(column_of(at), q, *ends)
+        if self.rows == 3 and len(moving) == 1 and moving[0] in at.components:
+            beside = Location(tuple(ZERO if c == moving[0] else c for c in at.components))
+            rest = Location(tuple(c.xreplace({moving[0]: ZERO}) for c in at.components))
+            yield ConnectionMark(column_of(beside), column_of(at), label=moving[0])
+            yield ConnectionMark(column_of(rest), column_of(beside))
 
     def _two_bodies(self) -> Iterable[Mark]:
         """Yield, for two particles, the components of their relative position and the axes of their centre of mass, if
@@ -190,107 +309,85 @@ class _Scene:
         yield PointMark(column_of(middle))
         yield from self._cartesian(middle)
 
-    @cached_property
-    def strings(self) -> Mapping[int, tuple[Link, Location, Symbol]]:
-        """Index of a hanging particle -> the link from the hole to the other particle, the position of the hanging
-        particle, and the length of the string."""
-        found = {}
-        for link in self.links.values():
-            for i in self.free if self.rows == 3 else ():
-                string = through_hole(self.system, link, self.system.particles[i].at)
-                if string is not None:
-                    found[i] = link, self.system.particles[i].at, string
-        return found
+    # --- displacements ---
 
-    @cached_property
-    def tied(self) -> Mapping[int, tuple[Link, ...]]:
-        """Index of a particle in space that rods join to particles with links -> these links."""
-        held = [link for link in self.links.values() if link.is_constant]
-        found: dict[int, tuple[Link, ...]] = {}
-        for i in self.free if self.rows == 3 and self.named else ():
-            at = self.system.particles[i].at
-            if links := tuple(link for link in held if is_rod(self.system, link.end, at)):
-                found[i] = links
-        return found
+    def _displacements(self) -> Iterable[Mark]:
+        """Yield a dimension line for each coordinate that is the displacement of a mass along a fixed line."""
+        shown: set[Symbol] = set()
+        for q, kind in self.system.coordinates.items():
+            found = self._displaced(q) if kind == "length" and not self._is_shown(q) else None
+            if found is not None:
+                start, at = found
+                shown.add(q)
+                yield self._dimension(q, start, at, len(shown))
 
-    @cached_property
-    def marks(self) -> list[Mark]:
-        found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
-        if not any(isinstance(mark, AxisOfRotation) for mark in found):
-            found += self._axis_of_table()
-        if self.impact is not None:  # positions are fixed during an impact, so no displacement is shown
-            found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
-            found += impact_marks(self.system, self.impact)
-        return list(dict.fromkeys(found))
+    def _is_shown(self, q: Symbol) -> bool:
+        """Whether another mark has the coordinate as its label: an axis, or the line of a polar coordinate."""
+        free = [p.at for i, p in enumerate(self.system.particles) if i not in self.links]
+        axes = any(q in at.components and self._is_cartesian(at) for at in free)
+        links = any(q in moving_in(self.system, link.length) for link in self.links.values())
+        return axes or links
 
-    def _all(self) -> Iterable[Mark]:
-        for each in self.system.between:
-            yield from self._between(each)
-        yield from dashpot_marks(self.system)
-        yield from contact_marks(self.system)
-        for placed in getattr(self.system, "bodies", ()):
-            yield from placed_marks(self.system, placed)
-            yield from self._centre(placed.centre)
-        yield from self.touching.marks
-        if self.pulley.hung:
-            yield from self.pulley.marks()
-        for i, j in self.rods:
-            yield from self._rod(i, j)
-        for i, link in self.links.items():
-            yield from turning_marks(self.system, link, self.system.particles[i], self.named)
-            if self.rows == 3:
-                yield from self._round(link)
-        yield from self._rods()
-        yield from self._two_bodies()
-        if self.sliding:
-            yield from self.sliding.marks()
-        for link, below, _ in self.strings.values():
-            along = tuple(column_of(place) for place in (link.end, link.start, below))
-            yield RopeMark(along, (ZERO, ZERO, ZERO))
-        for i in self.free:
-            if i in self.strings or i in self.tied or any(i in pair for pair in self.rods):
-                yield ParticleMark(column_of(self.system.particles[i].at), label=self.system.particles[i].mass)
-                continue
-            yield from self._free(self.system.particles[i])
-        if self.weights and self.system.weights:
-            yield from self._weights()
-        elif self.system.weights:
-            yield GravityMark(downwards(self.rows), label=self.system.gravity)
-        yield from self._fields()
+    def _is_cartesian(self, at: Location) -> bool:
+        particle = next(p for p in self.system.particles if p.at is at)
+        is_free = self.connections.block(particle) is None and not self.connections.holds(particle)
+        return is_free and all(c in self.system.coordinates for c in at.components)
 
-    def _rod(self, i: int, j: int) -> Iterable[Mark]:
-        """Yield a rod from the lower particle to the upper particle, with its angle."""
-        low, up = sorted((self.system.particles[k].at for k in (i, j)), key=lambda at: numeric(at.components[1]))
-        link = Link(low, up, sqrt(tidied(Add(*(c**2 for c in (up - low).components)))), True)
-        yield BarMark(column_of(link.start), column_of(link.end), label=link.length)
-        yield from angle_marks(self.system, link)
-        for end in (low, up):
-            if self.system.weights and not moving_in(self.system, end.components[1]):
-                yield FloorMark((column_of(end),))
+    def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
+        """Return the place at which the coordinate is zero and the place of a mass that it moves, if the line is fixed
+        and the coordinate is the distance along it. The mass that the fewest coordinates move is preferred."""
+        found = []
+        for _, at in self.system.masses:
+            way = Location(tuple(diff(c, q) for c in at.components))
+            if any(way.components) and is_fixed(self.system, way) and tidied(Add(*(c**2 for c in way.components))) == 1:
+                start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
+                found.append((len(moving_in(self.system, *at.components)), start, at))
+        if not found:
+            return None
+        _, start, at = min(found, key=lambda each: each[0])
+        return start, at
 
-    def _round(self, link: Link) -> Iterable[Mark]:
-        """Yield the circle of a particle about a vertical axis, and this axis; otherwise the curves of the particle."""
-        *across, height = link.start.components
-        if (
-            link.is_constant
-            or is_fixed(self.system, link.start)
-            and TIME in moving_in(self.system, *link.way.components)
-        ):
-            return
-        if any(across) or height not in {*self.system.coordinates, ZERO}:
-            yield from self._ways(link.end)
-            return
-        for q in moving_in(self.system, *link.way.components):
-            if self.system.coordinates.get(q) == "angle":
-                yield WayMark(column_of(link.end), q, -pi, pi)
-        if height in self.system.coordinates:
-            yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
+    def _dimension(self, q: Symbol, start: Location, at: Location, before: int) -> Mark:
+        x, y = (tidied(c) for c in (at - start).components)
+        touch = next((each for each in self.connections.contacts if self._touches(each, at)), None)
+        if touch is not None and hasattr(touch.surface, "unit_normal"):
+            on_slope = x != 0 and y != 0
+            is_carrier = any(each.surface.of == touch.of for each in self.connections.contacts)
+            if isinstance(touch.of, Particle) and touch.surface.of is None and not on_slope and not is_carrier:
+                off = BLOCK[1] / 2 + CLEAR
+                return DistanceMark(column_of(start), column_of(at), column_of(touch.normal), off, label=q)
+            if on_slope:
+                if isinstance(touch.of, Particle):
+                    ends = column_of(start), column_of(at)
+                    return DistanceMark(*ends, column_of(touch.normal), BLOCK[1] + CLEAR, label=q)
+                down = touch.at - at
+                return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
+        beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
+        aside = ImmutableDenseMatrix([0, -1] if y == 0 else [self._free_side(at), 0])
+        return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
 
-    def _rods(self) -> Iterable[Mark]:
-        """Yield, in space, rods from particles on rods to further particles at a constant distance."""
-        for i, links in self.tied.items():
-            for link in links:
-                yield BarMark(column_of(link.end), column_of(self.system.particles[i].at))
+    def _touches(self, touch: Any, at: Location) -> bool:
+        own = touch.of.centre if hasattr(touch.of, "centre") else touch.of.at
+        return same(own, at)
+
+    def _free_side(self, at: Location) -> int:
+        """Return the side of a vertical dimension line: away from the other masses, 1 (right) or -1 (left)."""
+        others = [place for _, place in self.system.masses if not same(place, at)]
+        ways = [self.connections.number((place - at).components[0]) for place in others]
+        return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
+
+    def _is_on_carrier(self, at: Location) -> bool:
+        """Whether a mass carries a plane or touches one that is carried; its dimension line is beneath the carrier."""
+        carriers = [each for each in self.connections.contacts if isinstance(each.surface.of, Particle)]
+        return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
+
+    def _clear(self, at: Location) -> Expr:
+        """The distance of a dimension line from the centre of a body: its radius."""
+        outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
+        wheels = (mark for mark in outlines if isinstance(mark, WheelMark) and mark.radius is not None)
+        return next((mark.radius for mark in wheels if same(Location(tuple(mark.centre)), at)), ZERO)
+
+    # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
         """Yield the arrows of uniform fields, next to all other marks."""
@@ -315,9 +412,8 @@ class _Scene:
         """Return whether the point moves or is the position of a particle, rather than a fixed end."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
-    # --- forces between two points ---
-
     def _between(self, each: Central) -> Iterable[Mark]:
+        """Yield a spring with its fixed ends, or the source of a central force with the orbit about it."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
@@ -348,46 +444,3 @@ class _Scene:
         size = link.length * (1 + ECCENTRICITY * cos(angle)) / (1 + ECCENTRICITY * cos(u))
         e = explicit(ImmutableDenseMatrix(tuple(tidied(c / link.length) for c in link.way.components)))
         yield WayMark(column_of(centre) + size * e.xreplace({angle: u}), u, -pi, pi)
-
-    # --- free particles ---
-
-    def _free(self, particle: Particle) -> Iterable[Mark]:
-        at = particle.at
-        carried = roller_with(self.system, particle)
-        if carried is not None:
-            yield from carrying_marks(self.system, particle, *carried)
-            return
-        yield ParticleMark(column_of(at), label=particle.mass)
-        plain = [c for c in at.components if c in self.system.coordinates]
-        if len(plain) == self.rows:
-            yield from self._cartesian(at)
-        else:
-            yield from self._ways(at)
-
-    def _centre(self, at: Location) -> Iterable[Mark]:
-        """Yield, for a leaning body, the distances of its centre from the axes, if these are its coordinates."""
-        if self.rows != 2 or not self.touching.shown or not all(c in self.system.coordinates for c in at.components):
-            return
-        x, y = at.components
-        yield ConnectionMark(ImmutableDenseMatrix([ZERO, y]), column_of(at), label=x)
-        yield ConnectionMark(column_of(at), ImmutableDenseMatrix([x, ZERO]), label=y)
-
-    def _cartesian(self, at: Location) -> Iterable[Mark]:
-        for k, q in enumerate(at.components):
-            ahead = Location(tuple(q if i == k else ZERO for i in range(self.rows)))
-            origin, end = column_of(ahead) * 0, column_of(Rational(4, 3) * ahead)
-            yield Axis(origin, end, label=q)
-            if self.rows == 2:
-                yield ConnectionMark(column_of(at), column_of(ahead))
-
-    def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curve of a point for each coordinate; a single curve is drawn as a wire."""
-        moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
-        for q in moving if len(moving) < self.rows else ():
-            ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
-            yield WayMark(column_of(at), q, *ends, "wire" if len(moving) == 1 else "trace")
-        if len(moving) == 1 and moving[0] in at.components:
-            beside = Location(tuple(ZERO if c == moving[0] else c for c in at.components))
-            rest = Location(tuple(c.xreplace({moving[0]: ZERO}) for c in at.components))
-            yield ConnectionMark(column_of(beside), column_of(at), label=moving[0])
-            yield ConnectionMark(column_of(rest), column_of(beside))

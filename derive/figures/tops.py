@@ -12,9 +12,9 @@ from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, LengthMark, Line, PointMark, Turn
 from derive.figures.bodies import widest_of
+from derive.figures.links import moving_in
 from derive.figures.marks import Mark, Position
 from derive.figures.positions import column_of
-from derive.figures.recognition import moving_in
 from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, UprightAngle
 from derive.mechanics.bodies.boundary import Round

@@ -10,9 +10,9 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
 from derive.figures.positions import column_of
-from derive.figures.recognition import is_fixed, moving_in, same
 from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, DistanceMark
 from derive.mechanics.kinematics.places import Location
@@ -127,7 +127,7 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
     """Return whether a mark shows a displacement with a rate just before the impact, or a displacement or an angle that
     is zero at the impact."""
-    if isinstance(mark, DistanceMark):
+    if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 

@@ -17,7 +17,21 @@ from derive.figures.marks import PLANE, SPACE
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import FieldMark, GravityMark, WayMark
-from derive.mechanics import Particle, System, Z, central, charge, coordinate, point, space, spring, weight
+from derive.mechanics import (
+    Particle,
+    System,
+    Z,
+    central,
+    charge,
+    coordinate,
+    massless_rod,
+    point,
+    space,
+    spring,
+    string,
+    weight,
+    wire,
+)
 from derive.page.depiction import alternative
 from derive.page.wording import phrases
 from derive.render.drawing.canvas import sheet_of
@@ -96,22 +110,26 @@ def test_a_string_through_a_hole_leads_to_what_hangs_below() -> None:
     m, M, l = symbols("m M l", positive=True)
     with recorded():
         r, phi = coordinate("r", "length", positive=True), coordinate("phi")
-        puck = Particle(m, point(r * cos(phi), r * sin(phi), 0))
-        found = sketch("table", System(puck, Particle(M, point(0, 0, r - l)), weight(scalar("g", positive=True))))
+        puck, hangs = Particle(m, point(r * cos(phi), r * sin(phi), 0)), Particle(M, point(0, 0, r - l))
+        line = string(puck, hangs, over=[point(0, 0, 0)])
+        found = sketch("table", System(puck, hangs, *line, weight(scalar("g", positive=True))))
     (rope,) = of(found, RopeMark)
     assert [list(place) for place in rope.along][1:] == [[0, 0, 0], [0, 0, r.symbol - l]]
     assert len(of(found, ParticleMark)) == 2
 
 
-def test_a_rod_leads_from_a_place_that_is_named_and_a_hoop_is_round_one_that_is_not() -> None:
+def test_a_particle_at_a_constant_distance_is_on_a_rod_or_a_wire_only_if_the_description_says_so() -> None:
     m, l, omega = symbols("m l omega", positive=True)
     with recorded():
         theta = coordinate("theta")
         axes = space.turned(Z, omega * TIME)
-        system = System(Particle(m, axes.place(l * sin(theta), 0, -l * cos(theta))))
-        hoop, rod = sketch("hoop", system), sketch("rod", system, named=[point(0, 0, 0)])
-    assert len(of(hoop, WayMark)) == 1 and not of(hoop, BarMark)
+        bob = Particle(m, axes.place(l * sin(theta), 0, -l * cos(theta)))
+        bare = sketch("bare", System(bob))
+        rod = sketch("rod", System(bob, *massless_rod(point(0, 0, 0), bob)))
+        hoop = sketch("hoop", System(bob, wire(bob)))
+    assert not of(bare, BarMark) and [mark.pen for mark in of(bare, WayMark)] == ["trace"]
     assert len(of(rod, BarMark)) == 1 and not of(rod, WayMark)
+    assert not of(hoop, BarMark) and [mark.pen for mark in of(hoop, WayMark)] == ["wire"]
 
 
 def test_uniform_fields_are_drawn_beside_a_charge() -> None:

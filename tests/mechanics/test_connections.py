@@ -18,7 +18,6 @@ from derive.mechanics.model import contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
 from derive.steps.record import Run
 from tests.courses import ROOT
-from tests.loops import sampled
 from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
 from tests.stock.described import edited, loaded, messages, solved
@@ -32,7 +31,7 @@ TRIALS = [*on_a_surface(), *with_strings()]
 STATES = 4
 
 
-@pytest.mark.parametrize("trial", sampled(TRIALS), ids=lambda trial: trial.name)
+@pytest.mark.parametrize("trial", TRIALS, ids=lambda trial: trial.name)
 def test_accelerations_and_forces_are_those_of_newton_and_euler(trial: Trial, tmp_path: Path) -> None:
     steps = solved(tmp_path, problem(trial))
     keys = {name: key_of(name) for name in trial.unknowns}

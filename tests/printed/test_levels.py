@@ -16,7 +16,6 @@ from derive.page.tree import Display, Document
 from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, kept, rendered_once
-from tests.loops import sampled
 
 WORDS = phrases(ROOT / "templates")
 SETS = [f"{path.parent.name}/{path.stem}" for path in sorted((ROOT / "problems" / "hw9").glob("*.yaml"))]
@@ -77,7 +76,7 @@ def equated(document: Document) -> set[object]:
     return found
 
 
-@pytest.mark.parametrize("problem_id", sampled(PROBLEMS))
+@pytest.mark.parametrize("problem_id", PROBLEMS)
 def test_every_letter_of_a_page_is_introduced_and_a_higher_level_has_no_fewer_lines(problem_id: str) -> None:
     """By the left sides and clauses of the page itself, apart from how the selection goes about it."""
     known = steps_of(problem_id)

@@ -15,7 +15,6 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.rounding import rounded_form
 from derive.render.notation.latex import latex
 from derive.render.notation.text import columns, plain, text_box
-from tests.loops import sampled
 from tests.printed.draws import Variant, check_variant
 from tests.printed.expressions import LETTERS, NOTATION, Draw
 from tests.printed.from_text import TextReader
@@ -144,7 +143,7 @@ SAMPLE = [
 ]
 
 
-@pytest.mark.parametrize("variant", sampled(SAMPLE), ids=str)
+@pytest.mark.parametrize("variant", SAMPLE, ids=str)
 def test_every_line_of_a_variant_is_read_back_as_what_was_derived(variant: Variant) -> None:
     count = Count()
     assert check_variant(variant, count) > 40

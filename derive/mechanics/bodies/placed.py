@@ -37,6 +37,7 @@ class PlacedBody:
     point    the point of the body whose place is known
     at       the place of this point
     across   for a motion in a plane, the index of the body axis perpendicular to the plane
+    rim      for a motion in a plane, the centre and the radius of the circle that bounds a body of unknown shape
     """
 
     body: Any
@@ -44,6 +45,27 @@ class PlacedBody:
     point: Point
     at: Location
     across: int | None = None
+    rim: tuple[Location, Expr] | None = None
+
+    def with_rim(self, centre: Location, radius: Expr) -> PlacedBody:
+        """The body with the circle that bounds it; its centre must move with the body."""
+        if not self.is_plane:
+            raise Rejected(Complaint("wrong-argument", "a body has a `rim` only in a plane of motion"))
+        x, y = (centre - self.at).components
+        c, s = cos(self.turned), sin(self.turned)
+        own = ImmutableDenseMatrix([tidied(x * c + y * s), tidied(y * c - x * s)])
+        if coordinates_in(own) or own.has(TIME):
+            message = "the centre of the `rim` does not move with the body"
+            help_line = (
+                "give the place of the centre of mass relative to it: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
+            )
+            raise Rejected(Complaint("no-such-body", message, help=help_line))
+        return replace(self, rim=(centre, radius))
+
+    @property
+    def hub(self) -> Location:
+        """The centre of the rim, or of a round body whose shape is known."""
+        return self.rim[0] if self.rim is not None else self.centre
 
     @property
     def is_plane(self) -> bool:
@@ -86,8 +108,9 @@ class PlacedBody:
     def moved(self, values: Mapping[Symbol, Expr]) -> PlacedBody:
         """The same body with expressions substituted for some coordinates."""
         at = self.at.with_values(values)
+        rim = (self.rim[0].with_values(values), self.rim[1].subs(values)) if self.rim is not None else None
         if not isinstance(self.turned, Axes):
-            return replace(self, at=at, turned=self.turned.subs(values))
+            return replace(self, at=at, turned=self.turned.subs(values), rim=rim)
         turns = tuple((i, angle.subs(values)) for i, angle in self.turned.turns)
         return replace(self, at=at, turned=Axes(after(turns), turns))
 

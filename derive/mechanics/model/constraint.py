@@ -34,7 +34,8 @@ class Constraint(Part):
     in_rates  whether the constraint is linear in the rates
     forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
     routes use them in place of the derivatives of f
-    enforcer  what enforces the constraint: "surface", "string", "rod", "friction" or "joint"; empty if it is unknown
+    enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
+    it is unknown
     """
 
     left: Expr

@@ -18,7 +18,13 @@ from derive.mechanics.model.connection import Connection, PointForce, end_of, is
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
-from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
+from derive.mechanics.model.no_slip import (
+    contact_velocity,
+    no_slip,
+    rolling_constraint,
+    velocity_at,
+    velocity_of_particle,
+)
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
@@ -140,7 +146,8 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal), enforcer="surface")
+    enforcer = "rail" if touch.surface.is_two_sided else "surface"
+    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal), enforcer=enforcer)
 
 
 def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
@@ -158,7 +165,9 @@ def _contact(of: Any, on: Any) -> Contact:
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
-    radius = radius_of(of) if isinstance(of, PlacedBody) else ZERO
+    radius = ZERO
+    if isinstance(of, PlacedBody):
+        radius, at = radius_of(of), of.hub
     away = surface.normal(at)
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
     found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
@@ -183,7 +192,7 @@ def _surface_of(body: Any) -> Circle:
             "describe a face of the body under `surfaces`, with `of`",
         )
         raise Rejected(Complaint("no-contact", message, help=help_line))
-    return Circle(body, None, body.centre, radius)
+    return Circle(body, None, False, body.hub, radius)
 
 
 def radius_of(placed: PlacedBody) -> Expr:
@@ -197,6 +206,8 @@ def radius_of(placed: PlacedBody) -> Expr:
 
 
 def _round_radius(placed: PlacedBody) -> Expr | None:
+    if placed.rim is not None:
+        return placed.rim[1]
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
     if not isinstance(outer, Round) or placed.across not in (2, None):
@@ -221,6 +232,8 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
         return _rolling_in_space(touch, rolling)
     ground = touch.surface.ground
     if touch.is_kept and rolling is True:
+        if not any(contact_velocity(touch.of, touch.at, ground)):
+            return []  # the coordinates already satisfy the condition of rolling
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
     slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
@@ -246,7 +259,8 @@ def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
     if rolling is True:
         found = no_slip(touch.of, touch.at, touch.surface.ground)
         return list(found) if isinstance(found, tuple) else [found]
-    return list(rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground))
+    kept = rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground)
+    return [replace(each, enforcer="friction") for each in kept]
 
 
 def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:

@@ -85,12 +85,22 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
         message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
         raise Rejected(Complaint("not-an-unknown", message, help="use `pin`"))
     at_zero = angle.xreplace(dict.fromkeys(coordinates_in(angle), ZERO))
-    return *pin(of, to, force), constraint(angle, at_zero, torque)
+    return *pin(of, to, force), replace(constraint(angle, at_zero, torque), enforcer="joint")
 
 
 @dataclass(frozen=True)
 class Motor(Connection):
-    """A motor that turns a body about a fixed axis."""
+    """A motor that gives an angle a prescribed value, by a torque.
+
+    angle    the angle
+    torque   the symbol of the torque
+    """
+
+    angle: Expr
+    torque: Symbol
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), angle=self.angle.subs(known))
 
 
 def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
@@ -103,7 +113,8 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
     """
     if coordinates_in(explicit(as_expr(turns))):
         raise Rejected(Complaint("wrong-argument", "`motor` needs an angle that is a function of time only"))
-    return Motor(()), constraint(on, turns, torque)
+    kept = replace(constraint(on, turns, torque), enforcer="motor")
+    return Motor((), explicit(as_expr(on)), kept.force), kept
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any, Self
 
-from sympy import Add, Expr, Integer, Symbol
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, scalar
+from derive.algebra.expressions import TIME, as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
@@ -18,52 +18,115 @@ from derive.mechanics.model.connection import Connection, PointForce, end_of, is
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import radius_of
 from derive.mechanics.model.no_slip import velocity_at
-from derive.mechanics.model.surfaces import direction_between, distance_between, dot
-from derive.steps.record import require_constant
+from derive.mechanics.model.part import moved
+from derive.mechanics.model.surfaces import direction_between, distance_between, dot, raw_distance
+from derive.steps.record import coordinates_in, require_constant
 from derive.steps.step import is_zero
 
-__all__ = ["massless_rod", "string", "wound_string"]
+__all__ = ["massless_rod", "pulley", "string", "wire", "wound_string"]
 
 ZERO = Integer(0)
+
+
+@dataclass(frozen=True)
+class Pulley(Connection):
+    """A massless frictionless pulley: a circle over which strings run.
+
+    at       its centre
+    radius   its radius, m
+    """
+
+    at: Location
+    radius: Expr
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), at=self.at.with_values(known), radius=self.radius.subs(known))
 
 
 @dataclass(frozen=True)
 class Line(Connection):
     """A string or a massless rod.
 
-    through   its ends and the pulleys between them, in order
+    through   its ends and the pulleys between them, in order: places, or pulleys with a radius
     is_rod    whether it is a rod, which can also push
     """
 
-    through: tuple[Location, ...]
+    through: tuple[Location | Pulley, ...]
     is_rod: bool
 
+    @property
+    def places(self) -> tuple[Location, ...]:
+        """The ends, and the centres of the pulleys between them."""
+        return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
+
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
-        return replace(super().moved(known), through=tuple(place.with_values(known) for place in self.through))
+        through = (e.moved(known) if isinstance(e, Pulley) else e.with_values(known) for e in self.through)
+        return replace(super().moved(known), through=tuple(through))
 
 
-def _length(places: Sequence[Location]) -> Expr:
-    return tidied(Add(*(distance_between(a, b) for a, b in pairwise(places))))
+@dataclass(frozen=True)
+class Wire(Connection):
+    """A smooth wire on which a particle is threaded; it has the shape of the curve on which its coordinate moves it."""
+
+    of: Any
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), of=moved(self.of, known))
 
 
-def _pulls(through: Sequence[tuple[Location, Any]], tension: Symbol) -> tuple[PointForce, ...]:
-    """The forces on the ends and on the pulleys: the tension, towards each neighbouring place."""
-    places = [place for place, _ in through]
-    found = []
-    for i, (place, of) in enumerate(through):
-        beside = [places[k] for k in (i - 1, i + 1) if 0 <= k < len(places)]
-        found += [PointForce(tension, direction_between(place, other).components, place, of) for other in beside]
-    return tuple(found)
+@dataclass(frozen=True)
+class Piece:
+    """A straight piece of a string or of a rod: its ends, and the bodies to which they belong."""
+
+    start: Location
+    end: Location
+    of: tuple[Any, Any]
+
+    def pulls(self, tension: Symbol) -> tuple[PointForce, PointForce]:
+        """The forces on the two ends: the tension, towards each other."""
+        along = direction_between(self.start, self.end)
+        return (
+            PointForce(tension, along.components, self.start, self.of[0]),
+            PointForce(tension, (-along).components, self.end, self.of[1]),
+        )
 
 
-def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension: str = "T") -> tuple[Line, Constraint]:
+def pulley(at: Location, radius: Any) -> Pulley:
+    """A massless frictionless pulley with its centre at a place.
+
+    radius   m; a string leaves the pulley along a tangent
+    """
+    if not isinstance(at, Location):
+        raise Rejected(Complaint("wrong-argument", "`pulley` needs the place of its centre"))
+    size = as_expr(radius)
+    require_constant("pulley", "radius", size)
+    return Pulley((), at, size)
+
+
+def wire(of: Any) -> Wire:
+    """A smooth wire on which a particle is threaded. Its place must depend on exactly one coordinate.
+
+    of   the particle
+    """
+    place = getattr(of, "at", None)
+    moving = coordinates_in(ImmutableDenseMatrix(place.components)) if isinstance(place, Location) else {}
+    if len(moving) != 1:
+        message = f"a particle on a `wire` has one coordinate, but this one has {len(moving)}"
+        raise Rejected(Complaint("wrong-argument", message, help="leave the wire out, or give the curve as a place"))
+    return Wire((), of)
+
+
+def string(
+    start: Any, end: Any, length: Any = None, over: Sequence[Any] = (), tension: str = ""
+) -> tuple[Line | Constraint, ...]:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
 
     start, end   particles, points of bodies, or places in space
-    length       the length between the ends, m
-    over         the pulleys or holes between the ends: places, particles, or points of bodies; the radius of a pulley
-                 is negligible
-    tension      the symbol of the tension, N; positive if the string pulls
+    length       the length of the straight pieces, m
+    over         the pulleys or holes between the ends: pulleys; or places, particles or points of bodies, where the
+                 radius of the pulley is negligible
+    tension      the symbol of the tension, N; positive if the string pulls. Needed, together with the length, if the
+                 coordinates allow the length to change
     The tension is the same everywhere in the string. It pulls the ends along the string, and each pulley along both
     parts of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
@@ -71,37 +134,113 @@ def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension:
     return _of_length("string", (start, *over, end), length, tension)
 
 
-def massless_rod(start: Any, end: Any, length: Any, force: str = "T") -> tuple[Line, Constraint]:
+def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> tuple[Line | Constraint, ...]:
     """A massless rigid rod between two hinges, which pulls or pushes only along its direction.
 
     start, end   particles, points of bodies, or places in space
     length       the length, m
-    force        the symbol of the force in the rod, N; positive in tension
+    force        the symbol of the force in the rod, N; positive in tension. Needed, together with the length, if the
+                 coordinates allow the length to change
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
     return _of_length("massless_rod", (start, end), length, force)
 
 
-def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tuple[Line, Constraint]:
-    """Return the line, and the constraint l - (length of the line) = 0; its multiplier is the tension."""
-    whole = as_expr(length)
-    require_constant(verb, "length", whole)
-    if not all(map(is_end, ends)):
+def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tuple[Line | Constraint, ...]:
+    """Return the line and, with a symbol of its force, the constraint l - (length of the line) = 0, whose multiplier is
+    this force."""
+    whole = as_expr(length) if length is not None else None
+    if whole is not None:
+        require_constant(verb, "length", whole)
+    if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
-    through = [end_of(each) for each in ends]
-    require_bodies(verb, through)
-    places = tuple(place for place, _ in through)
-    found = _length(places)
-    if is_zero(found - whole):
-        message = f"the coordinates keep the length {whole}, so the force `{letter}` does not appear"
-        help_line = "give the end a coordinate along the string, so that the tension keeps it there"
-        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
-    force = scalar(letter)
-    pulls = _pulls(through, force)
     is_rod = verb == "massless_rod"
-    kept = Constraint(whole, found, force, forces=pulls, enforcer="rod" if is_rod else "string")
-    return Line(pulls, places, is_rod), kept
+    pieces = _pieces(ends)
+    through = tuple(each if isinstance(each, Pulley) else end_of(each)[0] for each in ends)
+    kept = _kept_length(pieces)
+    if not letter:
+        _require_kept(verb, kept, whole)
+        return (Line((), through, is_rod),)
+    if whole is None:
+        message = f"`{verb}` with a force also needs its length"
+        raise Rejected(Complaint("missing-key", message, help="give its `length`"))
+    if kept is not None:
+        message = f"the coordinates keep the length {kept}, so the force `{letter}` does not appear"
+        help_line = "leave out the force, or give the end a coordinate along the string, so that the tension keeps it"
+        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
+    require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
+    force = scalar(letter)
+    pulls = tuple(pull for piece in pieces for pull in piece.pulls(force))
+    found = tidied(Add(*(distance_between(piece.start, piece.end) for piece in pieces)))
+    constraint = Constraint(whole, found, force, forces=pulls, enforcer="rod" if is_rod else "string")
+    return Line(pulls, through, is_rod), constraint
+
+
+def _pieces(ends: Sequence[Any]) -> list[Piece]:
+    """Return the straight pieces between neighbouring ends and pulleys."""
+    found = []
+    for one, other in pairwise(ends):
+        tangent = _tangent(one, other)
+        bodies = [None if isinstance(each, Pulley) else end_of(each)[1] for each in (one, other)]
+        found.append(Piece(*tangent, (bodies[0], bodies[1])))
+    return found
+
+
+def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
+    """Return the ends of the straight piece between two ends or pulleys; at a pulley, the piece is parallel to an
+    axis."""
+    if not isinstance(one, Pulley) and not isinstance(other, Pulley):
+        return end_of(one)[0], end_of(other)[0]
+    for k in (0, 1):
+        for a in _touched(one, k):
+            for b in _touched(other, k):
+                if is_zero(tidied((b - a).components[k])):
+                    return a, b
+    place = next(each.at for each in (one, other) if isinstance(each, Pulley))
+    where = ", ".join(map(str, place.components))
+    message = f"no horizontal or vertical string is tangent to the pulley at ({where}) on the way to its neighbour"
+    help_line = "put the end of a vertical string at the distance of the radius beside the centre of the pulley"
+    raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _touched(each: Any, k: int) -> list[Location]:
+    """Return the points at which a line perpendicular to axis k may touch an end or a pulley."""
+    if not isinstance(each, Pulley):
+        return [end_of(each)[0]]
+    ways = ([ZERO] * len(each.at.components) for _ in range(2))
+    found = []
+    for sign, way in zip((1, -1), ways, strict=True):
+        way[k] = sign * each.radius
+        found.append(each.at + Location(tuple(way)))
+    return found
+
+
+def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
+    """Return the length of all pieces, if the coordinates and time do not change it.
+
+    The length of a piece on a fixed line is u or -u; one choice of the signs must give a constant sum.
+    """
+    lengths = []
+    for piece in pieces:
+        length = raw_distance(piece.start, piece.end)
+        lengths.append(length.replace(Abs, lambda size: size))
+    for signs in product((1, -1), repeat=len(lengths)):
+        whole = tidied(Add(*(sign * length for sign, length in zip(signs, lengths, strict=True))))
+        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])) and not whole.has(TIME):
+            return -whole if whole.could_extract_minus_sign() else whole
+    return None
+
+
+def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
+    """Require that the coordinates keep the length of a line without a symbol for its force."""
+    what = "rod" if verb == "massless_rod" else "string"
+    key = "force" if verb == "massless_rod" else "tension"
+    if kept is None:
+        message = f"the coordinates allow the length of the {what} to change, so a force must keep it"
+        raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
+    if whole is not None and not is_zero(kept - whole):
+        raise Rejected(Complaint("sizes", f"the coordinates keep the length {kept} of the {what}, not {whole}"))
 
 
 def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:
@@ -134,10 +273,10 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
 
 def _rim(place: Location, on: PlacedBody) -> Location:
     """Return the point of the rim at which a string from a place is tangent: the string is parallel to an axis."""
-    radius, way = radius_of(on), place - on.centre
+    radius, way = radius_of(on), place - on.hub
     for k, c in enumerate(way.components):
         if is_zero(tidied(c**2 - radius**2)):
-            return on.centre + Location(tuple(c if i == k else ZERO for i in (0, 1)))
+            return on.hub + Location(tuple(c if i == k else ZERO for i in (0, 1)))
     where = ", ".join(map(str, place.components))
     message = f"the string from ({where}) is not tangent to {on.body.name} beside its axis, or above or below it"
     help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"

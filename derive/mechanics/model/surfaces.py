@@ -32,10 +32,12 @@ class Surface(ABC):
     of      the body or particle that carries the surface; None if no described body does
     moves   the motion of the material of the surface, if no body carries it: the axes in which it is at rest, as for a
             turntable, or a place that moves with it, as for a belt; None if it is at rest
+    is_two_sided   whether it holds bodies on both sides, like a rail; the normal force then has either sign
     """
 
     of: Any
     moves: Location | Axes | None
+    is_two_sided: bool
 
     @abstractmethod
     def distance(self, at: Location) -> Expr:
@@ -132,7 +134,12 @@ class Circle(Surface):
 
 
 def plane(
-    through: Location, normal: Any = None, along: Any = None, of: Any = None, moves: Location | Axes | None = None
+    through: Location,
+    normal: Any = None,
+    along: Any = None,
+    of: Any = None,
+    moves: Location | Axes | None = None,
+    is_two_sided: bool = False,
 ) -> Plane:
     """A plane surface through a place.
 
@@ -141,11 +148,12 @@ def plane(
              is above a surface from left to right
     of       the body or particle that carries the surface
     moves    the axes in which the surface is at rest, or a place that moves with it; by default it is at rest
+    is_two_sided   whether it holds bodies on both sides, like a rail; the normal force then has either sign
     """
     if (normal is None) == (along is None):
         raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
     across = vector("plane", normal, through) if along is None else _left_of(vector("plane", along, through))
-    found = Plane(of, moves, through, unit("plane", across))
+    found = Plane(of, moves, is_two_sided, through, unit("plane", across))
     _check_motion(found)
     return found
 
@@ -170,12 +178,20 @@ def _check_motion(surface: Plane) -> None:
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
-def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, moves: Any = None) -> Circle:
+def circle(
+    centre: Location,
+    radius: Any,
+    inside: bool = False,
+    of: Any = None,
+    moves: Any = None,
+    is_two_sided: bool = False,
+) -> Circle:
     """A circular surface in a plane of motion, or a spherical surface in space.
 
     inside   whether the free side is inside, as in a bowl; by default it is outside
     of       as for `plane`; without it, the material moves with the centre
     moves    the axes in which the sphere is at rest
+    is_two_sided   whether it holds bodies on both sides, like a hoop; the normal force then has either sign
     """
     if isinstance(moves, Location):
         message = "a circle has no `velocity`: its material moves with its centre, or with the body that carries it"
@@ -183,7 +199,7 @@ def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, 
     if isinstance(moves, Axes) and len(centre.components) == 2:
         message = "a surface rotates with axes only in space; this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
-    return Circle(of, moves, centre, as_expr(radius), inside)
+    return Circle(of, moves, is_two_sided, centre, as_expr(radius), inside)
 
 
 def column_of(place: Location) -> ImmutableMatrix:

@@ -42,14 +42,10 @@ DISTANCE = Dummy("r", positive=True)
 
 @dataclass(frozen=True)
 class Particle(Part):
-    """A particle of constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1.
-
-    name   the kind of particle for a drawing: a "bob" hangs on a rod, a "bead" is on a wire
-    """
+    """A particle of constant mass, kg, at a place. Source: Taylor, *Classical Mechanics*, section 7.1."""
 
     mass: Expr
     at: Location
-    name: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.mass, Expr | int) or not isinstance(self.at, Location):

@@ -83,7 +83,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
     enforcer = _enforcer(force)
-    if enforcer in ("rod", "joint", "friction"):
+    if enforcer in ("rail", "rod", "joint", "motor", "friction"):
         message = f"`leaves_contact`: `{force.key}` is the force of a {enforcer}, which may have either sign"
         raise Rejected(Complaint("no-contact", message, help="give a normal force or the tension of a string"))
     if sign_known(value) == 1:

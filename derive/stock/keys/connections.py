@@ -11,8 +11,21 @@ from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, map
 from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Tree, Word
-from derive.errors import Faults, did_you_mean, rejected
-from derive.mechanics import circle, contact, dashpot, massless_rod, motor, pin, plane, string, weld, wound_string
+from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.mechanics import (
+    circle,
+    contact,
+    dashpot,
+    massless_rod,
+    motor,
+    pin,
+    plane,
+    pulley,
+    string,
+    weld,
+    wire,
+    wound_string,
+)
 from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
@@ -23,10 +36,11 @@ SURFACE_SHAPES = "give `through` with `along` or `normal` for a plane, or `centr
 
 @dataclass(frozen=True)
 class Connected:
-    """The names that connections may use: bodies and particles, and the described surfaces."""
+    """The names that connections may use: bodies and particles, and the described surfaces and pulleys."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
+    pulleys: Mapping[str, Deferred[Any]]
     places: Places
     letters: InLetters
 
@@ -43,13 +57,17 @@ class SurfaceKeys(Record):
     normal: tuple[Tree, ...] = key("for a plane, in place of `along`, the direction towards its free side", COMPONENTS)
     centre: WrittenPlace | None = key("for a circle or a sphere, its centre", PLACE)
     radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
-    side: str | None = key("for a circle or a sphere, the side of the bodies", one_of(("outside", "inside")))
+    side: str | None = key(
+        "the side of the bodies: `outside` or `inside` of a circle or a sphere; `both` for a rail, a wire or a hoop, "
+        "which holds them",
+        one_of(("outside", "inside", "both")),
+    )
     of: Word | None = key("the body or particle that carries the surface", TEXT)
     axes: Word | None = key("the axes in which the surface is at rest, as for a turntable", TEXT, called="in")
     velocity: tuple[Tree, ...] = key("the velocity of the surface, as for a belt", COMPONENTS)
 
     def part(self, name: Word, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
-        named: dict[str, Any] = {"moves": self._motion(places, letters)}
+        named: dict[str, Any] = {"moves": self._motion(places, letters), "is_two_sided": self.side == "both"}
         carried = {"of": named_bodies("of", [self.of], bodies, "")}
         if self.of and named["moves"] is not None:
             rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
@@ -58,8 +76,8 @@ class SurfaceKeys(Record):
             of = (places.at(self.centre, "centre"), letters.value(self.radius, "radius", "length"))
             return Deferred(circle, of, named, carried, self.places[""])
         if self.through is not None and bool(self.along) != bool(self.normal) and not (self.centre or self.radius):
-            if self.side:
-                message = "`side` belongs to a circle; the free side of a plane follows from `along` or `normal`"
+            if self.side not in (None, "both"):
+                message = f"a plane has no `{self.side}`; its free side follows from `along` or `normal`"
                 rejected("unused-key", message, self.places["side"], "leave it out")
             for role in ("along", "normal"):
                 if nodes := getattr(self, role):
@@ -155,6 +173,18 @@ class ContactKeys(Record):
 
 
 @dataclass(frozen=True)
+class PulleyKeys(Record):
+    """The keys of one entry of `pulleys:`, a massless frictionless pulley with a radius."""
+
+    at: WrittenPlace = key("its centre", PLACE, required=True)
+    radius: Tree = key("its radius", SCALAR, required=True)
+
+    def part(self, name: Word, places: Places, letters: InLetters) -> Deferred[Any]:
+        of = (places.at(self.at, "at"), letters.value(self.radius, "radius", "length"))
+        return Deferred(pulley, of, place=self.places[""])
+
+
+@dataclass(frozen=True)
 class StringKeys(Record):
     """The keys of one entry of `strings:`, a massless inextensible string."""
 
@@ -166,33 +196,35 @@ class StringKeys(Record):
         TEXT,
     )
     over: tuple[WrittenPlace, ...] = key(
-        "the pulleys or holes between the ends, in order: places, particles or points of bodies",
+        "the pulleys or holes between the ends, in order: pulleys, or places, particles or points of bodies",
         list_of(PLACE, "a list of places"),
     )
-    length: Tree | None = key("the length between the ends", SCALAR)
-    tension: Word = key("the symbol of the tension", TEXT, required=True)
+    length: Tree | None = key("the length of its straight pieces", SCALAR)
+    tension: Word | None = key(
+        "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
+    )
 
     def symbols(self) -> list[Word]:
-        return [self.tension]
+        return [self.tension] if self.tension is not None else []
 
     def part(self, known: Connected) -> Deferred[Any]:
         if self.wound_on is not None:
             return self._wound(self.wound_on, known)
-        if self.end is None or self.length is None:
-            rejected("missing-key", "a string needs `to` and `length`, or `wound_on`", self.places[""])
-        named = {
-            "over": tuple(_end(each, known, "over") for each in self.over),
-            "tension": force_letter(self.tension, known.letters),
-        }
+        if self.end is None:
+            rejected("missing-key", "a string needs `to`, or `wound_on`", self.places[""])
+        over = tuple(_over(each, known) for each in self.over)
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        of = (*ends, known.letters.value(self.length, "length", "length"))
-        return Deferred(string, of, named, forces=(str(self.tension),), place=self.places[""])
+        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over)
 
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
         for name in ("to", "over", "length"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string that is `wound_on` a body"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
+        if self.tension is None:
+            rejected(
+                "missing-key", "a string that is `wound_on` a body needs the symbol of its `tension`", self.places[""]
+            )
         tension = force_letter(self.tension, known.letters)
         of = (_end(self.start, known, "from"), material(on, known))
         return Deferred(wound_string, of, {"tension": tension}, forces=(tension,), place=self.places[""])
@@ -204,17 +236,17 @@ class MasslessRodKeys(Record):
 
     start: WrittenPlace = key("one end: a particle, a point of a body, or a place", PLACE, called="from", required=True)
     end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
-    length: Tree = key("its length", SCALAR, required=True)
-    force: Word = key("the symbol of the force in the rod, positive in tension", TEXT, required=True)
+    length: Tree | None = key("its length", SCALAR)
+    force: Word | None = key(
+        "the symbol of the force in the rod, positive in tension, if a coordinate allows its length to change", TEXT
+    )
 
     def symbols(self) -> list[Word]:
-        return [self.force]
+        return [self.force] if self.force is not None else []
 
     def part(self, known: Connected) -> Deferred[Any]:
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        of = (*ends, known.letters.value(self.length, "length", "length"))
-        named = {"force": force_letter(self.force, known.letters)}
-        return Deferred(massless_rod, of, named, forces=(str(self.force),), place=self.places[""])
+        return _line(massless_rod, ends, self.length, "force", self.force, known, self.places[""])
 
 
 @dataclass(frozen=True)
@@ -275,6 +307,11 @@ class DashpotKeys(Record):
         return Deferred(dashpot, of, place=self.places[""])
 
 
+def wire_on(name: Word, known: Connected) -> Deferred[Any]:
+    """Return the wire on which a particle of this name is threaded."""
+    return Deferred(wire, (material(name, known),), place=name.place)
+
+
 def material(name: Word, known: Connected) -> Material:
     """Return the body, particle or point of a body that a name denotes."""
     body, _, point = name.partition(".")
@@ -282,6 +319,31 @@ def material(name: Word, known: Connected) -> Material:
         help_line = did_you_mean(body, known.bodies)
         rejected("no-such-body", f"`{body}` is not a body or particle of this system", name.place, help_line)
     return Material(body, point_called(point) if point else None)
+
+
+def _line(
+    make: Any,
+    ends: tuple[Any, Any],
+    length: Tree | None,
+    name: str,
+    force: Word | None,
+    known: Connected,
+    place: Place,
+    **named: Any,
+) -> Deferred[Any]:
+    """Return a string or a massless rod; `name` is the argument of `make` for the symbol of its force."""
+    if length is not None:
+        named["length"] = known.letters.value(length, "length", "length")
+    if force is not None:
+        named[name] = force_letter(force, known.letters)
+    return Deferred(make, ends, named, forces=(str(force),) if force is not None else (), place=place)
+
+
+def _over(written: WrittenPlace, known: Connected) -> Any:
+    """Return a pulley, or the body, particle or place of a pulley without a radius."""
+    if written.name is not None and written.name in known.pulleys:
+        return known.pulleys[str(written.name)]
+    return _end(written, known, "over")
 
 
 def _end(written: WrittenPlace, known: Connected, name: str) -> Any:
@@ -301,4 +363,6 @@ SURFACES = mapping_of(record_of(SurfaceKeys, "a surface", "a mapping with `throu
 CONTACTS = list_of_parts(ContactKeys, "a contact")
 JOINTS, MOTORS = list_of_parts(JointKeys, "a joint"), list_of_parts(MotorKeys, "a motor")
 DASHPOTS = list_of_parts(DashpotKeys, "a dashpot")
+PULLEYS = mapping_of(record_of(PulleyKeys, "a pulley", "a mapping with `at` and `radius`", "the pulley `{}`"))
+WIRES = list_of(TEXT, "a list of particles, `[bead]`")
 STRINGS, MASSLESS_RODS = list_of_parts(StringKeys, "a string"), list_of_parts(MasslessRodKeys, "a massless rod")

@@ -47,7 +47,7 @@ class ParticleKeys(Record):
 
     def part(self, name: Word, places: Places, letters: InLetters) -> Deferred[Any]:
         of = (letters.value(self.mass, "mass", "mass"), places.at(self.at, "at"))
-        return Deferred(Particle, of, {"name": str(name)}, place=self.places[""])
+        return Deferred(Particle, of, place=self.places[""])
 
 
 @dataclass(frozen=True)

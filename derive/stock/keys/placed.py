@@ -31,6 +31,14 @@ POINT = as_written(
 
 
 @dataclass(frozen=True)
+class RimKeys(Record):
+    """The keys of `rim:` of a body."""
+
+    centre: WrittenPlace = key("its centre, a place that moves with the body", PLACE, required=True)
+    radius: Tree = key("its radius", SCALAR, required=True)
+
+
+@dataclass(frozen=True)
 class MovingBodyKeys(BodyKeys):
     """The keys of one entry of `bodies:`."""
 
@@ -44,6 +52,10 @@ class MovingBodyKeys(BodyKeys):
     )
     middle: tuple[Tree, ...] = key(
         "with `moments`, the position of its centre of mass along its own axes", list_of(SCALAR, "components", length=3)
+    )
+    rim: RimKeys | None = key(
+        "with `moments`, in a plane: the circle that bounds the body, with which it touches surfaces",
+        record_of(RimKeys, "rim", "a mapping with `centre` and `radius`"),
     )
     turned: Tree | None = key(
         "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with the body", SCALAR
@@ -73,6 +85,9 @@ class MovingBodyKeys(BodyKeys):
         )
         turned = self._turned(places, letters)
         named: dict[str, Any] = {"across": self.across}
+        if self.rim is not None:
+            radius = letters.value(self.rim.radius, "radius", "length")
+            named["rim"] = (places.at(self.rim.centre, "centre"), radius)
         if self.start is not None:
             named["on"] = places.at(self.start, "from")
             return Deferred(held, (body, turned, "end"), named, place=self.places[""])
@@ -84,7 +99,7 @@ class MovingBodyKeys(BodyKeys):
 
     def _check_used(self) -> None:
         """Reject a key that has no effect together with the other keys."""
-        own = {"moments", "middle", "mass", "turned", "centre", "held", "on", "across", "from", "to", "along"}
+        own = {"moments", "middle", "rim", "mass", "turned", "centre", "held", "on", "across", "from", "to", "along"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
             "centre": [name for name in ("on",) if name in self.values_at],
@@ -95,11 +110,10 @@ class MovingBodyKeys(BodyKeys):
             for other in others if first in self.values_at else ():
                 message = f"`{other}` has no effect on a body with `{first}`"
                 faults.error("unused-key", message, self.places[other], help="leave one of them out")
-        if "middle" in self.values_at and "moments" not in self.values_at:
-            message = "`middle` has no effect on a body without `moments`"
-            faults.error(
-                "unused-key", message, self.places["middle"], help="the shape determines where the centre of mass is"
-            )
+        for name, what in (("middle", "where the centre of mass is"), ("rim", "its boundary")):
+            if name in self.values_at and "moments" not in self.values_at:
+                message = f"`{name}` has no effect on a body without `moments`"
+                faults.error("unused-key", message, self.places[name], help=f"the shape determines {what}")
         faults.stop()
 
     def _check_one(self, what: str, *names: str) -> None:
@@ -211,14 +225,29 @@ BODIES = mapping_of(record_of(MovingBodyKeys, "a body", "a mapping with `shape` 
 ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
-def placed(body: DescribedBody | RigidBody, turned: Axes | Expr, centre: Location, across: str | None) -> Any:
+def placed(
+    body: DescribedBody | RigidBody,
+    turned: Axes | Expr,
+    centre: Location,
+    across: str | None,
+    rim: tuple[Location, Expr] | None = None,
+) -> Any:
     """Return the body with its centre of mass at a place."""
-    return _made(body).placed(turned, centre, across=across)
+    found = _made(body).placed(turned, centre, across=across)
+    return found if rim is None else found.with_rim(*rim)
 
 
-def held(body: DescribedBody | RigidBody, turned: Axes | Expr, point: Any, on: Location | None, across: Any) -> Any:
+def held(
+    body: DescribedBody | RigidBody,
+    turned: Axes | Expr,
+    point: Any,
+    on: Location | None,
+    across: Any,
+    rim: tuple[Location, Expr] | None = None,
+) -> Any:
     """Return the body with one of its points held at a place."""
-    return _made(body).held(turned, point, on=on, across=across)
+    found = _made(body).held(turned, point, on=on, across=across)
+    return found if rim is None else found.with_rim(*rim)
 
 
 def _made(body: DescribedBody | RigidBody) -> Any:

@@ -31,16 +31,20 @@ from derive.stock.keys.connections import (
     JOINTS,
     MASSLESS_RODS,
     MOTORS,
+    PULLEYS,
     STRINGS,
     SURFACES,
+    WIRES,
     Connected,
     ContactKeys,
     DashpotKeys,
     JointKeys,
     MasslessRodKeys,
     MotorKeys,
+    PulleyKeys,
     StringKeys,
     SurfaceKeys,
+    wire_on,
 )
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.formulas import FoundLetter
@@ -84,7 +88,7 @@ INDIFFERENT_TO_STATES = (
 )  # fmt: skip
 REPLACED_BY_LAGRANGIAN = (
     "axes", "places", "particles", "bodies", "rolling", "gravity", "springs", "central", "potential", "charges",
-    "constraints", "impact", "surfaces", "contacts", "strings", "massless_rods",
+    "constraints", "impact", "surfaces", "contacts", "pulleys", "wires", "strings", "massless_rods",
     "joints", "motors", "dashpots",
 )  # fmt: skip
 OF_CYCLIC = ("conserved", "routhian", "effective_potential", "equilibria")
@@ -125,6 +129,10 @@ class SystemKeys(Record):
     constraints: Sequence[ConstraintKeys] = key("conditions that constraint forces enforce", CONSTRAINTS)
     surfaces: Mapping[Word, SurfaceKeys] = key("surfaces that bodies touch, by name", SURFACES)
     contacts: Sequence[ContactKeys] = key("bodies that touch a surface, with the normal force and friction", CONTACTS)
+    pulleys: Mapping[Word, PulleyKeys] = key("massless frictionless pulleys with a radius, by name", PULLEYS)
+    wires: Sequence[Word] = key(
+        "particles that are threaded on a smooth wire, which has the shape of the curve of their one coordinate", WIRES
+    )
     strings: Sequence[StringKeys] = key("massless inextensible strings", STRINGS)
     massless_rods: Sequence[MasslessRodKeys] = key("rigid rods without mass", MASSLESS_RODS)
     joints: Sequence[JointKeys] = key("hinges, ball joints and rigid joints", JOINTS)
@@ -251,8 +259,12 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
     names = {str(name) for name in (*written.bodies, *written.particles)}
     surfaces = by_name(written.surfaces, places, known, names)
-    connected = Connected(names, surfaces, places, known)
-    acting += of_each(_connections(written), connected)
+    pulleys = by_name(written.pulleys, places, known)
+    connected = Connected(names, surfaces, pulleys, places, known)
+    acting += pulleys.values()
+    if len(surfaces) == len(written.surfaces) and len(pulleys) == len(written.pulleys):
+        acting += of_each(_connections(written), connected)
+    acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)

@@ -1,26 +1,14 @@
-"""What formulas say of a machine: rods, angles, lines and strings, and what is none."""
+"""The lines of polar coordinates and their angles, as the formulas of positions give them."""
 
 from __future__ import annotations
 
 import pytest
 from sympy import cos, sin
 
-from derive.figures.recognition import (
-    angle_of_link,
-    carrier_of,
-    is_fixed,
-    is_spring,
-    kept_length,
-    link_to,
-    moving_in,
-    ropes_of,
-    same,
-    strings_of,
-    track_of,
-)  # fmt: skip
-from derive.mechanics import Particle, System, central, constraint, coordinate, point, spring
+from derive.figures.links import angle_of_link, is_fixed, is_spring, link_to, moving_in, same
+from derive.mechanics import Particle, System, central, coordinate, point, spring
 from derive.steps.record import recorded
-from tests.figures.machines import ORIGIN, SYSTEMS, R, a, alpha, h, hung, k, l, l1, l2, letter, m, omega
+from tests.figures.machines import ORIGIN, SYSTEMS, R, a, hung, k, l, l1, l2, letter, m, omega
 
 
 @pytest.mark.parametrize(
@@ -103,43 +91,6 @@ def test_a_way_of_two_angles_that_do_not_add_has_none() -> None:
     assert str(turned[0]) == "theta"  # of phi the direction without it still moves
 
 
-def test_a_line_begins_where_its_coordinate_is_zero() -> None:
-    track = track_of(SYSTEMS["incline"], SYSTEMS["incline"].particles[0].at)
-    assert track is not None
-    assert (track.start, track.way, track.is_unit) == (ORIGIN, point(cos(alpha), -sin(alpha)), True)
-    assert track_of(SYSTEMS["parabola"], SYSTEMS["parabola"].particles[0].at) is None
-    assert track_of(SYSTEMS["pendulum"], SYSTEMS["pendulum"].particles[0].at) is None
-
-
-def test_the_foot_of_a_line_is_its_place_nearest_to_the_origin() -> None:
-    track = track_of(SYSTEMS["atwood"], SYSTEMS["atwood"].particles[1].at)
-    assert track is not None
-    assert track.foot == point(R, 0)
-
-
-def test_a_block_on_a_wedge_is_carried_by_it() -> None:
-    track = track_of(SYSTEMS["wedge"], SYSTEMS["wedge"].particles[1].at)
-    assert track is not None
-    assert str(track.by) == "s"
-    assert carrier_of(SYSTEMS["wedge"], 1, track) == 0
-    assert h in track.start.components[1].free_symbols
-
-
-@pytest.mark.parametrize(("name", "count"), [("atwood", 1), ("one_line", 1), ("table", 1), ("roof", 1), ("coupled", 0)])
-def test_a_string_is_where_one_gains_what_the_other_loses(name: str, count: int) -> None:
-    system = SYSTEMS[name]
-    tracks = {i: track for i in range(2) if (track := track_of(system, system.particles[i].at)) is not None}
-    assert len(ropes_of(tracks)) == count
-
-
-def test_two_that_move_alike_are_on_no_string() -> None:
-    with recorded():
-        x = coordinate("x", "length")
-        system = System(Particle(m, point(x, 0)), Particle(m, point(a + x, 0)))
-    tracks = {i: track for i in range(2) if (track := track_of(system, system.particles[i].at)) is not None}
-    assert ropes_of(tracks) == []
-
-
 def test_a_spring_has_an_energy_of_the_second_degree() -> None:
     d = letter("d")
     assert is_spring(spring(k, ORIGIN, point(l, 0), a))
@@ -152,22 +103,3 @@ def test_what_contains_the_time_moves() -> None:
     system = SYSTEMS["driven"]
     assert {letter.name for letter in moving_in(system, *system.particles[0].at.components)} == {"t", "theta"}
     assert is_fixed(system, point(a, omega))
-
-
-def test_a_constraint_on_the_sum_of_two_lengths_is_a_string() -> None:
-    with recorded():
-        x, y = coordinate("x", "length"), coordinate("y", "length")
-        hanging = Particle(m, point(-a, -x)), Particle(k, point(a, -y))
-        tracks = {i: track for i, each in enumerate(hanging) if (track := track_of(System(*hanging), each.at))}
-        assert strings_of(System(*hanging, constraint(x + y, l)), tracks) == [(0, 1)]
-        assert strings_of(System(*hanging, constraint(x - y, l)), tracks) == []
-        assert strings_of(System(*hanging), tracks) == []
-
-
-def test_a_distance_that_is_kept_is_the_radius_of_a_circle() -> None:
-    with recorded():
-        r, theta = coordinate("r", "positive length"), coordinate("theta")
-        bead = Particle(m, point(r * sin(theta), r * cos(theta)))
-        assert kept_length(System(bead, constraint(R - r)), r.symbol) == R
-        assert kept_length(System(bead, constraint(r, 2 * a)), r.symbol) == 2 * a
-        assert kept_length(System(bead), r.symbol) is None

@@ -1,6 +1,7 @@
-"""Recognise a machine from the formulas of positions: constant distances, rotations by an angle, and straight lines.
+"""Lines from a fixed or known point to a particle, and their angles, as the formulas of positions give them.
 
-Algebra decides each property, after numerical samples have excluded most of the wrong candidates.
+A link is the line along which polar coordinates are measured; it does not show a physical part. Algebra decides each
+property, after numerical samples have excluded most of the wrong candidates.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, explicit
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.figures.space import numeric
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import Central, System
 
@@ -34,31 +34,6 @@ class Link:
     @property
     def way(self) -> Location:
         return self.end - self.start
-
-
-@dataclass(frozen=True)
-class Track:
-    """A straight line on which a particle moves as one coordinate changes.
-
-    start   the point at which the coordinate is zero
-    way     the displacement for a change of the coordinate by 1
-    by      the coordinate
-    """
-
-    start: Location
-    way: Location
-    by: Symbol
-
-    @property
-    def foot(self) -> Location:
-        """Return the point on the line that is nearest to the origin."""
-        along = sum((a * b for a, b in zip(self.start.components, self.way.components, strict=True)), ZERO)
-        square = sum((b * b for b in self.way.components), ZERO)
-        return Location(tuple(tidied(a - along / square * b) for a, b in _pairs(self.start, self.way)))
-
-    @property
-    def is_unit(self) -> bool:
-        return vanishes(Add(*(c**2 for c in self.way.components)) - 1)
 
 
 def _pairs(a: Location, b: Location) -> zip[tuple[Expr, Expr]]:
@@ -96,7 +71,9 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
     known += [place for place in named if not same(place, end)]
-    found = [start for q in moving_in(system, *end.components) if (start := _without(end, q)) is not None]
+    moving = moving_in(system, *end.components)
+    found = [start for q in moving if (start := _without(end, q)) is not None]
+    found += [place for place in known if moving_in(system, *place.components) & moving]
     starts = sorted(found, key=lambda start: _rank(system, start, known))
     for start in starts:
         link = _link(system, start, end)
@@ -178,101 +155,3 @@ def _angles(direction: Iterable[Expr]) -> list[Expr]:
     """Return the arguments of sines and cosines; single symbols come first."""
     found = {function.args[0] for c in direction for function in c.atoms(sin, cos)}
     return sorted(found, key=lambda angle: (not angle.is_Symbol, str(angle)))
-
-
-# --- straight lines --------------------------------------------------------------------------------------------------
-
-
-def track_of(system: System, place: Location) -> Track | None:
-    """Return the line on which a point moves with the last coordinate that is a length and has a fixed direction."""
-    for q in reversed(list(system.coordinates)):
-        if system.coordinates[q] != "length":
-            continue
-        way = Location(tuple(c.diff(q) for c in place.components))
-        if any(way.components) and is_fixed(system, way):
-            return Track(Location(tuple(c.xreplace({q: ZERO}) for c in place.components)), way, q)
-    return None
-
-
-def carrier_of(system: System, index: int, track: Track) -> int | None:
-    """Return the index of the particle with which the line itself moves; None if there is no such particle."""
-    for j, other in enumerate(system.particles):
-        if j != index and not is_fixed(system, other.at) and is_fixed(system, track.start - other.at):
-            return j
-    return None
-
-
-def is_rod(system: System, a: Location, b: Location) -> bool:
-    """Return whether two points, of which at least one moves, have a constant distance that is not zero."""
-    square = Add(*(c**2 for c in (b - a).components))
-    moving = moving_in(system, *a.components, *b.components)
-    return bool(moving and square != 0 and not _varies(square, moving) and not moving_in(system, tidied(square)))
-
-
-# --- strings ---------------------------------------------------------------------------------------------------------
-
-
-def ropes_of(tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Return pairs of particles with the same coordinate, one on each side of a pulley.
-
-    The foot of a line is its point nearest to the origin. One particle moves towards the foot of its line, and the
-    other away from the foot of its own line.
-    """
-    found: list[tuple[int, int]] = []
-    for i, one in tracks.items():
-        for j, other in tracks.items():
-            if i < j and one.by == other.by and one.is_unit and other.is_unit:
-                if _way_from_foot(one) * _way_from_foot(other) < 0:
-                    found.append((i, j))
-    return found
-
-
-def strings_of(system: System, tracks: dict[int, Track]) -> list[tuple[int, int]]:
-    """Return pairs of particles with a constraint on the sum of their coordinates, so a string joins them."""
-    held = [(each, set(each.coordinates)) for each in system.constraints if not each.in_rates]
-    pairs = [(i, j) for i in tracks for j in tracks if i < j and tracks[i].is_unit and tracks[j].is_unit]
-    return [
-        (i, j)
-        for i, j in pairs
-        if any(
-            moving == {tracks[i].by, tracks[j].by} and vanishes(each.along(tracks[i].by) - each.along(tracks[j].by))
-            for each, moving in held
-        )
-    ]
-
-
-def kept_length(system: System, length: Expr) -> Expr | None:
-    """Return the constant value that a constraint gives to a distance, such as R for r - R = 0; None without a
-    constraint."""
-    for each in system.constraints:
-        if not each.in_rates and set(each.coordinates) == {length}:
-            share = each.along(length)
-            found = tidied(length - each.residual / share) if share.is_number else length
-            if not moving_in(system, found):
-                return found
-    return None
-
-
-def through_hole(system: System, link: Link, other: Location) -> Symbol | None:
-    """Return the symbol for the length of a string through a hole at the start of a link.
-
-    The string joins the particle at the end of the link to another particle vertically below the hole. The result is
-    None if there is no such string.
-    """
-    way = other - link.start
-    *across, height = way.components
-    if (
-        link.is_constant
-        or not is_fixed(system, link.start)
-        or any(across)
-        or tidied(derivative(height, link.length)) != 1
-    ):
-        return None
-    string = tidied(link.length - height)
-    return string if string.is_Symbol and not moving_in(system, string) else None
-
-
-def _way_from_foot(track: Track) -> float:
-    """Return the signed distance of a particle from the foot of its line, when the coordinate is 1/2."""
-    along = Add(*(a * b for a, b in _pairs(track.start, track.way))) + track.by
-    return numeric(along, {track.by: HALF})

@@ -1,0 +1,540 @@
+"""The marks of what connects the parts of a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
+
+Each described thing is drawn as what it is; nothing is guessed from formulas or from the names of symbols.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import combinations, pairwise
+from typing import Any, TypeVar
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
+
+from derive.algebra.expressions import TIME, column, explicit
+from derive.algebra.tidy import tidied
+from derive.figures.annotations import Arrow, AxisOfRotation, PointMark, Turn
+from derive.figures.annotations import Line as Edge
+from derive.figures.elements import UNDER
+from derive.figures.links import Link, is_fixed, moving_in, same
+from derive.figures.marks import Mark
+from derive.figures.parts import (
+    BLOCK,
+    BarMark,
+    BlockMark,
+    ConnectionMark,
+    CornerRopeMark,
+    DashpotMark,
+    PlankMark,
+    RopeMark,
+    WedgeMark,
+    WheelMark,
+)
+from derive.figures.placed_bodies import placed_outline, with_its_shape
+from derive.figures.positions import column_of
+from derive.figures.scenes import drawn_at
+from derive.figures.space import numeric
+from derive.figures.surfaces import Circle as CircleMark
+from derive.figures.surroundings import ROOM, AngleBetween, FixedEnd, FloorMark, GroundMark, WayMark
+from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.model.connection import Connection
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.joints import Dashpot, Motor, Pin
+from derive.mechanics.model.strings import Line, Pulley, Wire
+from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot
+from derive.mechanics.model.system import Particle, System
+
+ZERO, ONE = Integer(0), Integer(1)
+ACROSS = column(0, 0, 1)
+# Values of free coordinates, relative to the largest body.
+AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
+WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
+HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
+BOWL = 4  # the radius of a bowl, relative to the largest body in it
+TABLE = 4  # the radius of a table in space, relative to the largest body on it
+PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
+ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
+SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
+FAR = Rational(8, 5)  # drawn range of a wire, relative to the value of its coordinate
+
+Sort = TypeVar("Sort", bound=Connection)
+
+
+def connections_of(system: System, sort: type[Sort]) -> list[Sort]:
+    """Return the connections of one sort."""
+    return [part for part in system.parts if isinstance(part, sort)]
+
+
+class Connections:
+    """The connections of a system, the numbers at which they are drawn, and their marks.
+
+    in_a_plane   whether the system moves in a plane; surfaces are drawn only there
+    """
+
+    def __init__(self, system: System):
+        self.system = system
+        self.contacts = connections_of(system, Contact)
+        self.lines = connections_of(system, Line)
+        self.pins = connections_of(system, Pin)
+        self.wires = connections_of(system, Wire)
+        self.rows = len(system.places[0].components)
+        self.in_a_plane = self.rows == 2
+
+    def __bool__(self) -> bool:
+        return bool(self.contacts or self.lines or self.pins)
+
+    # --- numbers ---
+
+    @cached_property
+    def values(self) -> dict[Symbol, Any]:
+        """A value for each coordinate: a position in which each constraint is satisfied."""
+        found: dict[Symbol, Any] = {}
+        for circle in (each.surface for each in self.contacts if isinstance(each.surface, Circle)):
+            if circle.inside and circle.radius.is_Symbol and self.size != ONE:
+                found[circle.radius] = BOWL * self.size
+        for each in self.contacts:
+            if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
+                found |= self._on_circle(each)
+        for constraint in self.system.constraints:
+            if not constraint.in_rates and constraint.forces:
+                found |= self._solved(constraint, found)
+        free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
+        carriers = [each.through for each in self._planes if each.of is not None]
+        carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
+        for i, q in enumerate(sorted(free, key=lambda q: q in carried)):
+            found[q] = self._free_value(q, len(found)) or self.size * (
+                self._farthest if q in carried else AWAY[i % len(AWAY)]
+            )
+        found |= self._arms() | self._amplitudes()
+        chosen = {letter: found[letter] for letter in found if letter in free or letter not in self.system.coordinates}
+        return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
+
+    def _free_value(self, q: Symbol, before: int) -> Expr | None:
+        """Return a value for a length, as a fraction of a length that remains in the positions when it is zero: less
+        for displacements from places at rest, so that parts stay in their order."""
+        zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
+        components = [c for place in self.system.places for c in place.components]
+        rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
+        known = [letter for letter in rests if letter is not None]
+        if known:
+            falls = all(diff(place.components[0], q) == 0 for place in self.system.places) and self.system.weights
+            return (Rational(2, 5) if falls or len(known) < len(rests) else Rational(1, 4 + before)) * known[0]
+        others = {
+            letter for c in components for letter in c.xreplace(zero).free_symbols if c.has(*self.system.coordinates)
+        }
+        is_alone = self.size == ONE and not any(q in c.free_symbols and c != q for c in components)
+        return Rational(1, 4) * min(others, key=str) if others and is_alone and q in components else None
+
+    def _arms(self) -> dict[Symbol, Expr]:
+        """Values of the distances of centres of mass from the centres of rims."""
+        found = {}
+        for placed in self.system.bodies:
+            if placed.rim is not None:
+                arm = distance_of(placed.hub, placed.centre)
+                if arm.is_Symbol and not moving_in(self.system, arm):
+                    found[arm] = Rational(3, 5) * placed.rim[1]
+        return found
+
+    def _amplitudes(self) -> dict[Symbol, Expr]:
+        """Values of the amplitudes of supports that oscillate, relative to the string or rod at the support."""
+        found = {}
+        for line in self.lines:
+            length = self._kept_length(line)
+            terms = [t for place in line.places for c in place.components for t in Add.make_args(c) if t.has(TIME)]
+            for term in terms if length is not None and not self._turns() else ():
+                for letter in term.as_independent(TIME)[0].free_symbols if term.has(sin, cos) else ():
+                    found[letter] = Rational(3, 10) * length
+        return found
+
+    def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:
+        """Values of Cartesian coordinates of a body on a circle with its centre at a fixed place."""
+        body = touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
+        x, y = body.components
+        circle: Any = touch.surface
+        if not all(c in self.system.coordinates for c in (x, y)):
+            return {}
+        distance = tidied(touch.gap - dot(touch.normal, body - circle.centre))
+        far = distance if circle.inside else -distance
+        up = -1 if circle.inside else 1
+        along = Location((far * sin(ROUND), up * far * cos(ROUND)))
+        return dict(zip((x, y), (circle.centre + along).components, strict=True))
+
+    def _solved(self, constraint: Constraint, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
+        """Solve a constraint for a coordinate, or for a length that it contains, such as the length of a string."""
+        if constraint.left.is_Symbol and constraint.left not in self.system.coordinates:
+            return {constraint.left: tidied(constraint.right.subs(known))}
+        residual = explicit(constraint.residual).subs(known)
+        free = [q for q in constraint.coordinates if q not in known]
+        for q in reversed(free):
+            share = tidied(diff(residual, q))
+            if share != 0 and not moving_in(self.system, share):
+                return {q: tidied(q - residual / share)}
+        return {}
+
+    @property
+    def _farthest(self) -> Rational:
+        """The coordinate of a carrier: a wedge is to the right of the body on it, the middle of a plank to the left."""
+        slopes = [each for each in self._planes if each.of is not None and tidied(each.unit_normal.components[0]) != 0]
+        return Rational(5, 2) if slopes else Rational(4, 5)
+
+    @property
+    def _span(self) -> Expr:
+        """The distance of the two farthest ends of strings."""
+        places = [place for line in self.lines for place in line.places]
+        return max((distance_of(a, b) for a, b in combinations(places, 2) if not same(a, b)), key=self.number)
+
+    @property
+    def size(self) -> Expr:
+        """The size of the largest body."""
+        sizes = [mark.radius for mark in self._outlines if isinstance(mark, WheelMark) and mark.radius is not None]
+        return max(sizes, key=numeric, default=ONE)
+
+    def number(self, value: Expr) -> float:
+        return numeric(value.subs(self.values), self.values)
+
+    @cached_property
+    def _outlines(self) -> list[Mark]:
+        return [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
+
+    # --- marks ---
+
+    @property
+    def marks(self) -> Iterator[Mark]:
+        if self.in_a_plane:
+            for surface in dict.fromkeys(each.surface for each in self.contacts):
+                yield from self._surface(surface, [each for each in self.contacts if each.surface == surface])
+        else:
+            for plane in self._planes:
+                yield from self._table(plane)
+        for pulley in connections_of(self.system, Pulley):
+            yield from self._pulley(pulley.at, pulley.radius, Rational(9, 5) * pulley.radius)
+        labels: set[Any] = set()  # each angle is drawn once
+        for line in self.lines:
+            yield from self._line(line, labels)
+        for pin in self.pins:
+            yield self._pin(pin)
+        for wire in self.wires:
+            yield from self._wire(wire)
+        for motor in connections_of(self.system, Motor):
+            yield from self._motor(motor)
+        yield from self._dashpots()
+
+    # --- surfaces ---
+
+    def _surface(self, surface: Surface, contacts: Sequence[Contact]) -> Iterable[Mark]:
+        if isinstance(surface, Circle):
+            yield from self._circle(surface, contacts)
+        elif isinstance(surface, Plane):
+            low, high = self._ends(surface, contacts)
+            if isinstance(surface.of, Particle):
+                yield from self._carrier(surface, low, high)
+            elif surface.of is None and not all(self._carries(each.of) for each in contacts):
+                yield from self._plane(surface, low, high, contacts)
+                yield from self._slope(surface, low, high)
+
+    def _table(self, plane: Plane) -> Iterable[Mark]:
+        """Yield a horizontal plane in space as a round table, with the axis about which it rotates."""
+        up = plane.unit_normal
+        if up.components != (ZERO, ZERO, ONE) or not is_fixed(self.system, plane.through):
+            return
+        through = column_of(plane.through)
+        yield CircleMark(through, ACROSS, TABLE * self.ball_size, True)
+        if isinstance(plane.moves, Axes):
+            rate = next((diff(angle, TIME) for i, angle in plane.moves.turns if i == 2), None)
+            if rate is not None:
+                yield AxisOfRotation(through, ACROSS, rate, label=rate)
+
+    @property
+    def ball_size(self) -> Expr:
+        """The radius of the largest body in space that touches a surface."""
+        gaps = [tidied(dot(each.normal, each.of.hub - each.at)) for each in self.contacts if hasattr(each.of, "hub")]
+        return max(gaps, key=numeric, default=ONE)
+
+    def _carries(self, of: Any) -> bool:
+        """Whether a particle carries a surface, and is therefore drawn as a wedge or a plank on its own floor."""
+        return any(each.surface.of == of for each in self.contacts)
+
+    def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
+        """Yield the hatched line of a fixed plane; a rail has no hatches, and a belt has an arrow instead."""
+        if plane.is_two_sided:
+            yield Edge(column_of(low), column_of(high), "edge")
+        elif isinstance(plane.moves, Location):
+            velocity = Location(tuple(diff(c, TIME) for c in plane.moves.components))
+            size = tidied(sqrt(Add(*(c**2 for c in velocity.components))))
+            yield Edge(column_of(low), column_of(high), "edge")
+            start = low + Rational(1, 10) * (high - low) - self.size * Rational(1, 5) * plane.unit_normal
+            yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
+        elif self.carries_only_blocks(plane):
+            yield self._floor(plane, contacts)
+        else:
+            yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
+
+    def carries_only_blocks(self, plane: Surface) -> bool:
+        """Whether the plane is a level floor under particles, which are drawn as blocks with their centres at their
+        places, so that springs and strings are at half their height."""
+        on_it = [each.of for each in self.contacts if each.surface == plane]
+        return (
+            isinstance(plane, Plane)
+            and plane.of is None
+            and is_zero_direction(plane.unit_normal.components[0])
+            and all(isinstance(of, Particle) for of in on_it)
+        )
+
+    def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
+        """Return the floor under blocks, from wall to wall, or up to a pulley."""
+        height = plane.through.components[1]
+        ends = [place for each in self.system.between for place in (each.start, each.end)]
+        ends += [place for line in self.lines for place in line.places]
+        walls = [p for p in ends if is_fixed(self.system, p) and tidied(p.components[1] - height) == 0]
+        blocks = [each.at for each in contacts]
+        middle = sum(self.number(place.components[0]) for place in blocks) / len(blocks)
+        sides = {self.number(wall.components[0]) > middle for wall in walls}
+        starts = [each.foot for each in contacts] + [Location((ZERO, height))]
+        margins = (0.0 if False in sides else ROOM, 0.0 if True in sides else ROOM)
+        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), UNDER[BlockMark], margins)
+
+    def _ends(self, plane: Plane, contacts: Sequence[Contact]) -> tuple[Location, Location]:
+        """The ends of the drawn part of a plane, from the lower or left end to the other end."""
+        n = plane.unit_normal
+        along = Location((n.components[1], -n.components[0]))
+        if self.number(along.components[1]) < -SMALL or abs(self.number(along.components[1])) <= SMALL > self.number(
+            along.components[0]
+        ):
+            along = -along
+        ways = [dot(along, each.at - plane.through) for each in contacts]
+        past = self.size * PAST
+        meets = any(other != plane and same(other.through, plane.through) for other in self._planes)
+        first, last = (choice([*ways, ZERO] if meets else ways, key=self.number) for choice in (min, max))
+        if isinstance(plane.of, Particle) and abs(self.number(along.components[1])) <= SMALL:
+            half = max((tidied(way) for way in ways), key=lambda way: abs(self.number(way)))
+            far = (half if self.number(half) > 0 else -half) + past
+            return plane.through - far * along, plane.through + far * along  # the place of a plank is its middle
+        if isinstance(plane.of, Particle):  # a wedge, whose face begins at its place
+            first, last = (ZERO, last + past) if self.number(last) > -self.number(first) else (first - past, ZERO)
+            return plane.through + first * along, plane.through + last * along
+        low = first if meets and first == 0 else first - past
+        high = last if meets and last == 0 else last + past
+        return plane.through + low * along, plane.through + high * along
+
+    @property
+    def _planes(self) -> list[Plane]:
+        return list(dict.fromkeys(each.surface for each in self.contacts if isinstance(each.surface, Plane)))
+
+    def _slope(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
+        """Yield the angle of an inclined plane, at its lower end."""
+        x, y = (high - low).components
+        if abs(self.number(x)) <= SMALL or abs(self.number(y)) <= SMALL:
+            return
+        angle = _angle_in(plane.unit_normal)
+        level = _direction(1 if self.number(x) > 0 else -1, 0)
+        if angle is not None:
+            yield AngleBetween(column_of(low), level, column_of(high - low), True, label=angle)
+
+    def _carrier(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
+        """Yield the particle that carries a plane: a wedge under a slope, or a plank under a level plane. A wedge that
+        touches a level floor stands on it."""
+        x, y = (high - low).components
+        label = plane.of.mass
+        if abs(self.number(y)) <= SMALL:
+            down = Location((ZERO, -self.size * Rational(1, 3)))
+            corners: tuple[Location, ...] = (low, high, high + down, low + down)
+            sort: type[WedgeMark] = PlankMark
+        else:
+            if (height := self._floor_under(plane.of)) is not None:
+                low = low + tidied((height - low.components[1]) / y) * (high - low)
+            corners, sort = (low, high, Location((high.components[0], low.components[1]))), WedgeMark
+            angle = _angle_in(plane.unit_normal)
+            level = _direction(1 if self.number(x) > 0 else -1, 0)
+            if angle is not None:
+                yield AngleBetween(column_of(low), level, column_of(high - low), label=angle)
+        yield sort(tuple(map(column_of, corners)), label=label)
+        lowest = corners[-2:] if sort is PlankMark else (corners[0], corners[-1])
+        yield FloorMark(tuple(column_of(corner) for corner in lowest))
+
+    def _floor_under(self, particle: Particle) -> Expr | None:
+        """The height of the fixed level plane on which a particle stands."""
+        for each in self.contacts:
+            if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
+                return each.surface.through.components[1]
+        return None
+
+    def _circle(self, circle: Circle, contacts: Sequence[Contact]) -> Iterable[Mark]:
+        centre = column_of(circle.centre)
+        if isinstance(circle.of, PlacedBody):
+            return
+        touch = contacts[0]
+        yield CircleMark(centre, ACROSS, circle.radius, not circle.inside and not circle.is_two_sided)
+        yield PointMark(centre)
+        if circle.inside and isinstance(touch.of, PlacedBody):  # the body covers the line to the contact
+            between = line_between(circle.centre, touch.of.hub)
+            yield Edge(centre, column_of(touch.of.hub), label=between.length if touch.is_kept else None)
+        else:
+            yield ConnectionMark(centre, column_of(touch.at), label=circle.radius)
+        yield from angle_marks(self.system, line_between(circle.centre, touch.at))
+
+    # --- strings, rods, wires and joints ---
+
+    def _line(self, line: Line, labels: set[Any]) -> Iterable[Mark]:
+        places = line.places
+        columns = [column_of(place) for place in places]
+        if line.is_rod:
+            yield BarMark(columns[0], columns[-1], label=self._kept_length(line))
+        elif self._is_corner(line):
+            start, corner, end = columns
+            yield CornerRopeMark(start, corner, end, self._lifts(line))
+        else:
+            small = self._span * WHEEL if self.in_a_plane and len(places) > 2 else ZERO
+            radii = [e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]]
+            label = self._kept_length(line) if len(places) == 2 else None
+            yield RopeMark(tuple(columns), (ZERO, *radii, ZERO), label=label)
+            for each in line.through[1:-1]:
+                if not isinstance(each, Pulley) and self.in_a_plane:
+                    yield from self._pulley(each, small, HANGER * self._span)
+        if len(places) == 2:
+            for mark in angle_marks(self.system, self._link_along(line)):
+                if mark.label is None or mark.label not in labels:
+                    labels.add(mark.label)
+                    yield mark
+        for place, other in ((places[0], places[1]), (places[-1], places[-2])):
+            yield from self._end(line, place, other)
+
+    def _is_corner(self, line: Line) -> bool:
+        """Whether a string has one fixed corner without a radius, as at the edge of a table."""
+        corner = line.through[1]
+        is_alone = len(line.through) == 3 and not isinstance(corner, Pulley)
+        return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
+
+    def _lifts(self, line: Line) -> tuple[float, float]:
+        """The distances of the two parts of a string from the surfaces below them: a block that stands on a slope holds
+        its string at half its height."""
+        stands = [
+            any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
+            for place in (line.places[0], line.places[-1])
+        ]
+        return (BLOCK[1] / 2 if stands[0] else 0.0, BLOCK[1] / 2 if stands[1] else 0.0)
+
+    def _kept_length(self, line: Line) -> Expr | None:
+        """The length of a straight string or rod, if it is a symbol or a multiple of one."""
+        constraint = next((c for c in self.system.constraints if c.forces and c.forces == line.forces), None)
+        length = constraint.left if constraint is not None else distance_of(line.places[0], line.places[-1])
+        return length if length.as_coeff_Mul()[1].is_Symbol and not moving_in(self.system, length) else None
+
+    def _link_along(self, line: Line) -> Link:
+        """The link from the end about which the line rotates to its other end."""
+        start, end = line.places
+        moving = [moving_in(self.system, *place.components) for place in (start, end)]
+        return line_between(end, start) if len(moving[1]) < len(moving[0]) else line_between(start, end)
+
+    def _pulley(self, at: Location, radius: Expr, hanger: Expr) -> Iterable[Mark]:
+        """Yield a pulley and, if it is fixed, its hanger of this length."""
+        particle = next((one for one in self.system.particles if same(one.at, at)), None)
+        label = radius if radius.is_Symbol and hanger != HANGER * self._span else None
+        yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
+        if particle is None and is_fixed(self.system, at):
+            above = at + Location((ZERO, hanger))
+            yield BarMark(column_of(at), column_of(above))
+            yield FixedEnd(column_of(above), downwards(2))
+
+    def _end(self, line: Line, place: Location, other: Location) -> Iterable[Mark]:
+        """Yield the support of an end of a string or of a rod that is fixed, or has a prescribed motion."""
+        holds = any(same(place, at) for _, at in self.system.masses) or any(
+            same(place, each.at) for each in connections_of(self.system, Pulley)
+        )
+        holds |= any(force.of is not None and same(force.at, place) for force in line.forces)
+        inside = any(same(place, between) for between in line.places[1:-1])
+        if holds or inside or moving_in(self.system, *place.components) - {TIME}:
+            return
+        if any(moving_in(self.system, *p.components) - {TIME} == set() for p in (other,)) or self._turns():
+            yield PointMark(column_of(place))
+            return
+        below = self.rows == 3 or line.is_rod or self.number((other - place).components[1]) < 0
+        yield FixedEnd(column_of(place), downwards(self.rows) if below else column_of(other - place), line.is_rod)
+        yield from displacement_marks(self.system, place)
+
+    def _turns(self) -> bool:
+        """Whether the system is in space and has a prescribed rotation, so that no ceiling holds it."""
+        angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
+        return self.rows == 3 and any(angle.has(TIME) for angle in angles)
+
+    def _pin(self, pin: Pin) -> Mark:
+        if is_fixed(self.system, pin.at):
+            return FixedEnd(column_of(pin.at), downwards(self.rows), True)
+        return PointMark(column_of(pin.at))
+
+    def _wire(self, wire: Wire) -> Iterable[Mark]:
+        """Yield the curve on which a particle moves with its coordinate."""
+        at = wire.of.at
+        (q,) = moving_in(self.system, *at.components) - {TIME}
+        start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
+        turns = any(c.has(TIME) for c in at.components) and not any(diff(c, q, 2) for c in at.components)
+        is_half = turns and self.system.coordinates[q] == "length" and is_fixed(self.system, start)
+        low, high = (-pi, pi) if self.system.coordinates[q] == "angle" else (ZERO if is_half else -FAR * q, FAR * q)
+        yield WayMark(column_of(at), q, low, high, "wire")
+
+    def _motor(self, motor: Motor) -> Iterable[Mark]:
+        """Yield the arrow of the torque about the axis of the body that the motor turns."""
+        for placed in self.system.bodies if self.in_a_plane else ():
+            sense = diff(placed.turned, motor.angle) if motor.angle.is_Symbol else ZERO
+            if sense in (1, -1) and is_fixed(self.system, placed.at):
+                yield Turn(column_of(placed.at), sense * ACROSS, Rational(1, 8), label=motor.torque)
+
+    def _dashpots(self) -> Iterator[Mark]:
+        """Yield the dashpots, each beside the spring between the same places, if there is one."""
+        springs = [{each.start.components, each.end.components} for each in self.system.between]
+        for each in connections_of(self.system, Dashpot):
+            beside = {each.start.components, each.end.components} in springs
+            yield DashpotMark(column_of(each.start), column_of(each.end), beside, label=each.constant)
+
+    # --- particles ---
+
+    def block(self, particle: Particle) -> list[Mark] | None:
+        """Return the block that shows a particle on a plane; an empty list if something else shows the particle, as a
+        wedge or a pulley does; None if it is a small disc."""
+        if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane:
+            return []
+        if any(same(particle.at, place) for line in self.lines for place in line.places[1:-1]) and self.in_a_plane:
+            return []
+        touch = next((each for each in self.contacts if each.of == particle), None)
+        if touch is None or not isinstance(touch.surface, Plane) or not self.in_a_plane:
+            return None
+        stands = not touch.surface.is_two_sided and not self.carries_only_blocks(touch.surface)
+        return [BlockMark(column_of(particle.at), column_of(touch.tangent), stands=stands, label=particle.mass)]
+
+    def holds(self, particle: Particle) -> bool:
+        """Whether a contact, a string, a rod or a wire shows how the particle is placed."""
+        touched = any(each.of == particle for each in self.contacts) and self.in_a_plane
+        return touched or any(same(particle.at, line.places[k]) for line in self.lines for k in (0, -1))
+
+    def is_on_wire(self, at: Location) -> bool:
+        return any(same(wire.of.at, at) for wire in self.wires)
+
+    def runs_along(self, link: Link) -> bool:
+        """Whether a string, a rod or the radius of a circle is drawn along a link, with its length."""
+        pieces = [line.places for line in self.lines if link.is_constant or len(line.places) == 2]
+        ends = [piece for places in pieces for piece in pairwise(places)]
+        circles = [each.surface for each in self.contacts if isinstance(each.surface, Circle) and self.in_a_plane]
+        centred = any(same(circle.centre, link.start) for circle in circles)
+        return centred or any(same(a, link.start) and same(b, link.end) for one in ends for a, b in (one, one[::-1]))
+
+
+def distance_of(start: Location, end: Location) -> Expr:
+    """Return the distance of two places for a drawing, without a decision about its sign."""
+    return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
+
+
+def is_zero_direction(component: Expr) -> bool:
+    return bool(tidied(component) == 0)
+
+
+def _direction(x: Any, y: Any) -> Any:
+    return ImmutableDenseMatrix([x, y])
+
+
+def _angle_in(direction: Location) -> Expr | None:
+    """The symbol whose sine and cosine are the components of a direction."""
+    angles = {f.args[0] for c in direction.components for f in c.atoms(sin, cos)}
+    return next((angle for angle in angles if angle.is_Symbol), None)
