@@ -340,7 +340,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
     if any(part is None or part.degree() > 2 for part, _ in found):
         degree = max(part.degree() for part, _ in found if part is not None)
         message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
-        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or a special case"))
+        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 

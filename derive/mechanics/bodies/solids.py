@@ -353,8 +353,8 @@ class Torus(Body):
         return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
-        """Rings through the five particles of the cross-section; the mass of each ring is proportional to its radius
-        too."""
+        """The particles of five rings, one through each particle of the cross-section. The mass of a ring is the mass
+        of this particle times the radius of the ring divided by `radius`."""
         found: Particles = []
         for share, place in disc_of_particles(self.mass, self.section, ZERO):
             radius = self.radius + place[0]

@@ -379,7 +379,10 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
-    """Return the virtual work and zero. Each coordinate has an independent displacement, so no two terms cancel."""
+    """Return the two sides of d'Alembert's principle: the virtual work of m a - F, and zero.
+
+    Each coordinate has a displacement of its own, so the terms of two coordinates cannot cancel.
+    """
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
@@ -460,7 +463,8 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
 
 
 def _contradict(constraints: Sequence[Constraint]) -> bool:
-    """Whether a multiple of one constraint differs from another by a nonzero expression without coordinates."""
+    """Whether two of the constraints contradict each other: one minus a multiple of the other is not zero, and contains
+    no coordinates."""
     for i, one in enumerate(constraints):
         for other in constraints[:i]:
             shared = [q for q in one.coordinates if one.along(q) != 0 and other.along(q) != 0]

@@ -380,7 +380,7 @@ def is_its_derivative(facts: Judged, outcome: str) -> bool:
 
 
 def _nearby(point: Point) -> Expr:
-    """Return a distance that is small compared with every number of a point."""
+    """Return a distance that is small compared with every value of a trial point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 

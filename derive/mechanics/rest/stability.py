@@ -45,7 +45,7 @@ FEW = 5  # number of coordinates up to which every direction with entries 0, 1 a
 SHORT = 80  # number of operations up to which a curvature is shown before the equilibrium is substituted
 ZERO = Integer(0)
 BY_FIRST_ORDER = Spelled(
-    "to first order the equations of motion decide, `linear_stability(linearised(motion))`", "ask for `linearised`"
+    "decide with the equations of motion to first order: `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
     "`steady_motion` finds a steady motion there, and `frequency_squared_about` determines its stability",

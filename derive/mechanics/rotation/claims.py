@@ -108,8 +108,10 @@ def axis_of_symmetry(facts: Judged) -> bool:
 
 
 def moments_compared(wanted: str) -> Predicate:
-    """Judge whether all moments are equal ("always"), their differences have fixed signs ("never"), or the result is a
-    relation for which all moments are equal."""
+    """Judge whether all moments are equal ("always"), or whether all nonzero differences have fixed signs ("never").
+
+    For any other `wanted`, judge whether the result states the value of a symbol for which all moments are equal.
+    """
 
     def is_so(facts: Judged) -> bool:
         moments = facts.inputs["moments"]

@@ -423,7 +423,8 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge whether an equilibrium value is not zero, whether there is drag, and whether the equation is driven."""
+    """Judge whether three facts are as stated: an equilibrium value is not zero (`displaced`), there is drag (`lossy`;
+    not judged if None), and the equation is driven."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)

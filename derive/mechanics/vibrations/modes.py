@@ -381,7 +381,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
 @in_results(
     "beats",
     "the frequency of the beats, from two frequencies",
-    frequencies="beats: two frequencies, the slower first",
+    frequencies="beats: two frequencies, the lower first",
     symbol="symbol",
 )
 def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_beat") -> Quantity:
