@@ -25,7 +25,7 @@ LABEL = r"(?=(?:Second routes?|Checks?|Outcomes|Errors|Source|Witness): )"
 def paragraphs(path: Path) -> Iterator[str]:
     if path.suffix == ".py":
         for _, text in texts_of_code(path):
-            for part in re.split(rf"\n\s*\n|\n{ARGUMENT}|\n{LABEL}", cleandoc(text)):
+            for part in re.split(rf"\n\s*\n|\n{ARGUMENT}|\n{LABEL}|(?<!\.)\n(?=[A-Z][a-z]+ \w+ )", cleandoc(text)):
                 yield re.sub(r"^(\w[\w., ]*?)[ ]{2,}(?=\S)", r"\1: ", re.sub(r"^#:?\s*", "", part))
     else:
         without_code = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
