@@ -215,8 +215,7 @@ class Solid(GeneralBody):
     limits     each variable with its lower and upper limit; a limit may depend on variables that are named earlier
     mass       the mass; needed if there is no `density`
     density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to
-               this
-               formula
+               this formula
     """
 
     id: ClassVar[str] = "solid"

@@ -278,8 +278,7 @@ class Impact:
 
     def shown_there(self, value: Any, holds: Any) -> Any:
         """Return the value in the notation of the page, with the mark "at q = q_0" for each coordinate q in `holds`
-        whose
-        value at the impact is given."""
+        whose value at the impact is given."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)

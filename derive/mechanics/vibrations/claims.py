@@ -450,8 +450,7 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
     """Judge whether an expression has this sign: 1 or -1 by numbers for which the equilibrium exists; 0 or None (the
-    sign
-    is unknown) without numbers."""
+    sign is unknown) by the assumptions on the symbols and by their ranges."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
