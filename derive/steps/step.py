@@ -33,8 +33,7 @@ class Form:
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
     form may be a `Relation`, which is equivalent to the relation in the line before. The factors `nonzero` may have
-    been
-    divided out: they do not vanish in the case considered, and are positive in an inequality.
+    been divided out: they do not vanish in the case considered, and are positive in an inequality.
     """
 
     expr: Any
@@ -60,8 +59,7 @@ class Step:
 
     Four fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of those that state its law. `prepares` is the theorem that a page states before
-    the
-    step because later steps use this theorem.
+    the step because later steps use this theorem.
     """
 
     key: str

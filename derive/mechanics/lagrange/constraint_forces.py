@@ -78,8 +78,7 @@ class _Problem:
     @property
     def known(self) -> dict[Symbol, Expr]:
         """Coordinate -> an expression in the other coordinates, by a constraint that is solved for this coordinate;
-        also
-        the rate of the coordinate -> the rate of this expression."""
+        also the rate of the coordinate -> the rate of this expression."""
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)

@@ -273,8 +273,7 @@ def higher(kind: str) -> Predicate:
 
 def undecided(facts: Judged) -> bool:
     """Whether no order decides: all derivatives to the eighth vanish, or the sign of the first nonzero derivative,
-    which
-    the sentence states, is unknown."""
+    which the sentence states, is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 

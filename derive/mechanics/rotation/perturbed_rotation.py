@@ -158,9 +158,8 @@ def perturbation_rate_squared(
 
     linear   the two linear equations from `linearised_rotation`
     Second route: Omega^2 is proportional to the product of the two curvatures of the conserved quantity L^2/2 - I_z T
-    at
-    the steady rotation. Also, by the accelerations of particles, the square of the matrix of the linearised motion has
-    the trace -2 Omega^2.
+    at the steady rotation. Also, by the accelerations of particles, the square of the matrix of the linearised motion
+    has the trace -2 Omega^2.
     Outcomes: greatest, least (Omega^2 is positive, and the moment about the axis is the greatest of the three, or the
     least), unstable (negative), marginal (zero, because another moment is equal to the moment about the axis),
     symmetric (the two other moments are equal), conditional (the sign depends on the order of the moments).
@@ -310,8 +309,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
         The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate
-        vanishes.
+        where the rate vanishes.
         """
         letters = sorted(value.free_symbols, key=str)
         for turn in range(len(letters) + 1):

@@ -239,8 +239,7 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 def whether_zero(v: Any) -> str:
     """Return the outcome: `zero` if v vanishes, `generic` if v is nonzero for all values of its symbols, `in_general`
-    if
-    this is unknown."""
+    if this is unknown."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)

@@ -612,8 +612,7 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
     """Whether the coordinate is a symbol, and its law is a relation or a formula for the rate or the acceleration of
-    the
-    coordinate."""
+    the coordinate."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)

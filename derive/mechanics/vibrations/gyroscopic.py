@@ -309,8 +309,7 @@ def linear_stability(
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
-    potential
-    energy. Drag, however small, makes such an equilibrium unstable again.
+    potential energy. Drag, however small, makes such an equilibrium unstable again.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
     determinant comes from cosines and sines that are substituted into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.

@@ -70,7 +70,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     free_repeated, conditional_repeated; for a numbered root without a formula: ordered, ordered_part.
     For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
     (growing), any_of_several (repeated).
-    For the determinant: several, one (coordinate).
+    With drag: several, one (the number of coordinates in the determinant).
     Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; too
     many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
