@@ -17,16 +17,17 @@ from tests.courses import ROOT
 from tests.style import PROSE, files, texts_of_code
 
 FEWEST_WORDS = 5
-# lines of a docstring that begin a paragraph: the meaning of an argument, or what follows a label
-ARGUMENT = r"(?=\w[\w., ]*[ ]{2,}\S)"
-LABEL = r"(?=(?:Second routes?|Checks?|Outcomes|Errors|Source|Witness): )"
+# parts of a docstring: the meaning of an argument, with its indented lines, and what follows a label
+ARGUMENT = r"^(\w[\w., ]*?)[ ]{2,}(\S.*(?:\n[ ]+.*)*)$"
+LABEL = r"^(?=(?:Second routes?|Checks?|Outcomes|Errors|Source|Witness): )"
 
 
 def paragraphs(path: Path) -> Iterator[str]:
     if path.suffix == ".py":
         for _, text in texts_of_code(path):
-            for part in re.split(rf"\n\s*\n|\n{ARGUMENT}|\n{LABEL}|(?<!\.)\n(?=[A-Z][a-z]+ \w+ )", cleandoc(text)):
-                yield re.sub(r"^(\w[\w., ]*?)[ ]{2,}(?=\S)", r"\1: ", re.sub(r"^#:?\s*", "", part))
+            apart = re.sub(ARGUMENT, r"\n\1: \2\n", cleandoc(text), flags=re.MULTILINE)
+            for part in re.split(r"\n\s*\n", re.sub(LABEL, "\n", apart, flags=re.MULTILINE)):
+                yield re.sub(r"^#:?\s*", "", part)
     else:
         without_code = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
         yield from re.split(r"\n\s*\n|\n(?=[-|*#] ?)|(?<=\w): (?=['\"])", without_code)

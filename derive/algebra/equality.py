@@ -1,10 +1,10 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
-    proved          decided exactly, by `derive.algebra.normal_form`
-    sampled         both sides agree at random rational points, but no exact method decided
-    refuted         the sides differ at a point, which is given
-    definition      nothing is compared: the line defines a symbol
-    approximation   a rounded value or a series, whose error is checked separately
+proved          decided exactly, by `derive.algebra.normal_form`
+sampled         both sides agree at random rational points, but no exact method decided
+refuted         the sides differ at a stated point
+definition      nothing is compared: the line defines a symbol
+approximation   a rounded value or a series, whose error is checked separately
 
 The equality of polynomials in symbols, sines and cosines is decided directly. For all other expressions, points are
 tried first, because points are cheap and can refute quickly. A sample never counts as a proof.

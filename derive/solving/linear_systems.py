@@ -132,8 +132,8 @@ class Factor:
 class CharacteristicRoot:
     """A root of the characteristic equation.
 
-    value     for a conservative system lambda = omega^2; for a gyroscopic system the frequency or the rate of growth;
-              for a damped system the rate of decay, b/2a of a quadratic factor or b/a of a linear one
+    value     lambda = omega^2 of a conservative system; the frequency or the rate of growth of a gyroscopic system; the
+              rate of decay of a damped system, which is b/2a for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a rate of decay b/a the sign of this
               rate; None if the sign is unknown
     columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula

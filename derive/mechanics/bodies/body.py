@@ -54,8 +54,8 @@ DENSITIES = {
 class Body(Placeable, OfParticles):
     """The common base of all bodies.
 
-    A subclass defines the named points, the region of integration and the size. It also defines a few particles, which
-    together have the mass, the centre of mass and the second moments of the body.
+    A subclass defines the named points, the region of integration and the size. A subclass also defines a few
+    particles, which together have the mass, the centre of mass and the second moments of the body.
     """
 
     mass: Expr

@@ -69,8 +69,9 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     q       a coordinate that L does not contain
     value   the symbol of the constant, by default p_q; or the initial value of the momentum, such as I_z*S. An initial
             value makes the result an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
-    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields; its
-    time derivative as a function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
+    principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
     constant.
@@ -249,15 +250,16 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the coordinates that are not cyclic, U_eff = sum of p q_dot - L, where the rates of
-    these coordinates vanish, and the sum is over the cyclic coordinates.
+    """Effective potential energy of the coordinates that are not cyclic: U_eff = sum of p q_dot - L, summed over the
+    cyclic coordinates, where all other rates vanish.
 
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default those of all cyclic coordinates
 
     Without cyclic coordinates U_eff is U - T_0, for example in a prescribed rotation.
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
-    (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted; U_eff is T_2 - T_0 + U with these rates.
+    (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
+    rates.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
     (L is given, without cyclic coordinates).
     Errors: L contains the time; no coordinate remains; a force outside L acts where the rates vanish.

@@ -131,7 +131,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Keys: acceleration_ and the name of the coordinate.
     Outcomes: generic (with constraints), unconstrained, zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
-    for every coordinate; and the accelerations satisfy the constraints, differentiated as functions of t.
+    for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """

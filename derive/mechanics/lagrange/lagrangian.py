@@ -287,8 +287,8 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     of   the Lagrangian, J
     q    one of its coordinates
-    Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points; for charges
-    e in magnetic fields also the time derivative of the sum of e A . dr/dq.
+    Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
+    e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
     Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

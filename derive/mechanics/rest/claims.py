@@ -125,7 +125,7 @@ def _can_be_counted(sought: Sequence[Symbol]) -> bool:
 
 def all_are_told(facts: Judged) -> bool:
     """Whether no equilibrium is missing. If equilibria can be counted, this predicate is true, because a check of the
-    step counts them."""
+    step counts the equilibria."""
     sought = facts.inputs["sought"]
     if _can_be_counted(sought):
         return True
@@ -357,8 +357,8 @@ def sides_as_told(facts: Judged) -> bool:
 def level_as_told(facts: Judged) -> bool:
     """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate.
 
-    The force is a polynomial in functions of the coordinate. It vanishes at all values if a common factor of its
-    coefficients is zero.
+    The force is a polynomial in functions of the coordinate. The force vanishes at all values of the coordinate if a
+    common factor of the coefficients is zero.
     """
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:

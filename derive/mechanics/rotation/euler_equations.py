@@ -73,8 +73,8 @@ class RigidBody(Placeable, OfParticles):
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
     mass      kg, needed for all results except those about free rotation
-    moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z; for plane motion only the
-              moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
+    moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
+              the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
               centre of mass if `centre` is zero, otherwise the pivot
@@ -260,8 +260,8 @@ def rate_in_space(
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; without it, the rates of omega remain unknown
-    Second route: rotate L with the body by a rotation matrix and differentiate; the sum of m r x a over particles;
-    the rate of L . n for a direction n that is fixed in space, so n_dot = -omega x n in the body.
+    Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
+    the rate of L . n for a direction n that is fixed in space. For such a direction, n_dot = -omega x n in the body.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
     Errors: an argument is a quantity of another kind.

@@ -78,7 +78,7 @@ def inertia_tensor(
     only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three axes, steps
     derive only the moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
-    mass is that of the body; for a body defined by a position map, a numerical sum over its cells.
+    mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
     body that is round about z, round or round_isotropic.
     Errors: the body has no such point or no such coordinates.

@@ -1,10 +1,10 @@
 """Small motions with gyroscopic forces, which are linear in the rates and do no work.
 
 Such forces act in rotating frames, on tops and on charges in a magnetic field. The equations
-M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if omega satisfies
-det(K + i omega G - omega^2 M) = 0; this determinant is a polynomial in omega^2. An equilibrium is stable if all omega^2
-are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy has no
-minimum.
+M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if the determinant
+of K + i omega G - omega^2 M vanishes. This determinant is a polynomial in omega^2. An equilibrium is stable if all
+omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy
+has no minimum.
 """
 
 from __future__ import annotations
@@ -308,6 +308,7 @@ def linear_stability(
     linear   all equations of the system, as `linearised` yields them
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
+
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
     potential energy. Drag, however small, makes such an equilibrium unstable again.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this

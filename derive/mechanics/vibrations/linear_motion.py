@@ -123,7 +123,7 @@ def solution(
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
-    Check: the motion is substituted back into the equation; it has the given value and rate at t = 0.
+    Check: the motion is substituted back into the equation; the motion has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
     uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes
     (first order), accumulates (first order, without q).

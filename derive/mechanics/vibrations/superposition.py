@@ -77,7 +77,7 @@ def motions_by_modes(
     start_rate   the rate of each coordinate at t = 0; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Keys: of_t_x for a coordinate x; with a `key`, this key in place of of_t.
-    Check: the motion is substituted back into all linear equations; it has the given values and rates at t = 0.
+    Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
     Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
