@@ -10,17 +10,24 @@ import random
 import re
 import sys
 from collections.abc import Iterator
+from inspect import cleandoc
 from pathlib import Path
 
 from tests.courses import ROOT
 from tests.style import PROSE, files, texts_of_code
 
 FEWEST_WORDS = 5
+# parts of a docstring: the meaning of an argument, with its indented lines, and what follows a label
+ARGUMENT = r"^(\w[\w., ]*?)[ ]{2,}(\S.*(?:\n[ ]+.*)*)$"
+LABEL = r"^(?=(?:Second routes?|Checks?|Outcomes|Errors|Source|Witness): )"
 
 
 def paragraphs(path: Path) -> Iterator[str]:
     if path.suffix == ".py":
-        yield from (re.sub(r"^#:?\s*", "", text) for _, text in texts_of_code(path))
+        for _, text in texts_of_code(path):
+            apart = re.sub(ARGUMENT, r"\n\1: \2\n", cleandoc(text), flags=re.MULTILINE)
+            for part in re.split(r"\n\s*\n", re.sub(LABEL, "\n", apart, flags=re.MULTILINE)):
+                yield re.sub(r"^#:?\s*", "", part)
     else:
         without_code = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
         yield from re.split(r"\n\s*\n|\n(?=[-|*#] ?)|(?<=\w): (?=['\"])", without_code)

@@ -56,7 +56,7 @@ def narrow_roots(font: Any) -> None:
 
 
 def _beside_stem(x: float, left: int, right: int) -> float:
-    """Return the new x of a point: the hook becomes narrower, the stem stays as thick, the corner is cut off."""
+    """Return the new x of a point, for a narrower hook, a stem of the same thickness, and a cut corner."""
     at = ROOT_WIDTH - ROOT_SPACE - (right - left)
     return x * at / left if x < left else min(at + x - left, ROOT_WIDTH + CORNER)
 

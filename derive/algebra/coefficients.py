@@ -1,5 +1,6 @@
-"""The coefficients of an expression that is a polynomial in some of its symbols; SymPy does not multiply it out.
+"""The coefficients of an expression that is a polynomial in some of its symbols.
 
+A ring of sparse polynomials multiplies the expression out, not SymPy's `expand`.
 Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
 """
 

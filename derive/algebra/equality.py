@@ -1,10 +1,10 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
-    proved          decided exactly, by `derive.algebra.normal_form`
-    sampled         both sides agree at random rational points, but no exact method decided
-    refuted         the sides differ at a point, which is given
-    definition      nothing is compared: the line defines a symbol
-    approximation   a rounded value or a series, whose error is checked separately
+proved          decided exactly, by `derive.algebra.normal_form`
+sampled         both sides agree at random rational points, but no exact method decided
+refuted         the sides differ at a stated point
+definition      nothing is compared: the line defines a symbol
+approximation   a rounded value or a series, whose error is checked separately
 
 The equality of polynomials in symbols, sines and cosines is decided directly. For all other expressions, points are
 tried first, because points are cheap and can refute quickly. A sample never counts as a proof.
@@ -59,7 +59,7 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # for each point that is needed, at most this many are drawn, because some have no physical meaning
+MANY = 20  # most points drawn for each point that is needed, because some points have no physical meaning
 FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after an exact decision that failed
 TURNS = 400  # most points drawn to find a point at which a sign differs
 FEWEST = 8  # the fewest points at which both sides must have values
@@ -101,7 +101,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the grade is `refuted`, the sides differ at `point`."""
+    """The outcome of a comparison; if the grade is `refuted`, the compared values differ at `point`."""
 
     grade: Grade
     detail: str = ""
@@ -115,8 +115,8 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
     The grade of a matrix is that of its least certain entry. Relations are equal if each follows from the other.
-    `nonzero` lists factors that may be divided out: in an equation they are known not to vanish, in an inequality to be
-    positive.
+    `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors of an
+    inequality are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -359,8 +359,8 @@ def _never_vanishes(factor: Expr) -> bool:
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
-    """A point where the second equation holds and the first does not. The second equation is solved for a symbol in
-    which it is linear."""
+    """Return a point where the second equation holds and the first does not. The second equation is solved for a symbol
+    in which it is linear."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
         slope = right.diff(letter)

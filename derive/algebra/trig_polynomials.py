@@ -26,8 +26,8 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # most products of two terms for one question: if it stays undecided, other methods cost far more
-LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in it
+WORK = 3_000_000  # most products of two terms for a question; other methods decide the question at far more cost
+LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in an angle
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
 R = TypeVar("R", bound="TrigRing")
@@ -84,7 +84,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             raise
 
 
-@lru_cache(maxsize=16384)  # tested first, because such an expression has no useful form
+@lru_cache(maxsize=16384)  # tested first, because an expression with nested roots has no useful form
 def _has_nested_roots(expr: Expr) -> bool:
     """Whether the expression contains roots of roots, or roots other than square roots."""
     if isinstance(expr, Pow) and expr.exp.is_Rational and not expr.exp.is_Integer:
@@ -114,7 +114,7 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """A fraction of an angle occurs that is not a whole multiple of the fraction whose exponential is a letter."""
+    """Raised for a fraction of an angle that is not a whole multiple of the fraction whose exponential is a letter."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -128,9 +128,9 @@ class TrigRing(Ring):
 
     def __init__(self, units: dict[object, int]) -> None:
         super().__init__()
-        self.units = units  # number of parts into which an angle is divided
+        self.units = units  # angle -> number of parts into which this angle is divided
         self.outside: set[Expr] = set()
-        self._relations: list[tuple[int, int, Form]] = []  # a letter's place, a known power, its form
+        self._relations: list[tuple[int, int, Form]] = []  # place of a letter, its known power, form of this power
         self._related = 0  # the bits of all letters in `_relations`
         self._middle = (0, 0)
 
@@ -211,7 +211,7 @@ class TrigRing(Ring):
         return Form({1 << place: form.below // scale}, content // scale, 1, form.cost)
 
     def is_zero(self, form: Form) -> bool:
-        """Whether the form is zero after roots and divisors are eliminated, the last introduced first.
+        """Whether the form is zero after roots and divisors are eliminated, in the reverse order of their introduction.
 
         Raises `Outside` if roots are left.
         """

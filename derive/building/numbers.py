@@ -54,8 +54,10 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place where a form asks for a number; `figures` without a unit ask for a number only if a letter of the
-        answer has a number."""
+        """The place in the file where the form of this answer asks for a number: its unit, else its `figures`.
+
+        `figures` count only if the answer has no number although some of its symbols have one.
+        """
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place

@@ -3,7 +3,7 @@ any time.
 
 The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing the
 child also kills the TeX that it runs. The child ends itself if the parent is gone. The parent has no threads, so
-forking is safe. The limits of a child, and the errors if it gives no answer, are the same for the worker of a preview.
+forking is safe. The worker of a preview has the same limits, and the same errors if it gives no answer.
 `derive.building.time_limit` enforces the time limit.
 """
 
@@ -61,8 +61,8 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, with a name that the user knows; `file` is the problem's file, `shown_as` is its path in
-    messages.
+    """A piece of work, with a name that the user knows. `file` is the file of the problem, and `shown_as` is the path
+    of this file in messages.
 
     Among waiting jobs, a job of the lowest `rank` begins first.
     """
@@ -101,7 +101,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # the pipe to which a worker that is stopped or dies writes its running lines
+    trace: int  # a pipe: a worker that is stopped or dies writes its running lines to it
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -167,7 +167,7 @@ class Crew:
                 child.start()
         except OSError as error:
             raise of_system(error, f"cannot start a process for {job.name}") or error from None
-        with contextlib.suppress(OSError):  # the child makes the same call; either call may come first
+        with contextlib.suppress(OSError):  # the child makes the same call, and may make it first
             os.setpgid(child.pid or 0, child.pid or 0)
         theirs.close()
         os.close(traced)
@@ -228,7 +228,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
         except EOFError:
             worker.child.join()
             value, error = None, died(job, worker.child.exitcode or 0, lines_told(worker.trace))
-        except Exception as unread:  # a value that only the worker's process can read
+        except Exception as unread:  # the value cannot be read outside of the worker's process
             value, error = None, Bug(f"{type(unread).__name__}: {unread}", traceback.format_exc())
         if isinstance(error, str):
             error = overtaxed(job, error, lines_told(worker.trace))
@@ -256,8 +256,8 @@ def _reference_in(trace: str, job: Job) -> str:
 
 
 def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
-    """Return the error of a worker at its time limit: the running line, the work under way if known, the finished
-    steps."""
+    """Return the error of a worker at its time limit. The error shows the running line, the work under way if it is
+    known, and the finished steps."""
     late = late or OutOfTime()
     asked = f", at last for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
@@ -274,7 +274,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
 
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
-    """Return the error of a worker that ended unexpectedly, with that exit code or by a signal."""
+    """Return the error of a worker that ended unexpectedly, with an exit code or by a signal."""
     if ended_by_limit(code, trace):
         return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
@@ -344,7 +344,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
         pipe.send((value, error))
     except MemoryError:
         pipe.send((None, MEMORY))
-    except Exception as bug:  # a value that cannot be sent to the parent
+    except Exception as bug:  # the value cannot be sent to the parent
         pipe.send((None, _bug(bug)))
     pipe.close()
 

@@ -106,7 +106,8 @@ class ToldIn:
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: its statement, and the sentence used instead if an earlier problem of a document states it."""
+    """A theorem: its statement, and the sentence that replaces the statement if an earlier problem of the document
+    states the theorem."""
 
     name: str
     nodes: tuple[Inline, ...]
@@ -157,7 +158,8 @@ class Phrases:
         return self.setups.get(step.rule, {}).get(step.outcome, "")
 
     def reason(self, step: Step, because: str, before: str) -> str:
-        """Return why a line follows from the line before; some reasons apply only after a certain kind of line."""
+        """Return the reason why a line follows from the line before. Some reasons apply only after a certain kind of
+        line."""
         own = {**self.reasons["general"], **self.reasons.get(step.rule, {})}
         return own.get(f"{because}{AFTER}{before}", own.get(because, ""))
 
@@ -187,7 +189,8 @@ class Phrases:
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
     def body(self, id: str) -> str:
-        """Return the text for a kind of body: `thick_shell` is "a hollow ball"; by default the id with an article."""
+        """Return the text for a kind of body: "a hollow ball" for `thick_shell`; by default the id of the kind with an
+        article."""
         return self.bodies.get(id) or with_article(id)
 
     def size(self, id: str) -> str:
@@ -353,7 +356,8 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return the coordinates of a step and of the next steps, if these have no words of their own: `theta, x and y`."""
+    """Return the coordinates of a step and of those following steps that have no words of their own: `theta, x and
+    y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:

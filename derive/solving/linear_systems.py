@@ -1,11 +1,13 @@
 """Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the shapes.
 
 The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
-motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class:
-conservative, without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real;
-gyroscopic, without C: also a polynomial in omega^2, which often splits into two mirror-image factors in omega, one for
-each sense of rotation; the roots of these factors are simpler than the roots in omega^2;
-damped: a polynomial in s, which is solved if each of its factors is linear or quadratic.
+motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class of the
+system:
+
+conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real
+gyroscopic     without C: a polynomial in omega^2. Often it is the product of a factor in omega and the mirror image of
+               this factor, one for each sense of rotation; the roots of such a factor are simpler
+damped         a polynomial in s, which is solved if each of its factors is linear or quadratic
 """
 
 from __future__ import annotations
@@ -67,8 +69,9 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-LARGEST, LETTERS = 12, 40  # limits of a conservative system: coordinates; coordinates times symbols of the matrices
-LARGEST_WITH_RATES = 4  # limit on the coordinates of any other system
+# greatest number of coordinates of a conservative system, and of coordinates times symbols if it has more than three
+LARGEST, LETTERS = 12, 40
+LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
 
 
@@ -76,7 +79,7 @@ FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this 
 class Factor:
     """An irreducible factor of the determinant, a polynomial in the root.
 
-    coefficients   from the highest power; the first coefficient is positive if its sign is known
+    coefficients   from the highest power down; the first coefficient is positive if its sign is known
     times          the power of the factor in the determinant
     even           whether only even powers of omega occur; the coefficients are then those of a polynomial in omega^2
     mirrored       whether the factor also represents its mirror image, in which -omega replaces omega
@@ -129,8 +132,8 @@ class Factor:
 class CharacteristicRoot:
     """A root of the characteristic equation.
 
-    value     for a conservative system lambda = omega^2; for a gyroscopic system the frequency or the rate of growth;
-              for a damped system the rate of decay, b/2a of a quadratic factor or b/a of a linear one
+    value     lambda = omega^2 of a conservative system; the frequency or the rate of growth of a gyroscopic system; the
+              rate of decay of a damped system, which is b/2a for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a rate of decay b/a the sign of this
               rate; None if the sign is unknown
     columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
@@ -193,7 +196,7 @@ class LinearSystem:
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether no motion grows: the potential energy has a minimum and the kinetic energy is never negative."""
+        """Whether the potential energy has a minimum and the kinetic energy is never negative. Then no motion grows."""
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
@@ -294,7 +297,7 @@ class Conservative(LinearSystem):
             message = f"the squares of {factor.degree} frequencies are the roots of a polynomial that does not factor"
             help_ = "use one symbol for equal masses or equal springs, or give all of them numbers"
             if self.name:
-                help_ = "for small oscillations about a stable equilibrium with one such polynomial, give numbers"
+                help_ = "with numbers, frequencies are found about a stable equilibrium, for only one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(factor.degree)]
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
@@ -337,7 +340,8 @@ def _by_powers(value: Expr, letter: Symbol) -> Expr:
 
 
 def _values_of(factor: Factor) -> list[Expr] | None:
-    """The roots of a linear or quadratic polynomial, or of the polynomial of a uniform chain; None for any other."""
+    """The roots of a linear or quadratic polynomial, or of the polynomial of a uniform chain; None for any other
+    polynomial."""
     if factor.degree > 2:
         return _of_chain(Poly(factor.at(LAMBDA), LAMBDA))
     a, b, *rest = factor.coefficients
@@ -380,7 +384,7 @@ def _of_chain(part: Poly) -> list[Expr] | None:
 def _entry_at(entry: Expr, value: Expr) -> Expr:
     """Substitute the value of lambda into an entry.
 
-    For a chain, where lambda = 4 sin^2 u, the entry has multiple angles instead of powers.
+    For a chain, where lambda = 4 sin^2 u, the result contains cosines of multiple angles instead of powers.
     """
     roots = [p for p in value.atoms(Pow) if p.exp == Rational(1, 2) and p.has(Symbol)]
     if len(roots) == 1 and (split := value.as_poly(roots[0])) is not None and split.degree() == 1:
@@ -489,7 +493,8 @@ class Gyroscopic(LinearSystem):
 
     @staticmethod
     def _forwards(part: Poly) -> Poly:
-        """The mirror image whose roots have a positive sum; the given polynomial if the sign of the sum is unknown."""
+        """Of a polynomial and its mirror image, return the one whose roots have a positive sum; return the polynomial
+        unchanged if the sign of the sum is unknown."""
         a, b = part.all_coeffs()[:2]
         return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_for_all(tidied(b / a)) == 1 else part
 
@@ -499,7 +504,9 @@ class Gyroscopic(LinearSystem):
         count = factor.degree
         if count > 2:
             message = f"{count} of the frequencies are the roots of a polynomial that does not factor"
-            raise Rejected(Complaint("no-closed-form", message, help="with equal masses and springs it may factor"))
+            raise Rejected(
+                Complaint("no-closed-form", message, help="with equal masses and springs the polynomial may factor")
+            )
         return self._mirrored(factor) if factor.mirrored else self._by_squares(factor)
 
     def _mirrored(self, factor: Factor) -> list[CharacteristicRoot]:
@@ -673,9 +680,10 @@ def _is_power_of_one_sum(value: Expr) -> bool:
 
 
 def root_of(square: Expr) -> Expr:
-    """The square root with one root sign, as in sqrt(k/m).
+    """Return the square root with one root sign, as in sqrt(k/m).
 
-    The root is simplified instead if it becomes rational, or if the square contains a sine.
+    If the root simplifies to a rational expression or to one power of a sum, or if the square contains a sine, return
+    the simplified root.
     """
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not is_irrational(drawn):

@@ -148,9 +148,11 @@ def mark_for(unknown: Expr) -> Dummy:
 def polynomial_in(
     verb: str, equation: Quantity, unknowns: Sequence[Expr], or_value: bool = False
 ) -> tuple[Expr, list[Dummy]]:
-    """The residual of an equation with a dummy symbol in place of each unknown, and these dummy symbols. Factors that
-    contain the symbol of an unknown but not the unknown itself are dropped; unless `or_value`, they are assumed not to
-    vanish."""
+    """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
+
+    Factors that contain the symbol of an unknown but not the unknown itself are dropped. Unless `or_value`, those of
+    them that might vanish are assumed not to vanish.
+    """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):

@@ -1,11 +1,11 @@
 """The one function that makes steps.
 
-A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes one, and only if
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, under three conditions:
 
-    (a) each line of the chain equals the line before it, the first line equals the left side if the left side is an
-        expression, and the last line equals the returned value;
-    (b) every second route to the result, and every check of it, agrees with the result;
-    (c) the subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
+    (a) Each line of the chain equals the line before it. If the left side is an expression, the first line equals the
+        left side. The last line equals the returned value.
+    (b) Every second route to the result, and every check of the result, agrees with the result.
+    (c) The subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
 A verb states its law once, as a function. `establish` calls the law with the *names* of its inputs, which gives the
 formula, and with their *values*, which gives the substitution. The simplified substitution is the result.
@@ -52,14 +52,16 @@ from derive.steps.symbols import check_symbol
 class Lines:
     """How the law becomes the lines of a chain, and how the result is written.
 
-    before    forms before the law; `between`: forms between the law and the result; `after`: forms after the result
+    before    forms before the law
+    between   forms between the substituted law and the result
+    after     forms after the result
     law       the level from which the law is shown
     put_in    the level from which the law with substituted values is shown; None leaves it out
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> its value by the equations of motion; the last line uses these values, so it is valid only for
-              motions that satisfy the equations
-    means     values of names on the left side, if the left side is an expression whose names do not occur in the law
+    motion    rate -> the value of this rate by the equations of motion. The last line uses these values, so this line
+              is valid only for motions that satisfy the equations
+    means     name -> its value, for each name in an expression on the left side that does not occur in the law
     """
 
     before: Sequence[Form] = ()
@@ -85,12 +87,12 @@ class Lines:
 class PhraseData:
     """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
-    words       name -> key of a term, for which a phrase writes words ("about": "corner")
-    formulas    role -> a formula that only the sentence has, with the same formula by another route
-    named       role -> a symbol or a place that only the sentence names; a predicate judges it, not a second route
-    points_to   role -> a parent that the sentence names, by its symbol or its number
-    outcome_data   further data for judging the outcome, in addition to the result and the inputs
-    stands_for  keys of other steps that answers may ask for; this step replaces those steps
+    words         name -> key of a term ("about": "corner"); the phrases contain the words for this term
+    formulas      role -> a formula that occurs only in the sentence, and the same formula by another route
+    named         role -> a symbol or a place that occurs only in the sentence; a predicate judges this symbol or place
+    points_to     role -> a parent that the sentence mentions by its symbol or its number
+    outcome_data  further data for judging the outcome, in addition to the result and the inputs
+    stands_for    keys of other steps; this step replaces those steps if an answer asks for them
     """
 
     words: Mapping[str, str] = field(default_factory=dict)
@@ -102,7 +104,7 @@ class PhraseData:
 
     @property
     def told(self) -> dict[str, Any]:
-        """Return role -> the formula, the symbol or the place that only the sentence has."""
+        """Return role -> the formula, the symbol or the place that occurs only in the sentence."""
         return {**{role: formula for role, (formula, _) in self.formulas.items()}, **self.named}
 
 
@@ -110,12 +112,12 @@ class PhraseData:
 class Scope:
     """The subject of a result, and the origin of its symbol.
 
-    about        properties of the subject in addition to those of the inputs, or a function of the result that
-                 returns these properties
-    differ       the properties in which the subjects of the inputs may differ
-    coordinates  coordinates that the step introduces, with their kinds
-    case_of      the general quantity with the same symbol; the result is a particular case of this quantity
-    approximates for a limit or a series: the symbol of the whole result, or the key of the whole equation
+    about         properties of the subject in addition to those of the inputs, or a function of the result that
+                  returns these properties
+    differ        the properties in which the subjects of the inputs may differ
+    coordinates   coordinates that the step introduces, with their kinds
+    case_of       the general quantity with the same symbol; the result is a particular case of this quantity
+    approximates  for a limit or a series: the symbol of the whole result, or the key of the whole equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
@@ -125,7 +127,7 @@ class Scope:
     approximates: Any = None
 
     def around(self, together: Subject, result: Any) -> Subject:
-        """Return the subject that the inputs have in common, with the properties of the subject in `about` added."""
+        """Return the common subject of the inputs, with the properties in `about` added."""
         return together.with_more(self.about(result) if callable(self.about) else self.about)
 
 
@@ -151,10 +153,11 @@ def establish(
     symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
-    routes      claim of the rule -> function of the result; it returns two values that must be equal, or a verdict
+    routes      claim of the rule -> function of the result, which returns two values that must be equal, or a verdict
     outcome     a word that selects the phrase, or a function of the result that returns such a word
     parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
+
     Raises `Unverified`, which names the step, if a line, a route or a statement of the sentence disagrees.
     """
     key = key or rule.key
@@ -177,7 +180,8 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    # A parent's value of the left side, such as x_dot^2, is not used if `means` has a value for a name in it (x_dot).
+    # If `means` has a value for a name in the left side (x_dot), no value of the left side (x_dot^2) by a parent is
+    # used.
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
@@ -240,7 +244,9 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
     if not verdict:
         at = ", ".join(f"{name} = {value}" for name, value in verdict.point)
         message = f"`{quantity.key}` contradicts the motion of the described system: {verdict.detail}"
-        help_line = "if it holds only for some values of the letters, state these with `assume:`, or give numbers"
+        help_line = (
+            "if the result holds only for some values of the letters, state these with `assume:`, or give numbers"
+        )
         notes = (f"for example at {at}",) if at else ()
         raise Unverified(Complaint("contradicts-motion", message, help=help_line, notes=notes))
     evidence = Evidence("motion", Compared.WITNESS, verdict.grade, verdict.detail)
@@ -266,7 +272,7 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         if not verdict:
             raise refused(key, f"its sentence has a wrong `{role}`", formula, otherwise, verdict)
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
-            message = f"`{key}`: its sentence gives {formula} as a condition, but this contains no letter"
+            message = f"`{key}`: its sentence gives {formula} as a condition, but this condition has no letter"
             raise Unverified(Complaint("unverified", message))
 
 
@@ -342,8 +348,8 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
                     "letter-clash",
                     message,
                     help=Spelled(
-                        'give one of their verbs `symbol="..."`',
-                        "give one of them another letter, under `symbols` or by `symbol`",
+                        'give one of the two verbs `symbol="..."`',
+                        "give one of the two another letter, under `symbols` or with `symbol`",
                     ),
                 )
             )

@@ -73,7 +73,7 @@ class Extreme(Fact):
 
 @dataclass(frozen=True)
 class WholeSwing(Fact):
-    """The integral that a series for a period approximates: a factor, and the time of a swing."""
+    """The integral that a series for a period approximates: the product of `factor` and `time`, the time of a swing."""
 
     missing = "is not a series for a period"
     factor: Expr
@@ -106,15 +106,18 @@ def value_of(
     more: Sequence[tuple[str, Expr]] = (),
     case: str = "",
 ) -> Quantity | None:
-    """The value of an answer in a unit, rounded to significant figures. The result is None if letters remain, if the
-    answer is zero or an integer without letters, or if the value is imaginary, such as a frequency without an
-    oscillation.
+    """The value of an answer in a unit, rounded to significant figures.
+
+    The result is None if letters remain, if the answer is zero or an integer without letters, or if the value is
+    imaginary, such as a frequency without an oscillation.
 
     answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
-    unit      the name of the unit; `factor` is this unit in the SI
+    unit      the name of the unit
+    factor    the value of this unit in SI units
     more      other units for the same value, each with its factor
     case      the name of the case with these numbers, if there are several cases
+
     Check: the expression, evaluated again from the numbers of its letters, with extra digits against cancellation.
     For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
     period that is known as a series gets its number from the integral. A result derived from the series has a number
@@ -239,7 +242,7 @@ def _with_numbers(series: Quantity, amounts: Mapping[Symbol, Amount]) -> SwingTi
 
 
 def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr:
-    """Return the integral from 0 to A, with q = A (1 - s^2)."""
+    """Return the integral over q from 0 to the amplitude A, with q = A (1 - s^2), by Gauss-Legendre quadrature."""
     from mpmath import mp
 
     f, q, amplitude, _ = time.args
@@ -275,7 +278,7 @@ def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
 ) -> PhraseData:
     """For a condition on a symbol with a given number, such as S > 23.55 rad/s, return this number (S = 900 rpm) and
-    whether it satisfies the condition."""
+    whether this number satisfies the condition."""
     relation = condition.value
     if (
         not isinstance(relation, Relation)

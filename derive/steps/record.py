@@ -43,15 +43,17 @@ class Call:
 class Run:
     """The state of a running script, and its record.
 
-    established   every quantity, in order; `cases`: for each quantity, the general quantity that it is a case of, or
-                  None
+    established   every quantity, in order
+    cases         for each quantity, the general quantity of which it is a case; None if there is no such quantity
     coordinates   the coordinates that the script has named, with their kinds
-    assumed       assumed conditions on the symbols; `in_words`: those that a step states in words
+    assumed       assumed conditions on the symbols
+    in_words      the assumed conditions that a step states in words
     drawings      the drawings of the page
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates and forces; results must not use them
-    memory        earlier calls of verbs; `call`: the call that is running
+    memory        earlier calls of verbs
+    call          the call that is running
     """
 
     established: list[Quantity] = field(default_factory=list)
@@ -91,8 +93,8 @@ current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
 @contextmanager
 def recorded(run: Run | None = None) -> Iterator[Run]:
-    """Record a run: its quantities, so that those which no answer needs can be reported, and its assumptions, which the
-    page states."""
+    """Record the quantities and the assumptions of a run. Quantities that no answer needs can then be reported, and the
+    page can state the assumptions."""
     run = run or Run()
     token = current_run.set(run)
     try:
@@ -190,7 +192,7 @@ def given_letters() -> set[str]:
 
 
 def assume(condition: Relation, in_words: bool = False) -> None:
-    """Assume a condition on the symbols. With `in_words` a step states the assumption, otherwise the page does."""
+    """Assume a condition on the symbols. The page states the assumption, unless a step states it (`in_words`)."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         run.assumed.append(condition)
@@ -287,15 +289,16 @@ def _check_one_meaning(
                 "letter-clash",
                 message,
                 help=Spelled(
-                    'give one of their verbs `symbol="..."`',
-                    "give one of them another letter, under `symbols` or by `symbol`",
+                    'give one of the two verbs `symbol="..."`',
+                    "give one of the two another letter, under `symbols` or with `symbol`",
                 ),
             )
         )
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """Whether the components of a vector are only names. Any other vector with the same symbol is a case of it."""
+    """Whether the components of a vector are only names. Any other vector with the same symbol is a case of such a
+    vector."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 

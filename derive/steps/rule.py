@@ -1,8 +1,8 @@
 """Rules: one record for each law that makes steps, in the module of the verb that uses the law.
 
-A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by that word. For each
-outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate. Predicates are in
-the `claims.py` of their folder and share no code with the verbs.
+A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by this outcome. For
+each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate. Predicates
+are in the file `claims.py` of the folder of their rule, and share no code with the verbs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 from derive.algebra.equality import Compared
 from derive.steps.level import SHOWN
-from derive.steps.level import Shown as Shown  # other modules import it from here
+from derive.steps.level import Shown as Shown  # other modules import `Shown` from here
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the outcome if there is nothing to choose
@@ -68,10 +68,10 @@ def anything(facts: Judged) -> bool:
 class Theorem:
     """A theorem in its general form, which a page states by name before the first step that uses it.
 
-    formula   its formula
+    formula   the formula of the theorem
     source    book and section
     letters   further symbols that the phrase names, with their names in the phrase
-    prepared  whether the page states it earlier: before a step that prepares for its use
+    prepared  whether the page states the theorem earlier, before a step that prepares for the use of the theorem
     """
 
     name: str
@@ -87,7 +87,7 @@ class Quote:
 
     outcomes   outcomes whose steps use the theorem; empty if the steps of all outcomes do
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    values of the term `between` with which a step uses the theorem; empty if all values do
+    between    values of the term `between` with which a step uses the theorem; empty if a step uses it with every value
     """
 
     theorem: Theorem
@@ -107,14 +107,16 @@ class Rule:
 
     name        folder and function
     source      book and section
-    outcomes    word -> the predicate that must be true of the result for the word to be right
+    outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
                 it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
                 error of algebra. A rule without evidence is a definition
-    statements  predicates of the roles, points and formulas that only the sentence has; they apply to every outcome
-    named       role -> the predicate of an object that only the sentence names; that of `value` also judges `value_1`
-    shown       how a page shows its steps
-    quotes      the theorems that its steps use
+    statements  predicates of the roles, points and formulas that occur only in the sentence; they apply to every
+                outcome
+    named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges
+                `value_1`
+    shown       how a page shows the steps of this rule
+    quotes      the theorems that the steps of this rule use
     prepares    the theorem that a page states before a step of this rule, if a later step uses the theorem
     """
 
@@ -148,16 +150,16 @@ class Rule:
 
     def _stated(self, outcome: str, facts: Judged) -> bool | Doubt:
         if not _names_its_point(facts):
-            return Doubt("it names a point other than the reference point of the result")
+            return Doubt("the sentence names a point other than the reference point of the result")
         if not _names_its_axis(facts):
-            return Doubt("it names an axis other than the axis of the result")
+            return Doubt("the sentence names an axis other than the axis of the result")
         if not _letter_of_its_axis(facts):
             return Doubt("the letter of the result has the index of another axis")
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the fields of a `Step` for theorems: the theorems that the step uses, the names of those that state
-        its law, and the theorem that a page states before the step."""
+        """Return the fields of a `Step` for theorems: the theorems that the step uses, the names of those theorems
+        that state its law, and the theorem that a page states before the step."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
@@ -174,7 +176,7 @@ class Rule:
         return None
 
 
-RULES: dict[str, Rule] = {}  # by name; filled as the modules of the verbs are loaded
+RULES: dict[str, Rule] = {}  # name -> rule; each module of verbs adds its rules when it is loaded
 _HANDED_ON: dict[type[Any], Naming] = {}
 
 
@@ -210,7 +212,7 @@ def _names_its_axis(facts: Judged) -> bool:
 
 def _letter_of_its_axis(facts: Judged) -> bool:
     """Whether a symbol with the index of an axis, such as I_z, has the index of the axis that the sentence names. For a
-    part, this is the axis of the whole that is parallel to the axis of the part."""
+    part, the named axis is the axis of the whole that is parallel to the axis of the part."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

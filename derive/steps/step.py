@@ -19,7 +19,7 @@ from derive.algebra.kinds import kind_with_article
 from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.level import ON_ITS_OWN, Display
-from derive.steps.level import Level as Level  # modules that make forms import it from here
+from derive.steps.level import Level as Level  # modules that make forms import `Level` from here
 from derive.steps.rule import Theorem
 from derive.steps.subject import NOTHING, Subject
 
@@ -32,8 +32,8 @@ class Form:
     """One line of a chain: an expression, and the reason why it equals the line before.
 
     `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
-    form may be a `Relation`; it is then equivalent to the relation in the line before, divided by the `nonzero`
-    factors. In the case considered these factors do not vanish; in an inequality they are positive.
+    form may be a `Relation`, which is equivalent to the relation in the line before. The factors `nonzero` may have
+    been divided out: they do not vanish in the case considered, and are positive in an inequality.
     """
 
     expr: Any
@@ -48,7 +48,7 @@ class Step:
 
     A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
     coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
-    the second root of an equation that has only one root here. `names` are those names in the lines that earlier steps
+    the second root of an equation that has only one root here. `names` are the names in the lines that earlier steps
     introduced, with their values. `motion` are the values of rates that follow from the equations of motion; a line
     that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law in the code,
     such as `derive/mechanics/rotation/vectors.py:120`.
@@ -57,9 +57,9 @@ class Step:
     key of the whole equation. `about` means that the step is derived from such a limit or series, so its symbol only
     approximately equals its first line.
 
-    `display`, `theorems`, `law_in` and `prepares` come from the rule: how a page shows the step, the theorems that the
-    step uses, the names of theorems that state its law, and the theorem that a page states before the step because
-    later steps use it.
+    Four fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
+    uses, and `law_in` are the names of those that state its law. `prepares` is the theorem that a page states before
+    the step because later steps use this theorem.
     """
 
     key: str
@@ -156,9 +156,10 @@ class Quantity:
         """Whether the value is exact: it neither is a limit or a series nor is derived from one."""
         return self.step.exact
 
-    @cached_property  # cached, since it is read many times for the parents of other quantities
+    @cached_property  # cached, since other quantities read it many times for their parents
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates of the step and of its parents, with their kinds: the value may depend on these."""
+        """Return the coordinates of the step and of its parents, with their kinds. The value may depend on these
+        coordinates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
@@ -258,7 +259,7 @@ def value_behind(given: Any) -> Any:
 
 
 def approximations_among(*given: Any) -> list[Quantity]:
-    """Return those arguments of a verb that are approximate quantities; a result that depends on one of them is
+    """Return those arguments of a verb that are approximate quantities. A result that depends on such an argument is
     approximate too."""
     return [each for each in given if isinstance(each, Quantity) and not each.exact]
 

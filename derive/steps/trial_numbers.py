@@ -84,13 +84,13 @@ def assumptions_about(letters: Iterable[Any]) -> list[Relation]:
 
 
 def real_at(value: Any, point: Point) -> Expr | None:
-    """Return the value at a point; None if it is not real."""
+    """Return the value at a point; None if the value is not real."""
     real, imaginary = value_at(explicit(value), point).as_real_imag()
     return real if abs(imaginary) <= abs(real) * SMALL else None
 
 
 def sign_at(value: Any, point: Point) -> int | None:
-    """Return 1, -1 or 0 for the value at a point; None if it is not real."""
+    """Return the sign of the value at a point, 1, -1 or 0; None if the value is not real."""
     number = real_at(value, point)
     return None if number is None else 0 if number == 0 else 1 if number > 0 else -1
 
@@ -120,7 +120,7 @@ def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
 
 
 def sign_found(value: Expr) -> int | None:
-    """Return the sign that a value has at all trial numbers which the assumptions allow; None if the sign varies.
+    """Return the sign that a value has at all trial numbers that the assumptions allow; None if the sign varies.
 
     The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used. Points at
     which the value is too large or too small to compute, such as exp(-r/a) for r = 900 a, do not count.
@@ -144,8 +144,8 @@ def sign_as_set(value: Expr, point: Point) -> set[int | None]:
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
     """Whether a statement is true at each point where it has a meaning, and has a meaning at one point at least.
 
-    is_so   a function of a point: whether the statement is true there. It returns None or raises `Undefined` or
-            `NoNumber` if the statement has no meaning there
+    is_so   a function of a point: whether the statement is true there. If the statement has no meaning at the point,
+            the function returns None, or raises `Undefined` or `NoNumber`
     """
     found = _judged(points, is_so)
     return bool(found) and all(found)
@@ -193,8 +193,8 @@ def just_where(
 
 
 def beside_border(condition: Relation, points: Sequence[Point], *given: Relation) -> list[Point]:
-    """Return pairs of points close to the border of a condition, one on each side. They are found by halving the
-    distance between two points."""
+    """Return pairs of points close to the border of a condition, one on each side. Such a pair is found by repeatedly
+    halving the distance between two points."""
     ahead, behind = ([point for point in points if _side(condition, point) is side] for side in (True, False))
     pairs = [_narrowed(condition, *ends) for ends in islice(zip(ahead, behind, strict=False), PAIRS)]
     kept = [*given, *(Relation(each, ">", 0) for each in known_order().positive)]

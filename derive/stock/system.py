@@ -112,7 +112,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def system(self) -> System:
         described = self.described
         if described.given is not None:
-            message = "this needs bodies and forces, but the Lagrangian is given in place of them"
+            message = "this answer needs bodies and forces, but the Lagrangian is given in place of them"
             raise Rejected(Complaint("given-lagrangian", message))
         acting = self.acting
         weights = [weight(described.gravity)] if described.gravity is not None else []

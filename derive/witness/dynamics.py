@@ -34,7 +34,7 @@ RANK = 1e-9  # singular values below this fraction of the largest count as zero
 
 
 class Singular(Exception):
-    """Reports a state that does not determine the accelerations, because a mass or a gradient vanishes."""
+    """Raised for a state that does not determine the accelerations, because a mass or a gradient vanishes."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Blueprint:
 
     @cached_property
     def letters(self) -> set[Symbol]:
-        """All constants that need a number."""
+        """All symbols of the description that need a number."""
         tapes = [self.places, self.weights, *self.pulls, self.energies, self.forces, self.conditions, self.lagrangian]
         return {letter for tape in tapes for letter in tape.letters}
 
@@ -182,7 +182,8 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Each mass with its position given twice, and each second moment with its two body axes."""
+        """Each mass with two places, both its own position; each second moment with two places, the body axes i and
+        k."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
@@ -191,7 +192,8 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix and the forces of masses: the weight, minus the inertial forces at constant rates."""
+        """The mass matrix, and the generalized forces of the weights, minus mass times acceleration at constant
+        rates."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
             matrix += weight * one.jacobian.T @ other.jacobian

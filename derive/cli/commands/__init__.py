@@ -1,1 +1,1 @@
-"""What each command of `derive` does, one module for each group of them."""
+"""The functions that run the commands of `derive`; each module contains one command or a group of related commands."""

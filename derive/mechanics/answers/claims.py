@@ -204,8 +204,8 @@ def always(wanted: bool) -> Predicate:
 
 
 def as_let(equation: bool, reason: bool) -> Predicate:
-    """Judge whether the step is an equation without a symbol or, if `equation` is false, a value with a symbol. The
-    step must have a reason exactly if `reason` is true."""
+    """Judge whether the step is an equation without a symbol, or, if `equation` is false, whether the step is a value
+    with a symbol. The step must state a reason exactly if `reason` is true."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -236,7 +236,7 @@ def is_nothing(facts: Judged) -> bool:
 
 
 def goes_as(wanted: int) -> Predicate:
-    """Judge by the result, one power of the small quantity, whether it stays finite, vanishes or diverges."""
+    """Judge whether the result, which is one power of the small quantity, stays finite, vanishes or diverges."""
 
     def is_so(facts: Judged) -> bool:
         x, to = facts.inputs["x"], facts.inputs["to"]
@@ -522,7 +522,8 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """Whether the named ratio goes to its limit when the expansion symbol goes to its own limit: h/R when h does."""
+    """Whether the named ratio, such as h/R, goes to its limit when the expansion symbol, such as h, goes to its own
+    limit."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False

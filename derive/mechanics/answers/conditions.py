@@ -204,9 +204,12 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """Return two vectors that are equal if the solved relation is right. The first vector has the difference at the
-    bound and a little above it, and the truth of the solved relation above, at and below the bound. The second vector
-    has the values that the sign of the difference requires."""
+    """Return two vectors that are equal if the solved relation is right.
+
+    The first vector begins with the difference at the right side of the solved relation, and at any distance d > 0
+    above this bound. Its last three entries are 1 or 0: whether the solved relation holds above, at and below the
+    bound. The second vector has the values that the sign of the difference requires.
+    """
     alone, place = found.sides
     d = Dummy("d", positive=True)
     if alone.is_positive and sign_known(place) == -1:  # a positive symbol is never the negative root of x^2 = a

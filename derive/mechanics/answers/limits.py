@@ -62,7 +62,7 @@ LIMITING_CASE = Rule(
 
 @in_results(
     "limit",
-    "the limiting case; or an equation expanded, `{limit: motion_x, for: Omega, to: 0, order: 1}` to the first order",
+    "the limiting case; for an equation its expansion: `{limit: motion_x, for: Omega, to: 0, order: 1}` to first order",
     of="limit: an answer, or an equation",
     letter="for: a letter",
     to="to: a value or `infinity`, 0 by default",
@@ -83,16 +83,17 @@ def limiting_case(
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order    the highest power of the small quantity that is kept; by default only the leading term
+
     For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
-    `put_in` to set letters equal, b = a. The result has a new letter, `symbol` or omega_lim. Results computed from it
-    are approximate.
-    Check: the same terms by adding, multiplying and dividing power series, without a derivative; numerically, on each
-    side, the terms that are left out, divided by the last power that is kept, go to zero with the small quantity.
+    `put_in` to set letters equal, b = a. The result has a symbol of its own, `symbol` or omega_lim, and results
+    computed from this symbol are approximate.
+    Check: adding, multiplying and dividing power series, without a derivative, gives the same terms. Numerically, on
+    each side of the limit, the sum of the omitted terms is small compared with the last power that is kept.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
-    motion does not reach the limit; the result has no such expansion (it oscillates there), has different expansions on
-    the two sides, or has no term up to the requested order.
+    motion does not reach the limit; the result has no such expansion (because it oscillates near the limit), has
+    different expansions on the two sides, or has no term up to the requested order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
@@ -332,7 +333,7 @@ def case_in_letters(
 
     found    the result in a limiting or a special case, any unit
     formula  the same result in letters
-    values   the results with these letters
+    values   the earlier results that these letters denote
     Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.
     Errors: the formula and the limiting case are not equal.

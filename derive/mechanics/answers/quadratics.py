@@ -1,4 +1,5 @@
 """The two roots of a quadratic equation in one formula, the condition under which they are real, and each root.
+
 The coefficients of a x^2 + b x + c = 0 may be general symbols. Their values in this problem are substituted after the
 formula, so the page shows the general roots and the roots of this problem. If a is zero, the equation is linear and has
 one root.
@@ -88,10 +89,13 @@ def roots_together(
 ) -> tuple[Quantity, ...]:
     """Both roots of a quadratic equation in one formula, then each root in a separate step, the smaller in absolute
     value first.
+
     equation   a x^2 + b x + c = 0, possibly times a factor without x
     x          the unknown
     values     quantities for letters of the coefficients
-    key        the key of the step with both roots; `keys` and `symbols` belong to the separate roots
+    key        the key of the step with both roots
+    keys       the keys of the separate roots
+    symbols    the symbols of the separate roots
     The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
     Check: each root substituted into the equation; the sum and the product of the roots.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -117,9 +121,11 @@ def roots_together(
 
 
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
-    """Return the coefficients of a quadratic or linear equation in x, in letters and with values, and the factor of the
-    left side that does not contain x, with values. The sign is chosen so that the first coefficient has no minus
-    sign."""
+    """Return the coefficients of a quadratic or linear equation in x, both in letters and with values substituted.
+
+    The second result is the value of the factor of the left side that does not contain x. The sign is chosen so that
+    the first coefficient has no minus sign.
+    """
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
     polynomial = Mul(*(f for f in factors if x in f.free_symbols)).as_poly(x)
@@ -156,12 +162,14 @@ ROOTS_TOGETHER = Rule(
 
 def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequence[str]) -> Quantity:
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
+
     equation   a x^2 + b x + c = 0
     of         the coefficients of the equation, and the quantities for letters in these coefficients
     apart      the factor of the left side that does not contain x
     keys       the requested keys; for a linear equation, all of them denote this step
-    Check: substituted back into the equation; the sum of the two roots is -b/a.
-    Outcomes: two, none, double, conditional (by the sign of b^2 - 4 a c), opposite (two, one of each sign), linear.
+    Check: each root substituted into the equation; the sum of the two roots is -b/a.
+    Outcomes: two, none, double, conditional (the sign of b^2 - 4 a c depends on the symbols), opposite (two roots, one
+    of each sign), linear.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     here, x, linear = of.quadratic, of.unknown, of.quadratic.is_linear
@@ -211,8 +219,11 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write the roots as k (u +- sqrt(u^2 - w)). The factor u of -b has only symbols that a and c do not contain: S,
-    not m a^2 S."""
+    """Write the roots as k (u +- sqrt(u^2 - w)), where u is the product of those factors of -b whose symbols a and c do
+    not contain.
+
+    For example, u is S if -b = m l^2 S and the other coefficients contain m and l.
+    """
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -262,9 +273,11 @@ def _one_of_two(
     both: Quantity, sign: int, outcome: str, key: str, letter: str | None, stands_for: Sequence[str] = ()
 ) -> Quantity:
     """One of the two roots of a quadratic equation, with the given sign before the square root.
-    Check: substituted back into the equation; the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)), whose denominator is
-    larger for the smaller root.
-    Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (of opposite signs), coinciding.
+
+    Check: the root substituted into the equation; the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)), whose denominator
+    is larger for the smaller root.
+    Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (roots of opposite signs),
+    coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = both.needed(Roots)
@@ -293,8 +306,8 @@ def _one_of_two(
 
 
 def _indexed(name: str, key: str) -> str:
-    """Return the symbol of a root, with an index from its key: phi_slow_dot for slow_precession, phi_1_dot for
-    roots_1."""
+    """Return the symbol of a root, with an index from the key of its step: phi_slow_dot for the key slow_precession,
+    phi_1_dot for roots_1."""
     return with_index(name, key.rpartition("_")[2] if key[-1].isdigit() else key.partition("_")[0])
 
 
@@ -339,7 +352,7 @@ def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
 
 
 def _by_resultant(of: Roots) -> Expr:
-    """Return the discriminant Delta from the resultant of the polynomial and its derivative, which is -a Delta."""
+    """Return the discriminant Delta; the resultant of the polynomial and its derivative is -a Delta."""
     return tidied(-_resultant(of.quadratic) / of.quadratic.a)
 
 
@@ -370,8 +383,8 @@ DISCRIMINANT = Rule(
 def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminant") -> Quantity:
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
-    roots   one of the roots from `roots` with `together`
-    Check: the resultant of a x^2 + b x + c and its derivative, which is -a Delta.
+    roots   a root that `roots` returned with `together`
+    Check: the resultant of a x^2 + b x + c and its derivative is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -402,9 +415,9 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: bool = False) -> Quantity:
     """Condition under which the roots of a quadratic equation are real, b^2 - 4 a c >= 0, solved for a letter.
 
-    roots    one of the roots from `roots` with `together`
-    letter   the letter to solve for
-    distinct whether two distinct roots are required, b^2 - 4 a c > 0
+    roots      a root that `roots` returned with `together`
+    letter     the letter to solve for
+    distinct   whether two distinct roots are required, b^2 - 4 a c > 0
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
     substituted in the equation, the condition is first shown in letters.
     Check: as `where`.

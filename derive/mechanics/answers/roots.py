@@ -71,7 +71,7 @@ def roots(
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, in ascending order: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic
     factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
-    equation   a polynomial equation in the letter; or a result that is not an equation, for its zeros
+    equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
     values     quantities for letters of the coefficients, substituted after the formula for both roots
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
@@ -80,13 +80,14 @@ def roots(
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
-    Check: substituted back into the equation; by Vieta, the sum and the product of all roots agree with the
+    Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
-    Factors without the unknown, such as sin(theta) if cos(theta) is the unknown, are stated or assumed not to vanish.
+    If cos(theta) is the unknown, a factor such as sin(theta) is split off; the page states the equation sin(theta) = 0
+    as a further solution.
     Outcomes: single, double, only (any other root is complex or not positive), several (the first of several roots),
     following (a later root), none (no root is real), none_positive, none_reached (a sine or a cosine would be greater
-    than 1 or less than -1); for both roots in one formula: two, none, double, conditional (by the sign of
-    b^2 - 4 a c), opposite (one of each sign), linear.
+    than 1 or less than -1); for both roots in one formula: two, none, double, conditional (the sign of b^2 - 4 a c
+    depends on the symbols), opposite (one of each sign), linear.
     Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
@@ -273,7 +274,7 @@ def _asked(equation: Quantity) -> str:
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
-    """Return the common factor of all coefficients, such as P of P (R u - r)."""
+    """Return the common factor of all coefficients, such as P in P (R u - r)."""
     found = {root.coefficients: root.times for root in every}
     return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
 
@@ -312,7 +313,7 @@ def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | Non
 
 
 def _by_resultant(root: RootOf) -> Expr:
-    """Return the discriminant D from the resultant of the quadratic factor and its derivative, which is -a D."""
+    """Return the discriminant D of a quadratic factor; the resultant of the factor and its derivative is -a D."""
     a, b, c = root.coefficients
     x = Dummy("x")
     return -resultant(a * x**2 + b * x + c, 2 * a * x + b, x) / a
@@ -340,7 +341,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
     if any(part is None or part.degree() > 2 for part, _ in found):
         degree = max(part.degree() for part, _ in found if part is not None)
         message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
-        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or a special case"))
+        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 

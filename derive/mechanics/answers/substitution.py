@@ -60,20 +60,21 @@ def put_in(
     again: Quantity | None = None,
     **values: Any,
 ) -> Quantity:
-    """Value or equation with other results, or values of letters, substituted: f(x) with x = g is f(g).
+    """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each substituted for its letter; equations whose left side is only a letter, a rate, the square
+    others   results, each of which replaces its letter; equations whose left side is only a letter, a rate, the square
              of a rate, or a cosine; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
-    The results are substituted one after another, in the given order, then the values. If a coordinate is given as a
+
+    The results are substituted one after another, in the given order; the values follow. If a coordinate is given as a
     function of other coordinates or of the time, its rates are substituted too.
-    Check: all letters of the original replaced at once by their final values; the earlier result.
+    Check: all letters of the original replaced at once by their final values; if `again` is given, the earlier result.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
     the substitution), again.
-    Errors: nothing to replace; an equation that is not solved for a letter; a relation that cannot hold; a place
-    that the motion does not reach.
+    Errors: there is nothing to replace; an equation that is not solved for a letter; a relation that cannot hold; a
+    place that the motion does not reach.
     Source: none needed: substitution.
     """
     rests, given = _sorted_out(others)

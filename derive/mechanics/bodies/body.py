@@ -1,6 +1,6 @@
 """Bodies: the region that the mass fills, the density, the centre of mass, and the named points and directions.
 
-Every body has body axes, and all lengths have the unit of its sizes. The body axes of a body with perpendicular edges
+Every body has body axes, and its positions have the unit of its sizes. The body axes of a body with perpendicular edges
 are along these edges, with the origin at a corner. A round body has its axis of symmetry along z.
 """
 
@@ -54,8 +54,8 @@ DENSITIES = {
 class Body(Placeable, OfParticles):
     """The common base of all bodies.
 
-    A subclass defines the named points, the region of integration, the size, and a few particles with the mass, the
-    centre of mass and the second moments of the body.
+    A subclass defines the named points, the region of integration and the size. A subclass also defines a few
+    particles, which together have the mass, the centre of mass and the second moments of the body.
     """
 
     mass: Expr
@@ -64,9 +64,9 @@ class Body(Placeable, OfParticles):
     other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
-    is_lopsided: ClassVar[bool] = False  # no inversion symmetry, even if the particles have this symmetry
-    is_round: ClassVar[bool] = False  # whether all axes perpendicular to z at a point of z are equivalent
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems with known limits
+    is_lopsided: ClassVar[bool] = False  # without inversion symmetry, although its particles may have it
+    is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinates in which the limits are known
 
     def __post_init__(self) -> None:
         self.check_sizes()
@@ -91,7 +91,7 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return this body as a part of a larger body; one point of the part is at (x, y), (x, y, z) or a `point`."""
+        """Return this body as a part of a larger body; its point `of` is at (x, y), (x, y, z) or a `point`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
@@ -99,7 +99,8 @@ class Body(Placeable, OfParticles):
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:
-        """The position along the body axes as a formula, and the limits of the variables in it, outermost first."""
+        """The position along the body axes as a formula, and the limits of the variables of this formula, outermost
+        first."""
         raise AttributeError(f"{type(self).__name__} must define its position map")
 
     @property
@@ -112,7 +113,8 @@ class Body(Placeable, OfParticles):
         return Integer(1)
 
     def region(self, point: Point, coordinates: str | None = None) -> Region:
-        """The region that the body fills, relative to a point; by default in the first of its coordinate systems."""
+        """The region that the body fills, relative to a point; by default in the first of the body's coordinate
+        systems."""
         position, limits = self.map()
         sizes = (each if isinstance(each, tuple) else (each,) for each in self.measures.values())
         return from_point(point, position, limits, cell(position, limits, tuple(size for own in sizes for size in own)))
@@ -133,7 +135,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """The lengths that define the size of the body, by their ids; several lengths of one sort form a tuple."""
+        """Name -> length, for the lengths that define the size of the body; lengths of the same name form a tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
@@ -144,7 +146,7 @@ class Body(Placeable, OfParticles):
         return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
-        """The steps for a radius that the limits of a region contain; empty by default."""
+        """The steps that derive a radius in the limits of a region; empty by default."""
         return []
 
     @cached_property
@@ -170,7 +172,7 @@ class Body(Placeable, OfParticles):
         return set()
 
     def within(self, point: Point, coordinates: str | None = None) -> Region:
-        """The region that the body fills; an error if its limits are unknown in these coordinates."""
+        """The region that the body fills; coordinates in which the limits are unknown are an error."""
         if coordinates is not None and coordinates not in self.systems:
             raise no_such_coordinates(self.name, coordinates, self.systems)
         return self.region(point, coordinates)
@@ -185,12 +187,12 @@ class Body(Placeable, OfParticles):
 
     @property
     def mass_as_found(self) -> Quantity | Expr:
-        """The step that derives the mass, or the given mass."""
+        """The mass: the step that derives the mass, or the given value."""
         return self.mass
 
     @property
     def front(self) -> Expr:
-        """The constant factor of the density, in front of an integral: here the symbol of the density."""
+        """The constant factor of the density, in front of an integral; by default the symbol of the density."""
         letter: Expr = self.density.symbol
         return letter
 
@@ -213,7 +215,7 @@ class Body(Placeable, OfParticles):
         return density * explicit(region.integral(values))
 
     def direction(self, axis: Direction, symbol: str = "d", key: str = "axis_vector") -> Quantity:
-        """A vector along the axis: a named axis, or given components."""
+        """Return a vector along an axis that is given by its name or by components."""
         named = self.axes_by_name()
         if axis.name is not None and axis.name not in named:
             known = list(named)
@@ -308,7 +310,7 @@ class Cylindrical(OfHeight, RoundBody):
 class Conical(OfHeight, RoundBody):
     """A body whose outer surface is on a cone with its apex at the origin.
 
-    radius   of its base
+    radius   the radius of the base
     """
 
     def radius_at(self, z: Expr) -> Expr:
@@ -318,8 +320,8 @@ class Conical(OfHeight, RoundBody):
 class Hollow(Body):
     """A round body with a concentric cavity of the same shape.
 
-    inner, outer   radius of the cavity, and outer radius of the body
-    Errors: the inner radius is known to be equal to the outer radius, or larger.
+    inner, outer   the radius of the cavity, and the outer radius of the body
+    Errors: the inner radius is known to be greater than the outer radius, or equal to it.
     """
 
     inner: Expr
@@ -414,10 +416,10 @@ DENSITY = Rule(
 def density(body: Body, symbol: str | None = None, key: str = "density", part: str | None = None) -> Quantity:
     """Density of a uniform body, rho = M/V; for a thin body sigma = M/A or lambda = M/l.
 
-    body    mass M; volume V, area A or length l
+    body    a body with the mass M and the volume V, area A or length l
     part    the name of the body, if the page has several bodies
     Check: the integral of the density over the body gives M back.
-    Outcomes: along_edges (a cuboid); volume, area, length (what the mass fills); derived (a step derives the volume).
+    Outcomes: along_edges (a cuboid); volume, area, length (what the mass fills); derived (a step derives the size).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     extent = body.extent
@@ -471,15 +473,15 @@ def centre_of_mass(
 ) -> Quantity:
     """Centre of mass, r_C = (1/M) integral of r dm, measured from a named point of the body.
 
-    body         mass, region
-    origin       the point, by default the origin of the body axes
+    body         a body with a mass and a region
+    origin       the name of the point, by default of the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the body has both
     Each component that does not vanish by symmetry has its own step: a round body needs one step, a body without
     inversion symmetry up to three.
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
     Outcomes: round; generic (a body with inversion symmetry); by_components; there (at the named point itself).
-    Errors: no such point, no such coordinates.
+    Errors: the body has no such point or no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
     start = body.point(origin or body.reference)

@@ -155,7 +155,8 @@ class GeneralBody(Body):
         return Point("centre", ImmutableDenseMatrix(3, 1, [tidied(x) for x in first]))
 
     def particles(self) -> Particles:
-        """Particles with the moments of the body; the moments are integrals, so they cannot check integrals."""
+        """Particles with the moments of the body. The moments are integrals, so these particles cannot check an
+        integral."""
         return self._equimomental
 
     @cached_property
@@ -182,10 +183,11 @@ class GeneralBody(Body):
 class Wire(GeneralBody):
     """Mass along a curve: `Wire((x, y, z), {u: (a, b)}, mass=M)`.
 
-    position   two or three formulas in the variable, lengths
+    position   two or three lengths, formulas in the variable
     limits     the variable with its lower and its upper limit
-    mass       mass; or
-    density    mass per length, a formula in the variable; if the mass is given too, only proportional to the density
+    mass       the mass; needed if there is no `density`
+    density    mass per length, a formula in the variable; if the mass is given too, the density is proportional to this
+               formula
     """
 
     id: ClassVar[str] = "wire"
@@ -195,10 +197,11 @@ class Wire(GeneralBody):
 class Sheet(GeneralBody):
     """Mass on a surface, flat or curved: `Sheet((x, y, z), {u: (a, b), v: (c, d)}, mass=M)`.
 
-    position   two or three formulas in the variables, lengths
-    limits     each variable with its lower and upper limit; a limit may depend on the variables named before
-    mass       mass; or
-    density    mass per area, a formula in the variables; if the mass is given too, only proportional to the density
+    position   two or three lengths, formulas in the variables
+    limits     each variable with its lower and upper limit; a limit may depend on variables that are named earlier
+    mass       the mass; needed if there is no `density`
+    density    mass per area, a formula in the variables; if the mass is given too, the density is proportional to this
+               formula
     """
 
     id: ClassVar[str] = "sheet"
@@ -208,10 +211,11 @@ class Sheet(GeneralBody):
 class Solid(GeneralBody):
     """Mass in a volume: `Solid((x, y, z), {u: (a, b), v: (c, d), w: (e, f)}, mass=M)`.
 
-    position   three formulas in the variables, lengths
-    limits     each variable with its lower and upper limit; a limit may depend on the variables named before
-    mass       mass; or
-    density    mass per volume, a formula in the variables; if the mass is given too, only proportional to the density
+    position   three lengths, formulas in the variables
+    limits     each variable with its lower and upper limit; a limit may depend on variables that are named earlier
+    mass       the mass; needed if there is no `density`
+    density    mass per volume, a formula in the variables; if the mass is given too, the density is proportional to
+               this formula
     """
 
     id: ClassVar[str] = "solid"
@@ -257,11 +261,11 @@ CELL_OF = Rule(
 
 
 def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
-    """Size of a cell: |r_u|^2 for a curve, |r_u x r_v|^2 for a surface, r_u . (r_v x r_w) for a solid.
+    """Size of a cell of a solid, r_u . (r_v x r_w), or its square: |r_u x r_v|^2 for a surface, |r_u|^2 for a curve.
 
     body   a body defined by its position map
-    Second route: det(r_i . r_j) from the squared distances of neighbouring points, which is the square of the cell; for
-    a solid also, numerically, the signed volume that small edges span.
+    Second route: the square of the size is det(r_i . r_j), with scalar products from squared distances of neighbouring
+    points; for a solid also the signed volume that small edges span, numerically.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """
@@ -298,7 +302,8 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
 
 def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """det(r_i . r_j); r_i . r_j is half a second derivative of the squared chord to a neighbour, at zero distance."""
+    """Return det(r_i . r_j), where r_i . r_j is half a second derivative of the squared chord to a neighbour, at zero
+    distance."""
     steps = [scalar(f"delta_{x.name}") for x in names]
     moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
     chord = sum((x**2 for x in moved), Integer(0))
@@ -373,7 +378,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
 
 
 def _without_last(forms: list[Form]) -> list[Form]:
-    """The lines of an integral without the line that collects the mass: here the mass is the unknown."""
+    """The lines of an integral without the line that collects the mass, because the mass is unknown."""
     return [form for form in forms if form.because != "mass_collected"]
 
 

@@ -82,8 +82,8 @@ class RoundSolid(RoundBody):
         return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
-        """The mark after the symbol of the radius: a prime if z is not measured from the origin, and the index of a
-        named body."""
+        """What follows the symbol of the radius: a prime if z is not measured from the origin, and the index of a named
+        body."""
         index = f"_{self.called.partition(' ')[0]}" if self.called else ""
         return index if point.name == self.reference else f"'{index}"
 
@@ -106,10 +106,10 @@ class RoundSolid(RoundBody):
 class Cone(Conical, RoundSolid):
     """A uniform circular cone, from its apex at the origin to its base at z = height.
 
-    radius   of the base, length
+    radius   the radius of the base, length
     height   length
     mass     mass
-    Points: apex; base (the centre of the base; z measured from there is positive towards the apex); centre.
+    Points: apex, base (the centre of the base, from which z is positive towards the apex), centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
@@ -291,7 +291,7 @@ class HalfCylinder(OfHeight):
 
 @dataclass(frozen=True)
 class Ellipsoid(Body):
-    """A uniform ellipsoid about the origin, its axes along x, y and z.
+    """A uniform ellipsoid about the origin, with its axes along x, y and z.
 
     semi_axes   three lengths
     mass        mass
@@ -320,10 +320,10 @@ class Ellipsoid(Body):
 
 @dataclass(frozen=True)
 class Torus(Body):
-    """A uniform ring of round cross-section about the z axis, its centre at the origin.
+    """A uniform ring of round cross-section about the z axis, with its centre at the origin.
 
-    radius    from the axis to the middle of the cross-section, length
-    section   radius of the cross-section, length
+    radius    the distance of the middle of the cross-section from the axis, length
+    section   the radius of the cross-section, length
     mass      mass
     """
 
@@ -353,8 +353,8 @@ class Torus(Body):
         return Toroidal(self.radius, self.section)
 
     def particles(self) -> Particles:
-        """Rings through the five particles of the cross-section; the mass of each ring is proportional to its radius
-        too."""
+        """The particles of five rings, one through each particle of the cross-section. The mass of a ring is the mass
+        of this particle times the radius of the ring divided by `radius`."""
         found: Particles = []
         for share, place in disc_of_particles(self.mass, self.section, ZERO):
             radius = self.radius + place[0]
@@ -376,7 +376,8 @@ def volume(body: Cone) -> Quantity:
     """Volume of a cone, V = integral of dV.
 
     body    radius R, height h
-    Second route: Pappus, the area of half the axial section times the path length of the centroid of this half.
+    Second route: by the theorem of Pappus, the area of half the axial section times the path length of the centroid of
+    this half.
     Outcomes: cylindrical (the coordinates of the integral).
     Source: Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus).
     """
@@ -426,7 +427,8 @@ SECTION_RADIUS = Rule(
 
 
 def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
-    """The radius of the cross-section at z, with z measured from a point of the axis: R z/h, sqrt(R^2 - z^2)."""
+    """The radius of the cross-section at z, such as R z/h or sqrt(R^2 - z^2), with z measured from a point of the
+    axis."""
     symbol, value = region.section or (None, None)
     z = region.names[0]
     polar = _polar_coordinates(region)

@@ -63,14 +63,15 @@ CONSERVED = Rule(
 
 
 def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key: str | None = None) -> Quantity:
-    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; later steps use its symbol.
+    """Momentum of a cyclic coordinate, p_q = dL/dq_dot, which is constant; later steps use the symbol of the momentum.
 
     of      the Lagrangian, J
     q       a coordinate that L does not contain
-    value   the symbol of the constant, by default p_q; or the initial value of the momentum, I_z*S: then the result is
-            an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
-    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields; its
-    time derivative as a function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's principle.
+    value   the symbol of the constant, by default p_q; or the initial value of the momentum, such as I_z*S. An initial
+            value makes the result an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
+    Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
+    principle.
     Outcomes: angular (q is an angle), linear (q is a length), other.
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
     constant.
@@ -156,13 +157,14 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 
     of          the Lagrangian, J
     constants   momenta of cyclic coordinates, results of `conserved`
+
     Steps derive the rates of the cyclic coordinates.
-    Second route: -dR/dp is the rate of a cyclic coordinate; for each other coordinate dR/dq_dot is the sum of
-    m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces; and R is
-    T - U - sum of p q_dot, plus the sum of q v . A for charges in magnetic fields, with the rates substituted.
+    Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
+    m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. With the rates
+    substituted, R is T - U - sum of p q_dot, plus the sum of q v . A for charges in magnetic fields.
     Errors: no momentum is given; a momentum belongs to another Lagrangian; no coordinate remains; a force outside L
     acts along a remaining coordinate.
-    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where R has the other sign.
     """
     if not constants:
         raise Rejected(
@@ -248,14 +250,16 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the coordinates that are not cyclic: U_eff = sum of p q_dot - L where their rates
-    vanish, with the sum over the cyclic coordinates.
+    """Effective potential energy of the coordinates that are not cyclic: U_eff = sum of p q_dot - L, summed over the
+    cyclic coordinates, where all other rates vanish.
 
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default those of all cyclic coordinates
+
     Without cyclic coordinates U_eff is U - T_0, for example in a prescribed rotation.
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
-    (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted; U_eff is T_2 - T_0 + U with these rates.
+    (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
+    rates.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
     (L is given, without cyclic coordinates).
     Errors: L contains the time; no coordinate remains; a force outside L acts where the rates vanish.

@@ -50,11 +50,13 @@ class Impulse:
 @dataclass(frozen=True)
 class Collision:
     """A collision of two places; if `start` is None, the place `end` meets an object at rest.
+
     along         the unit vector of the common normal, along which the impulse acts; empty if the places stay together
     restitution   the ratio of the speed of separation to the speed of approach
-    letter        symbol of the impulse; if the places stay together, each component has its axis as an index
-    of            the bodies or particles of the start and of the end, each None if not stated
-    given         normal and restitution as the author gave them, for a second route
+    letter        the symbol of the impulse; if the places stay together, the symbol of each component also has the
+                  component's axis as an index
+    of            the body or particle of the start, and that of the end; None if it is not stated
+    given         the normal and the restitution as the author gave them, for a second route
     """
 
     start: Location | None
@@ -69,7 +71,7 @@ class Collision:
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     """A given impulse, the integral of a force over the short time of an impact, at a place, N s.
 
-    of   the body or particle on which the impulse acts, needed if the place does not move with this body or particle
+    of   the body or particle on which the impulse acts; needed if no body or particle moves with the place
     """
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as the place has"
@@ -93,14 +95,16 @@ def collision(
     of: Any = None,
 ) -> Collision:
     """A collision of two places, or of one place with an object at rest.
-    The collision is smooth, with an impulse along a normal, or the places stay together.
+
+    Either the collision is smooth, and the impulse is along a normal, or the places stay together.
+
     start, end    the places; `start` is None if `end` meets an object at rest
     along         a vector along the common normal, from `start` to `end`, of any length; without a normal, both places
                   have the same velocity after the collision
     restitution   coefficient of restitution: 1 for an elastic collision, 0 if the places do not separate
     letter        symbol of the impulse, N s, which acts on the end; the opposite impulse acts on the start
-    of            the body or particle of the end, or a pair for start and end; needed if a place does not move with
-                  its body or particle
+    of            the body or particle of the end, or a pair for start and end; needed if no body or particle moves with
+                  one of the places
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -127,11 +131,13 @@ def collision(
 @dataclass(frozen=True)
 class Meeting:
     """One condition on the rates just after an impact, and the impulse that enforces this condition.
+
     gap          the quantity whose rate the condition determines; for a constraint on rates, the rate itself
     restitution  minus the ratio of the rate just after the impact to the rate just before
-    what         "together", "elastic", "rebound" or "kept"
-    ends         the two places of a collision, and the direction of the impulse on the second place, as given
-    given        the restitution as given
+    what         "together", "elastic" or "rebound" for a collision; "kept" for a constraint of the system
+    ends         the two places of a collision, and the direction of the impulse on the second place, as the author gave
+                 them
+    given        the restitution as the author gave it
     """
 
     gap: Expr
@@ -164,7 +170,8 @@ class Meeting:
 
 class Impact:
     """An impact on a system at one instant.
-    system   the particles and bodies; a constraint that a force keeps is kept by an impulse
+
+    system   the particles and bodies; in the impact, an impulse maintains each constraint that a force maintains
     acts     given impulses, and collisions
     at       coordinate -> its value at this instant; coordinates without a value remain general
     before   coordinate -> its rate just before the impact, by default zero
@@ -270,8 +277,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value in the notation of the page, at the given values of the coordinates that `holds`
-        contains."""
+        """Return the value in the notation of the page, with the mark "at q = q_0" for each coordinate q in `holds`
+        whose value at the impact is given."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)
@@ -386,7 +393,8 @@ class Impact:
         return found
 
     def power(self) -> Expr:
-        """Return the sum of J . v by a second route: places as functions of time, and the state as given."""
+        """Return the sum of J . v by a second route, from places as functions of time and the state that the author
+        gave."""
         found = ZERO
         for one in self.impulses:
             for j, c in zip(one.given, one.at, strict=True):

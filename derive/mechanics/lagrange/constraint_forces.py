@@ -77,8 +77,8 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """Expressions from the constraints for coordinates, and for the rates of these coordinates, in the other
-        coordinates."""
+        """Coordinate -> an expression in the other coordinates, by a constraint that is solved for this coordinate;
+        also the rate of the coordinate -> the rate of this expression."""
         found: dict[Symbol, Expr] = {}
         for each in self.constraints:
             residual = each.residual.xreplace(found)
@@ -107,8 +107,8 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
     matter = found[0].needed(Matter)
     missing = [q.name for q in matter.coordinates if q not in problem.moving]
     if missing or len(set(problem.moving)) < len(problem.moving):
-        what = f"that of {missing[0]} is missing" if missing else "one of them is given twice"
-        help_line = "`equations_of_motion` returns all of them"
+        what = f"that of {missing[0]} is missing" if missing else "one equation is given twice"
+        help_line = "`equations_of_motion` returns all equations"
         message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(problem.unknowns) > MOST:
@@ -125,13 +125,13 @@ def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
 
 
 def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
-    """Accelerations q_ddot, from the equations of motion and the constraints, if any.
+    """Accelerations q_ddot, from the equations of motion, and from the constraints if there are any.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     Keys: acceleration_ and the name of the coordinate.
     Outcomes: generic (with constraints), unconstrained, zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
-    for every coordinate; and the accelerations satisfy the constraints, differentiated as functions of t.
+    for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -336,7 +336,7 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # for the second route, without `way`
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # for the second route, not `way`
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
@@ -379,7 +379,10 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
-    """Return the virtual work and zero. Each coordinate has an independent displacement, so no two terms cancel."""
+    """Return the two sides of d'Alembert's principle: the virtual work of m a - F, and zero.
+
+    Each coordinate has a displacement of its own, so the terms of two coordinates cannot cancel.
+    """
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
     whole = Add(
@@ -460,7 +463,8 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
 
 
 def _contradict(constraints: Sequence[Constraint]) -> bool:
-    """Whether a multiple of one constraint differs from another by a nonzero expression without coordinates."""
+    """Whether two of the constraints contradict each other: one minus a multiple of the other is not zero, and contains
+    no coordinates."""
     for i, one in enumerate(constraints):
         for other in constraints[:i]:
             shared = [q for q in one.coordinates if one.along(q) != 0 and other.along(q) != 0]

@@ -78,7 +78,7 @@ class Mover:
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
     """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
 
-    The index also contains the name of a body or of the system, and the index of a second Lagrangian.
+    The name of a body replaces the number. The name of the system and the index of a second Lagrangian follow.
     """
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
@@ -146,8 +146,8 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """Return the line with expanded squares, before sines and cosines of one angle combine; no line if this line is
-    long."""
+    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined; a long line
+    is left out."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
@@ -186,7 +186,7 @@ class Turning:
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
-        """Return the energy in components along principal axes, with terms of equal moments combined."""
+        """Return the energy in components along principal axes; terms with equal moments are combined."""
         tensor, omega = value_behind(self.inertia), value_behind(self.omega)
         if self.is_plane or not tensor.is_diagonal():
             return explicit(self.energy(tensor, omega))
@@ -246,8 +246,10 @@ KINETIC_ENERGY = Rule(
 def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
-    system   particles and bodies; v is the speed of a particle or a centre of mass, and I is about the centre of mass;
-             a body that is held at a fixed point has no term with v, and its I is about the fixed point
+    system   particles and bodies
+
+    The speed v is that of a particle or a centre of mass, and I is about the centre of mass. A body that is held at a
+    fixed point has no term with v, and its I is about the fixed point.
     Steps derive the square of each speed, each angular velocity and each inertia.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the known moments of inertia of a body are about another point.
@@ -326,9 +328,10 @@ POTENTIAL_ENERGY = Rule(
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
     """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs.
 
-    system   particles and bodies, with weights, springs and other potential energies; y is the height of a particle or
-             a centre of mass above the origin
-    U is zero for weights at the origin and for springs at their natural length: a convention.
+    system   particles and bodies, with weights, springs and other potential energies
+
+    The height y of a particle or a centre of mass is measured from the origin. By convention U is zero for weights at
+    the origin and for springs at their natural length.
     Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate.
     Outcomes: generic, zero.
     Source: Taylor, *Classical Mechanics*, section 4.2.
@@ -397,7 +400,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
     """Term of uniform magnetic fields in a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
 
     system   charges q, in C, in magnetic fields B, in T
-    Second route: dL_B/ds - d/dt dL_B/ds_dot of this term L_B is the virtual work of the forces q v x B along each
+    Second route: for this term L_B, dL_B/ds - d/dt dL_B/ds_dot is the virtual work of the forces q v x B along each
     coordinate s.
     Outcomes: alone (one charge in a field), several.
     Errors: no charge of the system is in a magnetic field.

@@ -57,9 +57,10 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     """Lagrangian, L = T - U; for charges in magnetic fields, L = T - U + sum of q v . A.
 
     system   particles and bodies, with the forces on them
+
     The index of the symbol is also the index of the energies: T_2 and U_2 for "L_2".
-    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U; if a position or U depends on time
-    explicitly, or in a magnetic field, L + U - sum of q v . A is the kinetic energy of the mass points.
+    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U. If a magnetic field acts, or if a position
+    or U depends explicitly on the time: L + U - sum of q v . A is the kinetic energy of the mass points.
     Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
@@ -195,8 +196,8 @@ def equation_of_motion(
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """Divide by common positive factors: m l^2 theta_ddot + m g l sin(theta) becomes l theta_ddot + g sin(theta).
 
-    Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are
-    common to all terms, also inside brackets, are divided out.
+    Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are common to all terms,
+    also inside brackets, are divided out. The result is not longer than the given sum.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
@@ -208,7 +209,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
-    """Make all numeric factors whole: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
+    """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
     A sum with denominators in some terms only, such as a moment of inertia I + M a^2/4, is unchanged.
     """
@@ -239,7 +240,7 @@ def _product(*factors: Expr) -> Expr:
 
 
 def _divided(term: Expr, common: Expr) -> Expr:
-    """Divide by each factor of `common` in turn, so that brackets remain."""
+    """Divide a term by the factors of `common` one after another, so that brackets remain."""
     for factor in Mul.make_args(common):
         term = term / factor
     return term
@@ -262,7 +263,8 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step. If the Lagrangian does not have the usual key, its key is the prefix."""
+    """Return the key of a step: the name, with the key of the Lagrangian as a prefix if that key is not the usual
+    one."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
@@ -285,8 +287,8 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     of   the Lagrangian, J
     q    one of its coordinates
-    Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points; for charges
-    e in magnetic fields also the time derivative of the sum of e A . dr/dq.
+    Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
+    e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
     Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

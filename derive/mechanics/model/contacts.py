@@ -134,7 +134,10 @@ def _check_carried(touch: Contact, rough: bool) -> None:
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
     if surface.of is None and moving and not isinstance(surface.moves, Axes):
-        message = f"the surface moves with {next(iter(moving))}, but no body carries it, so nothing bears its reaction"
+        message = (
+            f"the surface moves with {next(iter(moving))}, but no body carries it, "
+            "so the contact force on the surface would act on nothing"
+        )
         raise Rejected(Complaint("which-body", message, help="name the body that carries the surface, `of: wedge`"))
     if rough and surface.of is None and any(c.has(TIME) for c in turning):
         message = "the surface rotates, so the velocity of its material is unknown"

@@ -56,7 +56,8 @@ class _AtPlace(Part):
 
     @property
     def place(self) -> Vector:
-        """The place at which the force acts: `at` on a body, and the place of the particle on a particle."""
+        """The place at which the force acts. A force on a particle acts at the place of the particle; any other force
+        acts at `at`."""
         return self.at if self.point.held else self.point.place
 
     @property

@@ -56,8 +56,8 @@ LEAVES_CONTACT = Rule(
 
 @in_results(
     "leaves",
-    "where a force of contact vanishes",
-    force="leaves: a force of contact",
+    "where a contact force vanishes",
+    force="leaves: a contact force",
     letter="for: a function of the place, such as `cos(theta)`",
     start="start",
 )
@@ -120,7 +120,8 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     existing = existence(force, result)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
-        """Check the solution without the omitted factor: N vanishes at the place, and is linear in the unknown."""
+        """Check that N divided by its omitted factors vanishes at the place, and is linear in the unknown from there to
+        the start."""
         place = explicit(found.right)
         u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))

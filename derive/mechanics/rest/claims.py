@@ -124,7 +124,8 @@ def _can_be_counted(sought: Sequence[Symbol]) -> bool:
 
 
 def all_are_told(facts: Judged) -> bool:
-    """Whether no equilibrium is missing; if equilibria can be counted, a check of the step counts them instead."""
+    """Whether no equilibrium is missing. If equilibria can be counted, this predicate is true, because a check of the
+    step counts the equilibria."""
     sought = facts.inputs["sought"]
     if _can_be_counted(sought):
         return True
@@ -153,7 +154,8 @@ def numbers_here(facts: Judged) -> list[Point]:
 
 
 def _signs_by_numbers(facts: Judged, beside: Sequence[Relation] = ()) -> list[tuple[Point, int]]:
-    """Return trial numbers, each with the sign of the energy to second order; some are next to the given boundaries."""
+    """Return trial points, each with the sign of the energy to second order; some of the points are close to the given
+    boundaries."""
     letters, points = _letters_here(facts), numbers_here(facts)
     points += [point for each in beside for point in beside_border(each, points, *_exists(facts))]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
@@ -194,7 +196,8 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         return (energy(*moved) - here) / step**2
 
     def twice(i: int, j: int) -> Any:
-        """Return the second difference of the energy along the sum of two directions."""
+        """Return the second difference of the energy along the sum of the directions i and j, or along i if they are
+        equal."""
         way = [int(k == i) + int(k == j and j != i) for k in range(size)]
         return gained(*way) + gained(*(-w for w in way))
 
@@ -230,7 +233,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is positive; only then is a minimum of U stable. Invalid numbers are skipped."""
+    """Whether the kinetic energy is never negative; only then is a minimum of U stable. Trial numbers without a meaning
+    are skipped."""
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
@@ -256,7 +260,8 @@ def _at_rest(facts: Judged) -> dict[Any, Expr]:
 
 
 def higher(kind: str) -> Predicate:
-    """Judge by the first nonzero derivative of the energy; the second derivative must vanish."""
+    """Judge whether the first nonzero derivative of the energy gives this verdict; the second derivative must
+    vanish."""
 
     def is_so(facts: Judged) -> bool:
         if not all(is_zero(entry) for entry in _entries(facts.result)):
@@ -267,7 +272,8 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides: all derivatives vanish, or the stated first nonzero derivative has an unknown sign."""
+    """Whether no order decides: all derivatives to the eighth vanish, or the sign of the first nonzero derivative,
+    which the sentence states, is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
@@ -284,7 +290,8 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
 
 
 def depends(border: str | None) -> Predicate:
-    """Judge whether the sign depends on the numbers, and the stated condition holds exactly where the sign is positive.
+    """Judge whether the sign of the energy to second order depends on the numbers, and the stated condition holds
+    exactly where this sign is positive.
 
     border   the verdict of the higher order that decides on the boundary; None if no such order is stated
     """
@@ -350,8 +357,8 @@ def sides_as_told(facts: Judged) -> bool:
 def level_as_told(facts: Judged) -> bool:
     """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate.
 
-    The force is a polynomial in functions of the coordinate. It vanishes at all values if a common factor of its
-    coefficients is zero.
+    The force is a polynomial in functions of the coordinate. The force vanishes at all values of the coordinate if a
+    common factor of the coefficients is zero.
     """
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:
@@ -370,7 +377,8 @@ DIGITS_LEFT = 10**40  # largest ratio of an energy to a difference of energies; 
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
-    """Whether the result is the derivative of the potential energy that the symbol of the result shows."""
+    """Whether the result is the derivative of the potential energy, of the order that the symbol of the result
+    shows."""
     of, q, order = facts.symbol.args
     potential, found = facts.quantities["potential"], explicit(facts.result)
     energy = explicit(potential.value)
@@ -380,7 +388,7 @@ def is_its_derivative(facts: Judged, outcome: str) -> bool:
 
 
 def _nearby(point: Point) -> Expr:
-    """Return a distance that is small compared with every number of a point."""
+    """Return a distance that is small compared with every value of a trial point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 
@@ -472,7 +480,7 @@ def _shape_by(order: int, derivative: Expr) -> str:
 
 
 def bent(sign: int | None) -> Predicate:
-    """Judge by the sign of the second derivative of the energy at the given value of the coordinate."""
+    """Judge whether the second derivative of the energy at the given value of the coordinate has this sign."""
 
     def curvature(facts: Judged) -> Expr:
         q, at = facts.inputs["coordinate"], facts.inputs["at"]
@@ -520,7 +528,8 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
-    """Whether the named expression is the coordinates, an equation with their equilibrium values, or a constraint.
+    """Whether the named expression is the list of the coordinates, an equation with their equilibrium values, or a
+    constraint.
 
     In each case the equilibrium values must satisfy every constraint.
     """
@@ -565,7 +574,8 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the motion steady only if coordinates were eliminated with conserved momenta.
+    """Whether the sentence calls a motion steady only where coordinates were eliminated with conserved momenta. Where
+    the energy itself results from such an elimination, a sentence about one coordinate must do so.
 
     The eliminated coordinates still move, so the state is a steady motion and not an equilibrium at rest.
     """

@@ -70,8 +70,9 @@ def _is_place(value: Expr, q: Symbol) -> bool:
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
     """Return the values of the coordinate at which the force is evaluated.
 
-    If the force has the period of a full turn, the grid covers one turn; the force is unlikely to vanish at its ends.
-    Otherwise, as for a twisted wire, the grid covers the whole axis and is finest at the scale of the expected zeros.
+    If the force is periodic in a full turn, the grid covers one turn. Its ends are chosen so that the force is unlikely
+    to vanish there. Otherwise, as for a twisted wire, the grid covers the whole axis and is finest at the scale of the
+    expected zeros.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]

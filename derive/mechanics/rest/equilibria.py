@@ -153,7 +153,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... for the equilibria.
     Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
     force are counted numerically, for some values of the symbols.
-    Outcomes: always, where (it exists under a condition), only (there is no other equilibrium). Outcomes of an
+    Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
     between the coordinates is maintained by a force.
@@ -173,7 +173,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
     if others:
         message = f"`equilibria`: the forces also depend on {others[0].name}"
-        raise Rejected(Complaint("wrong-argument", message, help=f"name it among the coordinates: {others[0].name}"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"add {others[0].name} to the coordinates"))
     states = _states(of, forces)
     for state in states:
         check_regular("equilibria", all_matter(potential), state.values)
@@ -383,7 +383,8 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor without q is zero; if one is zero, every value of q is an equilibrium."""
+    """Return the condition that no factor without q is zero. If such a factor is zero, every value of q is an
+    equilibrium."""
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:

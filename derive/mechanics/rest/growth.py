@@ -41,10 +41,10 @@ def matter_of(potential: Quantity) -> Matter | None:
 
 
 def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether some small displacement grows for all values of the symbols.
+    """Whether, for all numbers tried, some small displacement from the equilibrium grows.
 
     place    the equilibrium values of the coordinates
-    points   numbers for the symbols of the energy, for which the energy falls in some direction
+    points   numbers for the symbols of the energy, such that the energy falls in some direction
     """
     tried = 0
     for point in points:

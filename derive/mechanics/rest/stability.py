@@ -45,7 +45,7 @@ FEW = 5  # number of coordinates up to which every direction with entries 0, 1 a
 SHORT = 80  # number of operations up to which a curvature is shown before the equilibrium is substituted
 ZERO = Integer(0)
 BY_FIRST_ORDER = Spelled(
-    "to first order the equations of motion decide, `linear_stability(linearised(motion))`", "ask for `linearised`"
+    "decide with the equations of motion to first order: `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
     "`steady_motion` finds a steady motion there, and `frequency_squared_about` determines its stability",
@@ -79,16 +79,16 @@ def stability(
     of       the potential energy, an effective potential energy, or the Lagrangian, J
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
-    exactly one such symbol
+             exactly one such symbol
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known;
     for several coordinates the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
-    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides),
-    for several coordinates also unstable_along (the energy falls in a stated direction) and level (to second order the
+    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides);
+    for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second order the
     energy is constant in some direction, and falls in none).
-    Errors: a force remains at the equilibrium; coordinates are missing; for several coordinates the energy has no
-    minimum, but forces linear in the rates, as in a rotating frame or a magnetic field, may still stabilise the
-    equilibrium.
+    Errors: a force remains at the equilibrium; coordinates are missing; the energy of several coordinates has no
+    minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a magnetic
+    field.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
     """
     require_kind("stability", "of", of, "energy")
@@ -426,7 +426,8 @@ def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | No
 
 
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
-    """Return the second derivative of the energy along the direction, from the matrix and from the energy."""
+    """Return the second derivative of the energy along the direction, derived twice: from the matrix and from the
+    energy."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
     return {
         "falling": (tidied((way.T * matrix * way)[0]), 2 * along),

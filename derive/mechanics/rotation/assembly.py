@@ -1,4 +1,5 @@
-"""Composite bodies: parts in any position and orientation, and cavities; mass, centre of mass, inertia tensor.
+"""The mass, the centre of mass and the inertia tensor of composite bodies, which have parts in any position and
+orientation, and cavities.
 
 The tensor of each part about its centre of mass is rotated to the axes of the whole and shifted by the parallel-axis
 theorem. Then the tensors of all parts are added, and the tensors of cavities are subtracted.
@@ -96,12 +97,14 @@ def _placed(part: Any) -> PlacedPart:
 class Composite(Body):
     """A composite body: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
 
-    parts    bodies; `.at(x, y, z)` moves the centre of mass of a body to this position, or with `of=` another of its
-             points; `.turned("x", angle)` rotates the body about that point; `minus(part)` is a cavity
+    parts    bodies. `.at(x, y, z)` moves the centre of mass of a body to this position; `.at(x, y, z, of="end")` moves
+             the point "end" of the body there. `.turned("x", angle)` rotates the body about the point that `.at` moved.
+             `minus(part)` is a cavity
     mass     the mass of a uniform whole, whose parts have masses in proportion to their sizes
     points   names for positions in the whole, such as a pivot
-    Two parts of one shape need names: `Rod(l, m).named("upper rod").at(...)`.
-    Errors: no part; two parts with the same name; a mass that vanishes; one mass for parts of different dimensions.
+    Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
+    Errors: there is no part; two parts have the same name; the mass of the whole vanishes; one mass is given for parts
+    of different dimensions.
     """
 
     id: ClassVar[str] = "body_of_several_parts"
@@ -165,12 +168,13 @@ class Composite(Body):
 
     @cached_property
     def whole_mass(self) -> Quantity:
-        """The step for the sum of the masses."""
+        """The step that derives the mass of the whole, the sum of the masses of the parts."""
         return _total_mass(self)
 
     @property
     def density(self) -> Quantity:
-        """The step for the mass of the first part if one mass is given; otherwise the step for the total mass."""
+        """In place of a density, the step for the mass of the first part if one mass is given for the whole; otherwise
+        the step for the total mass."""
         return self.shares[0] if self.shares else self.whole_mass
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
@@ -210,8 +214,8 @@ def _index(part: PlacedPart) -> str:
 
 
 def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[PlacedPart, ...]]:
-    """Return the steps for the masses of the parts of a uniform body, which are proportional to the sizes of the parts,
-    and the parts with these masses."""
+    """For a uniform body, return the steps that derive the masses of the parts in proportion to their sizes, and the
+    parts with these masses."""
     if len({part.body.filling for part in body.parts}) > 1 or any(isinstance(p.body, PointMass) for p in body.parts):
         message = "one mass cannot be divided between volumes, areas, lengths and particles"
         raise Rejected(Complaint("parts", message, help="give each part a mass"))
@@ -236,7 +240,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     """Mass of a part of a uniform body, M times the size of the part divided by the size of the whole.
 
     body   the whole
-    part   one of its parts, or a cavity
+    part   one of the parts of the whole, or a cavity
     mass   the mass M of the whole
     Second route: the density of the whole integrated over the part.
     Outcomes: part, hole.
@@ -309,8 +313,8 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
     """Centre of mass relative to a point, r_C = (m_1 r_1 + m_2 r_2 + ...)/M.
 
     body    the whole, with its parts
-    start   the point
-    Second route: the integral of r dm over all parts; the mean position of their equimomental particles.
+    start   the point from which the centre of mass is measured
+    Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
     Outcomes: generic, cut_out.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -352,7 +356,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
     """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
 
     body    the whole, with its parts
-    point   the point, and the axes
+    point   the point of the tensor, with the axes there
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -416,10 +420,11 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
 
     body    the whole
-    part    one of its parts; it is rotated by R, and its centre of mass is at d from the point
-    point   the point, and the axes
+    part    one of the parts of the whole; R is the rotation of the part, and d is the displacement of its centre of
+            mass from the point
+    point   the point of the tensor, with the axes there
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part.
-    Outcomes: turned_there (its centre is at the point), moved, turned_moved.
+    Outcomes: turned_there (the centre of the part is at the point), moved, turned_moved.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     own = inertia_tensor(part.body, "centre", key="own_tensor")
@@ -470,8 +475,8 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     """Displacement of the centre of mass of a part from a point of the whole.
 
     part    the part
-    point   the point
-    d       the displacement, from the position and the rotation of the part
+    point   the point of the whole
+    d       the displacement, computed from the position and the rotation of the part
     Second route: the mean position of the particles of the part.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """

@@ -68,7 +68,7 @@ def _moments_of(tensor: Any) -> list[Expr]:
 
 def tensor(different: int | None, round_body: bool = False) -> Predicate:
     """Judge whether the result is a diagonal tensor with this number of distinct moments; if no number is given,
-    whether it is not diagonal."""
+    whether the result is a tensor that is not diagonal."""
 
     def is_so(facts: Judged) -> bool:
         tensor = facts.result
@@ -108,8 +108,10 @@ def axis_of_symmetry(facts: Judged) -> bool:
 
 
 def moments_compared(wanted: str) -> Predicate:
-    """Judge whether all moments are equal ("always"), their differences have fixed signs ("never"), or the result is a
-    relation for which all moments are equal."""
+    """Judge whether all moments are equal ("always"), or whether all nonzero differences have fixed signs ("never").
+
+    For any other `wanted`, judge whether the result states the value of a symbol for which all moments are equal.
+    """
 
     def is_so(facts: Judged) -> bool:
         moments = facts.inputs["moments"]
@@ -234,7 +236,8 @@ def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
 def euler(torque: bool, coupled: str) -> Predicate:
     """Judge whether a torque acts, and where products of components of omega remain.
 
-    coupled   "here": in this equation; "elsewhere": only in another equation; "nowhere"; empty if this does not matter
+    coupled   "here": in this equation; "elsewhere": only in another equation; "nowhere"; empty if the equations of
+              these products do not matter
     """
 
     def is_so(facts: Judged) -> bool:
@@ -253,7 +256,8 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 
 def given_as(sort: str) -> Predicate:
-    """Judge whether the function in the script begins with this word, and the result has the given components."""
+    """Judge whether the name of the function in the script begins with this word, and the result has the given
+    components."""
 
     def is_so(facts: Judged) -> bool:
         given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))

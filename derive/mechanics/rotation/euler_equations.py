@@ -68,14 +68,16 @@ NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 
 @dataclass(frozen=True)
 class RigidBody(Placeable, OfParticles):
-    """A rigid body of any shape. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
+    """A rigid body of any shape.
+
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
     mass      kg, needed for all results except those about free rotation
-    moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z; for plane motion only the
-              moment about the axis perpendicular to the plane, a symbol or the step that derived it
+    moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
+              the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
-    about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; by default the pivot if the
-              centre of mass is not at the pivot
+    about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
+              centre of mass if `centre` is zero, otherwise the pivot
     look      a body whose shape is drawn in place of this body, with its centre at the centre of mass
     """
 
@@ -157,7 +159,7 @@ class RigidBody(Placeable, OfParticles):
         return principal_tensor(self)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Return six particles, at +1 and -1 on each axis, with the second moments of the body."""
+        """Return six particles, at +1 and -1 on each axis, which together have the second moments of the body."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 
@@ -258,8 +260,8 @@ def rate_in_space(
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; without it, the rates of omega remain unknown
-    Second route: rotate L with the body by a rotation matrix and differentiate; the sum of m r x a over particles;
-    the rate of L . n for a direction n that is fixed in space, so n_dot = -omega x n in the body.
+    Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
+    the rate of L . n for a direction n that is fixed in space. For such a direction, n_dot = -omega x n in the body.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
     Errors: an argument is a quantity of another kind.
@@ -291,7 +293,7 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            # The rate in the body comes from the torque, so the sum with omega x L is the torque again: only a check.
+            # The rate in the body is derived from the torque, so adding omega x L only gives the torque back: a check.
             law=Level.FULL if in_body else Level.BRIEF,
             result=in_body is not None,  # without `in_body`, Euler's equations show the components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),
@@ -314,7 +316,8 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Return whether L is constant in space, and in the body; `generic` until the equations are substituted."""
+    """Return the outcome: whether L is constant in space, and in the body too; `generic` if the equations of motion are
+    not substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):
@@ -323,7 +326,7 @@ def _constancy(rate: Any, in_body: Quantity | None) -> str:
 
 
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """Return the line with the two parts of the rate: in components, or with the given rate in the body."""
+    """Return the line with the two terms of the rate: in components, or by symbols if the rate in the body is given."""
     if in_body is not None:
         seen = in_body.step.chain[0].expr
         parts = seen.args if isinstance(seen, MatAdd) else (seen,)
@@ -388,7 +391,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:
-    """Return whether a torque acts, and if not, in which equations products of components remain."""
+    """Return the outcome: whether a torque acts, and if none acts, in which equations products of components remain."""
     uncoupled = [not entry.has(*moving) for entry in rates]
     if any(component != 0 for component in torque):
         return "driven"

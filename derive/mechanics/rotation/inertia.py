@@ -78,7 +78,7 @@ def inertia_tensor(
     only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three axes, steps
     derive only the moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
-    mass is that of the body; for a body defined by a position map, a numerical sum over its cells.
+    mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
     body that is round about z, round or round_isotropic.
     Errors: the body has no such point or no such coordinates.
@@ -132,8 +132,8 @@ def moment_of_inertia(
     """Moment of inertia about an axis through a point, I = integral of d^2 dm with the distance d from the axis.
 
     body    a body with mass M
-    axis    "x", "y" or "z": the body axis that is parallel to the axis
-    about   a named point of the body on the axis
+    axis    "x", "y" or "z": the moment is about an axis parallel to this body axis
+    about   a named point of the body on the axis of the moment
     Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
     over its cells.
     Errors: the body has no such point.
@@ -162,9 +162,9 @@ def moment_seen(
 ) -> Moment:
     """Moment of inertia about an axis, with words that specify how the sentence names this axis.
 
-    seen   the words for the sentence: `seen` is own (a body axis), mapped (the body is defined by a position map),
-           across_plane (normal to the plane of motion) or part; a part also has `whole`, the parallel axis of the
-           whole body
+    seen   terms of the sentence. The term `seen` is own (a body axis), mapped (the body is defined by a position map),
+           across_plane (normal to the plane of motion) or part. For a part, the term `whole` is the axis of the whole
+           body that is parallel to the axis of the moment
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Source: the same as for `moment_of_inertia`.
     """
@@ -312,7 +312,8 @@ def entry_weight(region: Region, pair: Pair) -> Expr:
 
 
 def _without_angles(weight: Expr) -> Expr:
-    """Write r^2 cos^2 + r^2 sin^2 as r^2; if the integrand still depends on the angle, return its shorter form."""
+    """Write r^2 cos^2 + r^2 sin^2 as r^2. If the integrand still depends on an angle, return the shorter of two forms:
+    the given form, and the form tidied term by term."""
     if not weight.atoms(sin, cos):
         return weight
     plain = weight.expand().replace(
@@ -325,7 +326,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """Return the squared distance from the axis of a moment, and |e x r|^2 to compare with; nothing for a product."""
+    """For a moment, return the squared distance from the axis, with |e x r|^2 as the same formula by another route; for
+    a product of inertia, return nothing."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
@@ -333,7 +335,8 @@ def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[An
 
 
 def _entry_by_moments(r: Any, pair: Pair) -> Any:
-    """Return the entry I_ij of a unit mass at r from moments: 2 I_ij = n.I n - I_ii - I_jj with n = e_i + e_j."""
+    """Return the entry I_ij of a unit mass at r from moments about axes: 2 I_ij = n.I n - I_ii - I_jj with
+    n = e_i + e_j."""
     axes = [column(*(int(k == axis) for k in range(3))) for axis in pair]
     if pair[0] == pair[1]:
         return squared_distance(r, axes[0])
@@ -346,8 +349,8 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 
     tensor_there    tensor J (3, 3), kg m^2, about a point of the body
     centre          vector c (3), m: the position of the centre of mass relative to that point, along the same axes
-    Second route: integrate each entry, and the whole tensor, about the centre of mass; the trace is twice the integral
-    of r.r dm.
+    Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
+    the integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
     Errors: the tensor is already about the centre of mass; the centre is measured from another point.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -356,7 +359,9 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     start = tensor_there.needed(AboutPoint).point
     if start.position == body.middle.position:
         message = f"`{tensor_there.key}` is already about the centre of mass"
-        raise Rejected(Complaint("already-there", message, help="start from another point, or use this tensor"))
+        raise Rejected(
+            Complaint("already-there", message, help="start from a tensor about another point, or use this tensor")
+        )
     _check_start(tensor_there, centre, start)
     return _moved(tensor_there, centre, replace(body.middle, axes=start.axes), symbol, key)
 
@@ -366,8 +371,8 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
 
     inertia   tensor I (3, 3), kg m^2, about the centre of mass
     centre    vector c (3), m: the position of the centre of mass relative to the other point, along the same axes
-    Second route: integrate each entry, and the whole tensor, about the other point; the trace is twice the integral of
-    r.r dm.
+    Second route: each entry, and the whole tensor, integrated about the other point; also, the trace must be twice the
+    integral of r.r dm.
     Outcomes: outward.
     Errors: the tensor is not about the centre of mass; the axes differ.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -376,7 +381,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     target = centre.needed(CountedFrom).start
     if inertia.needed(AboutPoint).point != replace(body.middle, axes=target.axes):
         message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
-        raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre"))
+        raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre of mass"))
     return _moved(inertia, centre, target, symbol, key)
 
 
@@ -391,7 +396,7 @@ MOVED_TO = Rule(
 
 
 def _moved(there: Quantity, centre: Quantity, target: Point, symbol: str, key: str) -> Quantity:
-    """Derive the tensor about another point by the parallel-axis theorem; one of the points is the centre of mass.
+    """Derive the tensor about another point by the parallel-axis theorem; one of the two points is the centre of mass.
 
     Outcomes: isotropic, two_equal, diagonal, generic; round, round_isotropic; outward (from the centre of mass to
     another point).
@@ -467,10 +472,8 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
     if entry is None and (i == j or not is_zero(there.value[i, j])):
         message = f"no step derives this entry of `{there.key}`"
-        raise Rejected(
-            Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives them elsewhere')
-        )
-    # From a point on the axis of a round body, only the component of c along the axis is not zero.
+        raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives all entries'))
+    # If c is measured from a point on the axis of a round body, only the component of c along the axis is not zero.
     apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 
     def law(mass: Expr, c: Any, *at_start: Expr) -> Expr:

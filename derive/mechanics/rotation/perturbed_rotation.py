@@ -34,7 +34,7 @@ def linearised_rotation(
     equations   Euler's equations in the order x, y, z, without torque
     axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       the constant rate omega of the steady rotation, 1/s
-    Second route: the sum of m r x a over the particles of the body: half the difference of its values for opposite
+    Second route: half the difference of the sum of m r x a over the particles of the body between opposite
     perturbations.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
     no such axis.
@@ -55,7 +55,7 @@ def linearised_rotation(
 
 
 def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
-    """Return the rate of the angular momentum, whose components are in the equations."""
+    """Return the rate of the angular momentum from which the equations were derived."""
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
@@ -103,7 +103,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # here the small change of this component, which occurs only at second order
+        beside = moving[disturbed.axis]  # now a symbol for the small change of this component, which is of second order
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(
@@ -157,9 +157,9 @@ def perturbation_rate_squared(
     """Squared angular frequency of a perturbed rotation, about z Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y).
 
     linear   the two linear equations from `linearised_rotation`
-    Second route: Omega^2 from the product of the curvatures of the conserved quantity L^2/2 - I_z T at the steady
-    rotation; and the linearised motion from the accelerations of particles: the square of its matrix has the trace
-    -2 Omega^2.
+    Second route: Omega^2 is proportional to the product of the two curvatures of the conserved quantity L^2/2 - I_z T
+    at the steady rotation. Also, by the accelerations of particles, the square of the matrix of the linearised motion
+    has the trace -2 Omega^2.
     Outcomes: greatest, least (Omega^2 is positive, and the moment about the axis is the greatest of the three, or the
     least), unstable (negative), marginal (zero, because another moment is equal to the moment about the axis),
     symmetric (the two other moments are equal), conditional (the sign depends on the order of the moments).
@@ -308,8 +308,8 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
     def not_negative(found: Expr) -> tuple[Expr, Expr]:
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
-        The determinant does not determine the sign. One point is enough, because the sign changes only where the rate
-        vanishes.
+        The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
+        where the rate vanishes.
         """
         letters = sorted(value.free_symbols, key=str)
         for turn in range(len(letters) + 1):
@@ -356,8 +356,8 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
     equations   Euler's equations in the order x, y, z, without torque, for a body with I_x = I_y
     Second route: the rate of the azimuth of omega, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2 + omega_y^2),
     with the angular accelerations from the accelerations of particles.
-    Outcomes: oblate (the sense of omega_z, because I_z > I_x), prolate (the opposite sense), generic (the sense depends
-    on the moments).
+    Outcomes: oblate (in the sense of omega_z, because I_z > I_x), prolate (in the opposite sense), generic (the sense
+    depends on the moments).
     Errors: the moments about x and y differ; all three moments are equal; a torque acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8.
     """

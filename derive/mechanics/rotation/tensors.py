@@ -1,6 +1,6 @@
-"""Quantities derived from an inertia tensor: components along rotated axes, the moment about any axis, single entries.
-
-Also the radius of gyration, the angle of the principal axes in a plane, and the perpendicular-axis theorem.
+"""Quantities derived from an inertia tensor: components along rotated axes, the moment about any axis, single entries,
+the radius of gyration, and the angle of the principal axes in a plane. The module also has the perpendicular-axis
+theorem.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def central_tensor(body: Any) -> ImmutableMatrix:
 
 
 def shape_of(found: Any) -> str:
-    """Return whether a tensor is diagonal, and if so, how many moments are equal."""
+    """Return the outcome: whether a tensor is diagonal, and how many moments of a diagonal tensor are equal."""
     if not found.is_diagonal():
         return "generic"
     return {1: "isotropic", 2: "two_equal"}.get(len({found[i, i] for i in range(3)}), "diagonal")
@@ -313,7 +313,7 @@ def perpendicular_axes(
 ) -> Quantity:
     """Moment of inertia of a flat body about the axis normal to its plane, I_z = I_x + I_y.
 
-    first, second   moments of inertia about two perpendicular axes in the plane through one point, kg m^2
+    first, second   moments of inertia about two perpendicular axes through one point in the plane of the body, kg m^2
     Second route: the sum of m d^2 over equimomental particles, with the distance d from the normal axis.
     Errors: the body is not flat, or one of the two axes is not in its plane.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical
@@ -354,7 +354,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
 
     moment   moment of inertia I of a body about one of its axes, kg m^2
     Second route: M k^2 is the sum of m d^2 over equimomental particles, with the distance d from the axis.
-    Errors: the moment does not belong to a body and one of its axes.
+    Errors: `moment` is not the moment of inertia of a body about one of its axes.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.
     """
     require_kind("radius_of_gyration", "moment", moment, MOMENT)

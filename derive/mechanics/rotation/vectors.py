@@ -162,7 +162,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
 
     rate      angular speed omega, 1/s; a negative rate is a left-handed rotation
     along     vector d (3) along the axis
-    through   the point of the body on the axis of rotation, which stays at rest
+    through   a point of the body on the axis of rotation; this point stays at rest
     Check: the length of the result is the magnitude of the rate, and its scalar product with d is the rate times |d|.
     Outcomes: left_handed (the rate is negative), right_handed.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
@@ -193,7 +193,8 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
 
 
 def length_by_turning(v: Any) -> Expr:
-    """Return the length of a vector: its z component after rotations about z into the x-z plane and about y onto z."""
+    """Return the length of a vector: its z component after two rotations, about z into the x-z plane and then about y
+    onto the z axis."""
     size, (x, y, z) = size_and_rest(v)
     level = _turned_onto_first(x, y)
     return tidied(size * _turned_onto_first(level, z))
@@ -217,7 +218,7 @@ def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
 
 
 def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
-    """Return L = I omega and, for a free body, I omega_dot = -omega x L, with a general symbolic tensor."""
+    """Return L = I omega and, for a free body, I omega_dot = -omega x L; the entries of the tensor I are symbols."""
     xx, xy, xz, yy, yz, zz = (scalar(f"A_{pair}") for pair in ("xx", "xy", "xz", "yy", "yz", "zz"))
     momentum = explicit(applied(ImmutableDenseMatrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), omega.value))
     return momentum, -explicit(Cross(omega.value, momentum))
@@ -237,7 +238,8 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 
 def whether_zero(v: Any) -> str:
-    """Return `zero`; `generic` if v is nonzero for all values of its symbols; `in_general` if this is unknown."""
+    """Return the outcome: `zero` if v vanishes, `generic` if v is nonzero for all values of its symbols, `in_general`
+    if this is unknown."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)

@@ -344,7 +344,8 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`, and its derivative only at a repeated root."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`, and its derivative vanishes there only if the root is
+    repeated."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -423,7 +424,8 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge whether an equilibrium value is not zero, whether there is drag, and whether the equation is driven."""
+    """Judge whether three facts are as stated: an equilibrium value is not zero (`displaced`), there is drag (`lossy`;
+    not judged if None), and the equation is driven."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
@@ -447,12 +449,14 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """Judge a positive or negative sign numerically where the equilibrium exists; judge zero or None symbolically."""
+    """Judge whether an expression has this sign: 1 or -1 by numbers for which the equilibrium exists; 0 or None (the
+    sign is unknown) by the assumptions on the symbols and by their ranges."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
 def rate_of_square(sign: int | None, turned: int) -> Predicate:
-    """Judge the rate: the root of the square for an oscillation, the root of minus the square for a growing motion."""
+    """Judge the sign of the square, and whether the rate is the root of `turned` times the square; `turned` is 1 for an
+    oscillation and -1 for a growing motion."""
     judged = _of_square(sign)
     return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
 
@@ -489,7 +493,7 @@ def root_under_the_sign(facts: Judged, name: Any) -> bool:
 
 
 def momentum_there(facts: Judged, relation: Any) -> bool:
-    """Whether the relation gives a momentum in the steady motion, or a symbol in the value of a momentum."""
+    """Whether the relation gives the value of a momentum in the steady motion, or of a symbol in such a value."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     behind = list(facts.quantities["potential"].ancestors())
     if steady is None or relation.operator != "=":
@@ -523,7 +527,8 @@ def taken_out(facts: Judged, relation: Any) -> bool:
 
 
 def trial(unit: Any, role: str) -> Naming:
-    """Check that the trial function starts at 1, and its rate is the product of function, `unit` and exponent."""
+    """Check that the trial function starts at 1, and that its rate is the product of the function, `unit` and the
+    exponent."""
 
     def is_so(facts: Judged, value: Any) -> bool:
         return value.subs(TIME, 0) == 1 and is_zero(diff(value, TIME) - unit * facts.inputs[role] * value)
@@ -532,7 +537,8 @@ def trial(unit: Any, role: str) -> Naming:
 
 
 def oscillator(facts: Judged, equation: Any) -> bool:
-    """Whether the stated equation, times the inertia and with the result for omega_0^2, is the linear equation."""
+    """Whether the stated equation becomes the linear equation if the result replaces omega_0^2, and the inertia
+    multiplies the equation."""
     linear = explicit(facts.quantities["linear"].value).residual
     inertia = explicit(facts.inputs.get("inertia", Integer(1)))
     there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
@@ -605,7 +611,8 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """Whether the coordinate is a symbol, and its law is a relation or is solved for its rate or acceleration."""
+    """Whether the coordinate is a symbol, and its law is a relation or a formula for the rate or the acceleration of
+    the coordinate."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)

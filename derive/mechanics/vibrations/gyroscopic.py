@@ -1,10 +1,10 @@
 """Small motions with gyroscopic forces, which are linear in the rates and do no work.
 
 Such forces act in rotating frames, on tops and on charges in a magnetic field. The equations
-M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if omega satisfies
-det(K + i omega G - omega^2 M) = 0; this determinant is a polynomial in omega^2. An equilibrium is stable if all omega^2
-are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy has no
-minimum.
+M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if the determinant
+of K + i omega G - omega^2 M vanishes. This determinant is a polynomial in omega^2. An equilibrium is stable if all
+omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy
+has no minimum.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class TurningModes(Equations[Gyroscopic]):
     """The results of `normal_modes` with gyroscopic forces, which are linear in the rates and do no work."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the frequencies, and the motions of the frequencies that have exactly one shape."""
+        """Return the frequencies, and the motion of each frequency that has exactly one shape."""
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
@@ -226,7 +226,7 @@ GYROSCOPIC_MOTION = Rule(
 def _motion(
     equations: TurningModes, frequency: Quantity, root: CharacteristicRoot, column: tuple[Expr, ...], n: int
 ) -> Quantity:
-    """Motion of one mode: a cosine or a sine for each coordinate, or a common growth.
+    """Motion of one mode: a cosine or a sine for each coordinate; for a growing mode, the same exponential for all.
 
     Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight,
     generic.
@@ -307,9 +307,10 @@ def linear_stability(
 
     linear   all equations of the system, as `linearised` yields them
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
-    exactly one such symbol
-    Gyroscopic forces are linear in the rates. They may stabilise an equilibrium that is not a minimum of the potential
-    energy; drag, however small, makes such an equilibrium unstable again.
+             exactly one such symbol
+
+    Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
+    potential energy. Drag, however small, makes such an equilibrium unstable again.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
     determinant comes from cosines and sines that are substituted into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
@@ -321,7 +322,7 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    is_shared = key == "stability" and not together.is_conservative  # then the modes have the same equation
+    is_shared = key == "stability" and not together.is_conservative  # then `normal_modes` has the same equation
     system = together.of_kind(Gyroscopic)
     equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
     characteristic = _characteristic(equations)
@@ -340,12 +341,12 @@ def linear_stability(
 
 
 def _needed(system: Gyroscopic) -> list[Expr]:
-    """Return the expressions that must be positive for stability; none if the equilibrium is a minimum."""
+    """Return the expressions that must be positive for stability; none at a minimum of the potential energy."""
     if system.is_minimum:
         return []
     free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
     if free or any(_may_drift(part, system) for part in system.factors):
-        message = "`linear_stability`: a root of the determinant is zero or repeated, so first order does not decide"
+        message = "`linear_stability`: a root of the determinant is zero or repeated, so first order decides nothing"
         if any(not part.is_free and part.degree > 2 for part in free):
             message = "`linear_stability`: the determinant has a factor whose roots have no known closed form"
         raise Rejected(Complaint("not-decided", message))
@@ -407,7 +408,7 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
 
 
 def _rests(characteristic: Quantity) -> list[Quantity]:
-    """Return the equilibrium of the equations, if it is a result."""
+    """Return the equilibrium about which the equations are linear, if a step derived this equilibrium."""
     return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
 
 
@@ -432,7 +433,8 @@ def _condition(
     condition, square = conditions[i], Symbol("z")
 
     def at_border(found: Relation) -> tuple[Expr, Expr]:
-        """Check that two roots of the determinant coincide, or one root is zero, where both sides are equal."""
+        """Check that two roots of the determinant coincide, or one root is zero, where both sides of the condition are
+        equal."""
         by_square = _by_square(_of_cosines_and_sines(equations), equations.letter, square)
         border = border_of(explicit(found))
         meets = _without_squares(by_square, square)
@@ -470,7 +472,8 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder of the value, divided by left minus right side of a condition as polynomials in a symbol."""
+    """Divide the value by the left minus the right side of a condition, both as polynomials in a symbol, and return the
+    remainder."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

@@ -123,12 +123,12 @@ def solution(
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
-    Check: the motion is substituted back into the equation; it has the given value and rate at t = 0.
+    Check: the motion is substituted back into the equation; the motion has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
     uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes
     (first order), accumulates (first order, without q).
-    Errors: the equation is not linear with constant coefficients; the case is open, or is not the given case; the
-    driving force is of another kind.
+    Errors: the equation is not linear with constant coefficients; the case depends on the symbols and `case` is not
+    given, or the case is known and differs from `case`; the driving force is of another kind.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
@@ -226,7 +226,8 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
-    """Return the left side minus the right side of the equation; for a solved rate, the rate minus its value."""
+    """Return the left side minus the right side of the equation; for a result that is the value of a rate, the rate
+    minus this value."""
     if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
         return equation.symbol - explicit(equation.value)
     return residual_of("solution", equation)
@@ -242,7 +243,8 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
 
 
 def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
-    """Return the outcome, which names the kind of motion, and the condition for this kind; None if it is certain."""
+    """Return the outcome, which names the kind of motion, and the condition for this kind; the condition is None if the
+    kind is certain."""
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:

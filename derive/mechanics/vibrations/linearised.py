@@ -49,12 +49,13 @@ def linearised(
 
     motion   the equations, as `equations_of_motion` yields them; or a single equation for one coordinate
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0
-    key      the beginning of the keys, which are linearised_theta for the coordinate theta
+    key      the beginning of the keys; with the default the key for theta is linearised_theta
+
     Forces linear in the rates, such as drag, give G; terms f that depend only on the time drive the motion. If a
     coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several.
     Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
-    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag damped, displaced_damped; with a
-    driving force driven, displaced_driven.
+    Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag: damped, displaced_damped; with a
+    driving force: driven, displaced_driven.
     Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
     coefficients depend on the time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.

@@ -1,4 +1,4 @@
-"""Normal modes: motions in which all coordinates oscillate with one frequency; their frequencies and shapes.
+"""The frequencies and shapes of normal modes, in which all coordinates oscillate with the same frequency.
 
 Linear equations M eta_ddot + K eta = 0 have the solutions eta = a cos(omega t) if det(K - omega^2 M) = 0. A root
 omega^2 = 0 belongs to a free motion, and a negative root belongs to a displacement that grows.
@@ -56,8 +56,9 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
 
     linear   the equations, as `linearised` yields them
     key      the beginning of the keys, if the page has other modes; then give a `symbol` too
-    Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes,
-    of which only the ratios of the entries have a meaning. For one coordinate without drag the steps are
+
+    Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes.
+    Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`, which is the only result.
     With gyroscopic forces, which are linear in the rates and do no work, each mode is a motion in cosines and sines,
     not a shape. With drag the keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic
@@ -65,11 +66,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     Second route: the motion satisfies the linear equations; omega^2 is Rayleigh's quotient of stiffness and mass for
     the shape; the sum of all omega^2 is the trace of M^-1 K; the shapes are orthogonal with respect to M.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
-    depends on the symbols); if two or more modes have this frequency: oscillating_repeated, growing_repeated,
-    free_repeated, conditional_repeated; ordered, ordered_part (a numbered root without a formula); of shapes: in_phase,
-    opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing (growing),
-    any_of_several (repeated); of the
-    determinant: several, one (coordinate).
+    depends on the symbols); if two or more modes have the same frequency: oscillating_repeated, growing_repeated,
+    free_repeated, conditional_repeated; for a numbered root without a formula: ordered, ordered_part.
+    For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
+    (growing), any_of_several (repeated).
+    With drag: several, one (the number of coordinates in the determinant).
     Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; too
     many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
@@ -138,7 +139,8 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
 def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, Any]:
     """Substitute a uniform motion along a mode of frequency zero into the full equations of motion.
 
-    If all residuals vanish, no force acts to any order, and the result contains them; otherwise the result is empty.
+    If all residuals vanish, no force acts to any order, and the result contains these residuals; otherwise the result
+    is empty.
     """
     if root.sign != 0:
         return {}
@@ -351,8 +353,9 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
     slow, fast   the angular frequencies of two modes, 1/s
-    cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2) cos((omega_1 + omega_2) t/2); the amplitude of this
-    product rises and falls with the frequency omega_2 - omega_1.
+
+    The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
+    cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.
     Check: the sum of the two oscillations is this product, at any time.
     Errors: the first frequency is greater, or both are equal; an input is not the frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
@@ -381,7 +384,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
 @in_results(
     "beats",
     "the frequency of the beats, from two frequencies",
-    frequencies="beats: two frequencies, the slower first",
+    frequencies="beats: two frequencies, the lower first",
     symbol="symbol",
 )
 def _in_results(frequencies: Sequence[Quantity], key: str, symbol: str = "omega_beat") -> Quantity:

@@ -77,7 +77,7 @@ def motions_by_modes(
     start_rate   the rate of each coordinate at t = 0; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Keys: of_t_x for a coordinate x; with a `key`, this key in place of of_t.
-    Check: the motion is substituted back into all linear equations; it has the given values and rates at t = 0.
+    Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
     Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
@@ -252,7 +252,8 @@ def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) ->
 def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
 
-    In the product the frequencies are symbols. For any other sum of modes the result is None.
+    A cos(w_1 t) - A cos(w_2 t) is 2 A sin((w_2 - w_1) t/2) sin((w_1 + w_2) t/2). In the product the frequencies are
+    symbols. For any other sum of modes the result is None.
     """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:

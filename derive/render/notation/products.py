@@ -83,8 +83,9 @@ def rounded_number(text: str) -> Layout:
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
-    """Split a very small or a very large round number into a power of ten and a factor from 1 to 10.
+    """Split a number below 10^-4, or a round number from 10^7, into a power of ten and a factor from 1 to 10.
 
+    For any other number the power is 0, and the factor is the number.
     A number is round if it has at most four digits before its zeros, or not more digits than zeros.
     """
     power = 0

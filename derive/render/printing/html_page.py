@@ -210,7 +210,8 @@ class HtmlPage:
 
 
 def _sides(line: Printed, stop: str) -> str:
-    """Return the relations and right sides of a line; the result is framed, and a new line may begin at each side."""
+    """Return the relations and right sides of a line as HTML. A result at the end is framed, unless the frame includes
+    the whole line. The browser may start a new row before each side."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
