@@ -221,7 +221,7 @@ FORCED_EQUATION = Rule(
     },
     evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE, "energy_identity": ROUTE},
     statements=[claims.functions_of_its_constraints],
-    named={"coordinate": claims.equation_of},
+    named={"coordinate": claims.equation_of} | {f"multiplier_{i}": claims.multiplier_of(i) for i in range(1, 5)},
     shown=Shown(result_again=Level.STANDARD),
     quotes=[
         Quote(
@@ -274,7 +274,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         phrase_data=PhraseData(
             words={"between": _between(constraints)},
             formulas=_functions_told(kept.constraints if kept else ()),
-            named={"coordinate": q.symbol},
+            named={"coordinate": q.symbol} | _multipliers_told(kept.constraints if kept else ()),
             outcome_data={"letters": tuple(c.force for c in constraints)},
         ),
         key=key,
@@ -308,6 +308,11 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
         told = Relation(scalar(called), "=", Terms(*terms) if len(terms) > 1 else each.left)
         found[f"function_{i}"] = (told, Relation(scalar(called), "=", each.residual))
     return found
+
+
+def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
+    """Return the multipliers of the functions in a sentence, which has room for four."""
+    return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1)}
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:

@@ -31,7 +31,7 @@ from derive.mechanics.model.dalembert import Matter
 from derive.steps.claims import both as both
 from derive.steps.claims import lasts, letters_in, negated, parallel, value_of_role
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
-from derive.steps.rule import Judged, Predicate, handed_on_by
+from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import Point, everywhere, trial_points
 
@@ -285,6 +285,20 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
         return bool(told)
     along = [diff(function, by) for function in told]
     return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
+
+
+def multiplier_of(i: int) -> Naming:
+    """Return the predicate of the multiplier that a sentence gives to its i-th function: the factor of the multiplier
+    in the equation is the derivative of this function."""
+
+    def is_so(facts: Judged, letter: Any) -> bool:
+        q = facts.inputs["coordinate"]
+        function = explicit(facts.inputs[f"function_{i}"].right)
+        residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))
+        factor = diff(residual, letter)
+        return any(is_zero(factor + diff(function, by)) for by in (q, rate(q)))
+
+    return is_so
 
 
 def change_under_shift_none(facts: Judged) -> bool:
