@@ -26,7 +26,7 @@ from sympy import (
 
 from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
-from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit
+from derive.algebra.expressions import PLUS_MINUS, Relation, depends_on_time, explicit
 from derive.algebra.ranges import range_of
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
@@ -420,7 +420,7 @@ def highest_power(facts: Judged, power: Any) -> bool:
 
 
 def for_short_times(facts: Judged, time: Any) -> bool:
-    return is_zero(time * facts.inputs["letter"] - 1) and explicit(facts.inputs["kept"]).has(TIME)
+    return is_zero(time * facts.inputs["letter"] - 1) and depends_on_time(facts.inputs["kept"])
 
 
 def goes_to(facts: Judged, place: Any) -> bool:

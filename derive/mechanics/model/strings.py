@@ -19,7 +19,7 @@ from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import radius_of
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.surfaces import direction_between, distance_between, dot
-from derive.steps.record import require_constant
+from derive.steps.record import require_no_coordinate
 from derive.steps.step import is_zero
 
 __all__ = ["massless_rod", "string", "wound_string"]
@@ -60,7 +60,7 @@ def string(start: Any, end: Any, length: Any, over: Sequence[Any] = (), tension:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
 
     start, end   particles, points of bodies, or places in space
-    length       the length between the ends, m
+    length       the length between the ends, m; it may be a function of the time, for a string that is pulled in
     over         the pulleys or holes between the ends: places, particles, or points of bodies; the radius of a pulley
                  is negligible
     tension      the symbol of the tension, N; positive if the string pulls
@@ -85,7 +85,7 @@ def massless_rod(start: Any, end: Any, length: Any, force: str = "T") -> tuple[L
 def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tuple[Line, Constraint]:
     """Return the line, and the constraint l - (length of the line) = 0; its multiplier is the tension."""
     whole = as_expr(length)
-    require_constant(verb, "length", whole)
+    require_no_coordinate(verb, "length", whole)
     if not all(map(is_end, ends)):
         message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))

@@ -10,7 +10,7 @@ from typing import Any, Self, TypeAlias
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, Relation, as_expr
+from derive.algebra.expressions import TIME, Relation, as_expr, depends_on_time
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
@@ -65,7 +65,7 @@ class Surface(ABC):
             return self.of if isinstance(self.of, PlacedBody) else self.of.at
         if isinstance(self.moves, Axes):
             return self.moves
-        if not any(c.has(TIME) for c in self.place.components):
+        if not any(depends_on_time(c) for c in self.place.components):
             return self.moves
         return self.place if self.moves is None else self.place + self.moves
 
@@ -160,7 +160,7 @@ def _check_motion(surface: Plane) -> None:
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
     if isinstance(surface.moves, Location):
         velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
-        if any(c.has(TIME) or coordinates_in(column_of(velocity)) for c in velocity.components):
+        if any(depends_on_time(c) or coordinates_in(column_of(velocity)) for c in velocity.components):
             message = "the velocity of a surface is not constant"
             help_line = "give a place on the surface as a function of time, `through: [A*t**2/2, 0]`"
             raise Rejected(Complaint("changes", message, help=help_line))
@@ -241,7 +241,7 @@ def _positive(length: Expr) -> Expr:
     """Return u or -u for a distance |u|: the one that is positive for all values, or where all coordinates are zero."""
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
-                    if not term.has(TIME)))  # fmt: skip
+                    if not depends_on_time(term)))  # fmt: skip
     for sign in (1, -1):
         if (sign * length).is_positive:
             return sign * length

@@ -6,7 +6,7 @@ from typing import Any
 
 from sympy import Abs, Add, Expr, Integer, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, scalar, stand_in
+from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, depends_on_time, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
@@ -151,7 +151,8 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
     """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
-    if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
+    is_swing = isinstance(inside, cos) and is_linear_in_time(inside.args[0]) and not depends_on_time(outside)
+    if not is_swing or sign_known(outside) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]

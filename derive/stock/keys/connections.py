@@ -169,7 +169,7 @@ class StringKeys(Record):
         "the pulleys or holes between the ends, in order: places, particles or points of bodies",
         list_of(PLACE, "a list of places"),
     )
-    length: Tree | None = key("the length between the ends", SCALAR)
+    length: Tree | None = key("the length between the ends; a function of the time if the string is pulled in", SCALAR)
     tension: Word = key("the symbol of the tension", TEXT, required=True)
 
     def symbols(self) -> list[Word]:
@@ -185,7 +185,7 @@ class StringKeys(Record):
             "tension": force_letter(self.tension, known.letters),
         }
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        of = (*ends, known.letters.value(self.length, "length", "length"))
+        of = (*ends, known.letters.value(self.length, "length", "length", in_time=True))
         return Deferred(string, of, named, forces=(str(self.tension),), place=self.places[""])
 
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
@@ -212,7 +212,7 @@ class MasslessRodKeys(Record):
 
     def part(self, known: Connected) -> Deferred[Any]:
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        of = (*ends, known.letters.value(self.length, "length", "length"))
+        of = (*ends, known.letters.value(self.length, "length", "length", in_time=True))
         named = {"force": force_letter(self.force, known.letters)}
         return Deferred(massless_rod, of, named, forces=(str(self.force),), place=self.places[""])
 
