@@ -39,7 +39,7 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     if name and isinstance(expr, Dummy):
         return ["Dummy", name(expr)]
     if isinstance(expr, Prescribed):
-        return ["Prescribed", expr.name, expr.sort, bool(expr.is_positive)]
+        return ["Prescribed", expr.name, expr.sort, expr.above]
     if isinstance(expr, Symbol):
         return ["Symbol", expr.name, _assumptions(expr)]
     if isinstance(expr, Integer):
@@ -106,8 +106,8 @@ def _plain(name: str, args: list[Any]) -> Any:
             return None
         case "Symbol", [str(letter), dict(assumed)] if all(v in (True, False) for v in assumed.values()):
             return Symbol(letter, **assumed)
-        case "Prescribed", [str(letter), str(sort), bool(positive)] if sort in KINDS:
-            return Prescribed(letter, sort, **({"positive": True} if positive else {}))
+        case "Prescribed", [str(letter), str(sort), bool(above)] if sort in KINDS:
+            return Prescribed(letter, sort, above)
         case "Integer", [int(n)] if _is_bounded(n):
             return Integer(n)
         case "Rational", [int(p), int(q)] if _is_bounded(p) and _is_bounded(q) and q:

@@ -14,6 +14,7 @@ from sympy import Expr, Integer, Symbol
 from derive.algebra.dimensions import Dimension
 from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.node import explicit
+from derive.errors import Complaint, Rejected
 
 TIME = Symbol("t", real=True)  # the only time symbol
 
@@ -23,23 +24,26 @@ RATES = ("", "_dot", "_ddot", "_dddot")
 class Prescribed(Symbol):
     """A prescribed function of the time, or one of its rates.
 
-    sort   the kind of quantity of the function itself, such as "length"
+    sort      the kind of quantity of the function itself, such as "length"
+    above     whether the function itself is always positive
     """
 
-    __slots__ = ("sort",)
+    __slots__ = ("above", "sort")
 
     sort: str
+    above: bool
 
-    def __new__(cls, name: str, sort: str, **assumptions: bool) -> Prescribed:
-        made: Prescribed = Symbol.__xnew__(cls, name, **{"real": True, **assumptions})
-        made.sort = sort
+    def __new__(cls, name: str, sort: str, above: bool = False) -> Prescribed:
+        assumed = {"positive": True} if above and not name.endswith(RATES[1:]) else {"real": True}
+        made: Prescribed = Symbol.__xnew__(cls, name, **assumed)
+        made.sort, made.above = sort, above
         return made
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
-        return (self.name, self.sort), self._assumptions_orig
+        return (self.name, self.sort, self.above), {}
 
     def _hashable_content(self) -> tuple[Any, ...]:
-        return (*super()._hashable_content(), self.sort)
+        return (*super()._hashable_content(), self.sort, self.above)
 
     @classmethod
     def class_key(cls) -> tuple[Any, ...]:
@@ -56,8 +60,8 @@ class Prescribed(Symbol):
 
     @property
     def function(self) -> Prescribed:
-        """The function itself; its rates do not record whether the function is positive."""
-        return Prescribed(self.name.removesuffix(RATES[self.order]), self.sort) if self.order else self
+        """The function itself."""
+        return self.rate(-self.order)
 
     @property
     def dimension(self) -> Dimension:
@@ -65,7 +69,10 @@ class Prescribed(Symbol):
 
     def rate(self, order: int = 1) -> Prescribed:
         """The derivative of this order with respect to the time."""
-        return Prescribed(self.name.removesuffix(RATES[self.order]) + RATES[self.order + order], self.sort)
+        if self.order + order >= len(RATES):
+            message = f"a derivative of {self.function.name} would be of a higher order than {len(RATES) - 1}"
+            raise Rejected(Complaint("too-many-rates", message))
+        return Prescribed(self.name.removesuffix(RATES[self.order]) + RATES[self.order + order], self.sort, self.above)
 
     def _eval_derivative(self, s: Symbol) -> Expr:
         if s == self:

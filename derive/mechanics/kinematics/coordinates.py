@@ -139,7 +139,7 @@ def function_of_time(name: str, kind: str = "length", positive: bool = False) ->
     if kind not in KINDS:
         message = f"`function_of_time`: there is no kind `{kind}`"
         raise Rejected(Complaint("unknown-kind", message, help=f"the kinds are {', '.join(KINDS)}"))
-    return Prescribed(name, kind, **({"positive": True} if positive else {}))
+    return Prescribed(name, kind, positive)
 
 
 def euler_angles() -> tuple[Coordinate, Coordinate, Coordinate]:
