@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, Relation, as_expr, depends_on_time
+from derive.algebra.expressions import TIME, Prescribed, Relation, as_expr, depends_on_time, prescribed_in
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.part import moved
 from derive.steps.record import assume, coordinates_in
+from derive.steps.signs import DECIDES, sign_for_all
 from derive.steps.step import is_zero
 
 __all__ = ["circle", "plane"]
@@ -243,15 +245,23 @@ def _positive(length: Expr) -> Expr:
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
                     if not depends_on_time(term)))  # fmt: skip
     for sign in (1, -1):
-        if (sign * length).is_positive:
+        if sign_for_all(sign * length) == 1:
             return sign * length
         if (sign * at_zero).is_positive:
             assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
-    name = next(iter(moving), length)
-    help_line = Spelled(
-        f'make the coordinate positive: `coordinate("{name}", "length", positive=True)`',
-        f"make the coordinate positive: `{name}: positive length`",
+    raise Rejected(Complaint("sign", message, help=_help_to_sign(length, [*moving, *prescribed_in(length)])))
+
+
+def _help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
+    """Return the line that would decide the sign: a coordinate or a function that is positive, or a relation."""
+    if not changing:
+        more, less = sides_without_minus(length)
+        return f"{DECIDES} {less} < {more}"
+    name = changing[0]
+    what, noun = ("function", "function_of_time") if isinstance(name, Prescribed) else ("coordinate", "coordinate")
+    return Spelled(
+        f'make the {what} positive: `{noun}("{name}", "length", positive=True)`',
+        f"make the {what} positive: `{name}: positive length`",
     )
-    raise Rejected(Complaint("sign", message, help=help_line))

@@ -6,13 +6,19 @@ from typing import Any
 
 from sympy import Abs, Add, Expr, Integer, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, depends_on_time, scalar, stand_in
+from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.linear_motion import LinearCoefficients, is_linear_in_time, linear_equation, put_back
+from derive.mechanics.vibrations.linear_motion import (
+    LinearCoefficients,
+    check_no_function,
+    is_linear_in_time,
+    linear_equation,
+    put_back,
+)
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told, positive
@@ -150,9 +156,9 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
     """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
+    check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
-    is_swing = isinstance(inside, cos) and is_linear_in_time(inside.args[0]) and not depends_on_time(outside)
-    if not is_swing or sign_known(outside) == -1:
+    if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]

@@ -323,13 +323,17 @@ def _particular(linear: LinearCoefficients, equation: Quantity) -> Expr:
     """Return a particular motion under the driving force: the sum of the particular motions under its terms."""
     if linear.driven == 0:
         return ZERO
-    if functions := prescribed_in(linear.driven):
-        name = functions[0].function.name
-        message = f"`solution`: the driving force in `{equation.key}` contains {functions[0].name}"
-        help_line = f"substitute a formula for {name} first, with `put_in`"
-        raise Rejected(Complaint("unknown-driving", message, help=help_line))
+    check_no_function("solution", linear.driven, equation)
     terms = [_particular_of(linear, term, equation) for term in Add.make_args(_driving(linear.driven))]
     return Add(*(tidied(term) for term in terms))
+
+
+def check_no_function(verb: str, driven: Expr, equation: Quantity) -> None:
+    """Reject a driving force with a prescribed function, whose formula is unknown."""
+    for each in prescribed_in(driven):
+        message = f"`{verb}`: the driving force in `{equation.key}` contains {each.name}, whose formula is unknown"
+        help_line = f"substitute a formula for {each.function.name} first, with `put_in`"
+        raise Rejected(Complaint("unknown-driving", message, help=help_line))
 
 
 def _driving(driven: Expr) -> Expr:

@@ -126,12 +126,18 @@ def coordinate_letters(
 
 
 def function_letters(
-    written: Mapping[Word, SortOfLetter], symbols: Mapping[str, Declared], faults: Faults
+    written: Mapping[Word, SortOfLetter],
+    symbols: Mapping[str, Declared],
+    coordinates: Mapping[str, Declared],
+    faults: Faults,
 ) -> dict[str, Declared]:
     """Return each prescribed function of the time and its first two rates: X, X_dot, X_ddot."""
     found: dict[str, Declared] = {}
     for name, sort in written.items():
-        if _may_be_named(name, symbols, "function of the time", faults):
+        if name in coordinates:
+            message = f"`{name}` is a coordinate, so it cannot be a prescribed function of the time too"
+            faults.error("letter-clash", message, name.place, help="remove it from `coordinates` or from `functions`")
+        elif _may_be_named(name, symbols, "function of the time", faults):
             lies = _range(str(name), sort, faults)
             function = function_of_time(str(name), str(sort), positive=lies is not None and lies.is_above_zero)
             found[str(name)] = Declared(str(name), function, str(sort), None if lies == POSITIVE else lies)

@@ -191,7 +191,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     The order in which values are read matters, because numbers get their symbols in this order.
     """
     letters = coordinate_letters(written.coordinates, symbols, faults)
-    functions = function_letters(written.functions, {**symbols, **letters}, faults)
+    functions = function_letters(written.functions, symbols, letters, faults)
     known = InLetters({**symbols, **functions, **letters})
     carried = {name: one.at for name, one in written.particles.items()}
     places = Places(written.points, written.axes, known, carried, written.bodies)
