@@ -14,8 +14,8 @@ from tests.rules import records
 from tests.witness.systems import PENDULUM, g, m
 
 WITNESS = sorted((ROOT / "derive" / "witness").glob("*.py"))
-# The letters of coordinates, rates and prescribed functions, what a node stands for, the range of a letter, and the words
-# of a verdict. NumPy works out a root in order here.
+# The letters of coordinates, rates and functions of the time, what a node stands for, the range of a letter, and the
+# words of a verdict. NumPy works out a root in order here.
 ALLOWED = {
     "derive.algebra.equality": {"Grade", "Verdict"},
     "derive.algebra.expressions": {"TIME", "Prescribed", "Relation", "depends_on_time", "explicit", "rate"},
