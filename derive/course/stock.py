@@ -19,7 +19,7 @@ from sympy import Expr
 
 from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import RATES, TIME, Prescribed
+from derive.algebra.expressions import RATES, TIME, depends_on_time
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.assumed import Assumed
 from derive.course.expression import Declared, read_expression
@@ -160,7 +160,7 @@ class InLetters:
 
         If quantities of this kind are positive, a negative expression is rejected; zero is allowed only with `or_zero`.
         """
-        found = self.of_kind(node, name, kind, of) if in_time else self.constant(node, name, kind, of)
+        found = self.constant(node, name, kind, of, in_time)
         if (
             found.is_nonpositive
             and not (or_zero and found.is_zero)
@@ -170,16 +170,19 @@ class InLetters:
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
         return found
 
-    def constant(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """Read an expression of a kind, and reject it if it depends on time, on a coordinate or on a rate."""
+    def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
+        """Read an expression of a kind that depends on no coordinate, no rate and, without `in_time`, not on the time."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
         changing = sorted((letter for letter in found.free_symbols if letter.name in moving), key=str)
+        if in_time:
+            changing = [letter for letter in changing if not depends_on_time(letter)]
         if changing:
-            is_coordinate = changing[0] != TIME and not isinstance(changing[0], Prescribed)
+            is_coordinate = not depends_on_time(changing[0])
             what = f"the coordinate {changing[0]}" if is_coordinate else called_if_changing(changing[0])
-            message = f"`{name}` must be constant, but `{_text(node)}` depends on {what}"
+            must = "be constant or a function of the time" if in_time else "be constant"
+            message = f"`{name}` must {must}, but `{_text(node)}` depends on {what}"
             rejected("changes", message, node.place)
         return found
 

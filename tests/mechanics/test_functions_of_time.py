@@ -22,6 +22,7 @@ from derive.mechanics import (
     equation_of_motion,
     equations_of_motion,
     equilibria,
+    force,
     function_of_time,
     lagrangian,
     linearised,
@@ -29,6 +30,7 @@ from derive.mechanics import (
     point,
     put_in,
     solution,
+    spring,
     string,
     t,
     weight,
@@ -40,7 +42,7 @@ from derive.steps.record import recorded
 from derive.steps.step import Quantity
 from tests.stock.described import edited, messages, solved
 
-m, g, l, a, w = symbols("m g l a omega", positive=True)
+m, g, l, a, w, k = symbols("m g l a omega k", positive=True)
 
 
 @pytest.fixture(autouse=True)
@@ -179,6 +181,29 @@ def test_a_value_replaces_the_rates_too_and_a_constant_stops_the_support() -> No
     assert not any(isinstance(s, Prescribed) for s in explicit(falling.value).free_symbols)
 
 
+SYSTEMS = {
+    "across": lambda q, f: (point(f + l * sin(q), -l * cos(q)), ()),
+    "turned": lambda q, f: (point(l * sin(q + f / l), f * cos(q)), ()),
+    "on a spring": lambda q, f: (point(q * l, 0), (spring(k, point(f, 0), point(q * l, 0), massless=True),)),
+    "pushed": lambda q, f: (point(l * sin(q), -l * cos(q)), (force((k * f, 0), point(l * sin(q), -l * cos(q))),)),
+}
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize("formula", [a * cos(w * t), a * w**2 * t**2 / 2], ids=["swing", "power"])
+def test_a_function_with_a_formula_is_the_system_with_this_formula(name: str, formula: Expr) -> None:
+    theta, X = coordinate("theta"), function_of_time("X", "length")
+
+    def motion(of: Expr) -> Quantity:
+        place, acting = SYSTEMS[name](theta.symbol, of)
+        return equation_of_motion(lagrangian(System(Particle(m, place), weight(g), *acting)), theta)
+
+    with recorded():
+        coordinate("theta")
+        direct = motion(formula)
+    assert same_equation(explicit(put_in(motion(X), {X: formula}).value).residual, explicit(direct.value).residual)
+
+
 @pytest.mark.parametrize(
     ("target", "value", "message"),
     [
@@ -200,7 +225,7 @@ def test_mistakes_in_a_file_are_told_where_they_are(tmp_path: Path) -> None:
     told = messages(tmp_path, edited(PULLED, ("{L: positive length}", "{phi: angle}"), ("length: L,", "length: m,")))
     assert "6: `phi` is a coordinate, so it cannot be a prescribed function of the time too" in told
     told = messages(tmp_path, edited(PULLED, ("length: L,", "length: L + r,")))
-    assert told == ["8: `string` needs a length that is constant or a function of the time, but L + r depends on r"]
+    assert told == ["8: `length` must be constant or a function of the time, but `L + r` depends on the coordinate r"]
     told = messages(tmp_path, edited(PULLED, ("mass: m,", "mass: m*L/L_0,"), ("{m: mass}", "{m: mass, L_0: length}")))
     assert told == ["7: `mass` must be constant, but `m*L/L_0` depends on L, a function of the time"]
 

@@ -253,7 +253,8 @@ class MotorKeys(Record):
         return [self.torque]
 
     def part(self, known: Connected) -> Deferred[Any]:
-        of = (known.letters.of_kind(self.on, "on", "angle"), known.letters.of_kind(self.turns, "turns", "angle"))
+        turns = known.letters.value(self.turns, "turns", "angle", in_time=True)
+        of = (known.letters.of_kind(self.on, "on", "angle"), turns)
         torque = force_letter(self.torque, known.letters)
         return Deferred(motor, of, {"torque": torque}, forces=(torque,), place=self.places[""])
 
