@@ -171,7 +171,7 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
-        """Read an expression of a kind that depends on no coordinate, no rate and, without `in_time`, not on the time."""
+        """Read an expression of a kind that contains no coordinate, no rate and, without `in_time`, not the time."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}

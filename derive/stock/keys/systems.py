@@ -229,7 +229,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         ),
         **parts,
         gravity=gravity,
-        conserved=tuple((str(q), own[name].symbol) for q, (name, _) in _symbols(written.conserved).items() if q in own),
+        conserved=tuple((str(q), own[n].symbol) for q, (n, _) in _symbols(written.conserved).items() if n in own),
         kept=kept,
         at=_state(None if rest else written.at, letters, with_own, faults),
         at_rest=rest,
