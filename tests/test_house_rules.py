@@ -214,6 +214,16 @@ def test_nothing_is_evaluated_from_text(name: str) -> None:
     assert called & banned <= allowed
 
 
+def test_dependence_on_time_is_decided_by_one_predicate() -> None:
+    """`formula.has(TIME)` is false for a prescribed function of the time; `depends_on_time` is true."""
+    asked = {
+        name: path.read_text(encoding="utf-8")
+        for name, path in MODULES.items()
+        if not name.startswith(("figures.", "render."))  # what is drawn and the order of terms depend on t itself
+    }
+    assert [name for name, text in asked.items() if re.search(r"\.has\([^()]*\bTIME\b", text)] == []
+
+
 def test_modules_of_the_engine_import_no_reader_of_files() -> None:
     for name in ENGINE:
         modules = {alias.name for n in ast.walk(tree(name)) if isinstance(n, ast.Import) for alias in n.names}

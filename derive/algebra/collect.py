@@ -9,7 +9,7 @@ from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, co
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
-from derive.algebra.expressions import TIME, rate
+from derive.algebra.expressions import TIME, depends_on_time, rate
 from derive.algebra.length import length
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
@@ -98,13 +98,17 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
     """Combine a coordinate with the constant from which it is measured: k (y - l) - m g, not k y - m g - k l."""
     terms = list(Add.make_args(value))
     for q in moving:
-        for term in [each for each in terms if each.has(q) and not (each / q).has(*moving, TIME)]:
+        for term in [each for each in terms if each.has(q) and not _varies(each / q, moving)]:
             times = term / q
-            constants = [each for each in terms if not each.has(*moving, TIME) and (-each / times).is_Symbol]
+            constants = [each for each in terms if not _varies(each, moving) and (-each / times).is_Symbol]
             if len(constants) == 1:
                 terms = [each for each in terms if each not in (term, constants[0])]
                 terms.append(Mul(times, Add(q, constants[0] / times), evaluate=not times.is_number))
     return Add(*terms, evaluate=False) if len(terms) < len(Add.make_args(value)) else value
+
+
+def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
+    return bool(term.has(*moving)) or depends_on_time(term)
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:

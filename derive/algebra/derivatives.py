@@ -1,5 +1,6 @@
 """Partial derivatives of sums, products, whole powers, sines and cosines, in the form that SymPy gives them.
 
+The derivative by the time includes prescribed functions of the time.
 The derivative of a distance |u| along a line is u/|u| times the derivative of u, where u is not zero.
 """
 
@@ -10,6 +11,8 @@ from functools import lru_cache
 from typing import Any
 
 from sympy import Abs, Add, Expr, Integer, MatrixBase, Mul, Pow, Symbol, cos, diff, sign, sin
+
+from derive.algebra.prescribed import Prescribed
 
 __all__ = ["derivative"]
 
@@ -36,13 +39,15 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
 @lru_cache(maxsize=16384)  # a Lagrangian has many symbols, but most of its parts contain few of them
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
-        return frozenset((expr,))
+        return frozenset(expr.free_symbols)
     if expr.is_Add or expr.is_Mul or expr.is_Pow or isinstance(expr, sin | cos):
         return frozenset().union(*map(_letters, expr.args))
     return frozenset(expr.free_symbols)
 
 
 def _derivative(expr: Expr, s: Symbol) -> Expr:
+    if isinstance(expr, Prescribed):
+        return diff(expr, s)
     if expr.is_Atom:
         return ONE if expr == s else ZERO
     return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO

@@ -15,7 +15,9 @@ import sympy
 from sympy import Basic, Dummy, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Rational, Symbol
 from sympy.core.symbol import Str
 
+from derive.algebra.kinds import KINDS
 from derive.algebra.node import NODES
+from derive.algebra.prescribed import Prescribed
 
 # fmt: off
 _SYMPY = (
@@ -25,7 +27,7 @@ _SYMPY = (
 )
 # fmt: on
 _CLASSES: dict[str, Any] = {getattr(sympy, name).__name__: getattr(sympy, name) for name in _SYMPY}
-_PLAIN = {"None", "Symbol", "Integer", "Rational", "Str", "MatrixSymbol"}
+_PLAIN = {"None", "Symbol", "Prescribed", "Integer", "Rational", "Str", "MatrixSymbol"}
 MAX_NODES, MAX_DEPTH, MAX_BITS, MAX_SIZE = 200_000, 300, 20_000, 100
 _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": sympy.I, "Infinity": sympy.oo}
 
@@ -36,6 +38,8 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
         return ["None"]
     if name and isinstance(expr, Dummy):
         return ["Dummy", name(expr)]
+    if isinstance(expr, Prescribed):
+        return ["Prescribed", expr.name, expr.sort, expr.above]
     if isinstance(expr, Symbol):
         return ["Symbol", expr.name, _assumptions(expr)]
     if isinstance(expr, Integer):
@@ -102,6 +106,8 @@ def _plain(name: str, args: list[Any]) -> Any:
             return None
         case "Symbol", [str(letter), dict(assumed)] if all(v in (True, False) for v in assumed.values()):
             return Symbol(letter, **assumed)
+        case "Prescribed", [str(letter), str(sort), bool(above)] if sort in KINDS:
+            return Prescribed(letter, sort, above)
         case "Integer", [int(n)] if _is_bounded(n):
             return Integer(n)
         case "Rational", [int(p), int(q)] if _is_bounded(p) and _is_bounded(q) and q:

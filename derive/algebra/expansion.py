@@ -88,15 +88,14 @@ class Approach(Node):
 
 
 class FirstOrder(ScalarNode):
-    """The first-order part of f in several small symbols. Arguments: f, which vanishes with these symbols, and the
-    symbols.
+    """The terms of f up to first order in several small symbols. Arguments: f, and the symbols.
 
     The node is displayed as f, in the line of a calculation just before the higher orders are dropped.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:
         none = dict.fromkeys(small, Integer(0))
-        return Add(*(s * diff(f, s).subs(none) for s in small))
+        return Add(f.subs(none), *(s * diff(f, s).subs(none) for s in small))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
         return of(self.args[0])

@@ -54,6 +54,11 @@ from derive.algebra.node import (
 from derive.algebra.node import as_expr as as_expr
 from derive.algebra.node import explicit as explicit
 from derive.algebra.poisson import PoissonBracket as PoissonBracket
+from derive.algebra.prescribed import RATES as RATES
+from derive.algebra.prescribed import TIME as TIME
+from derive.algebra.prescribed import Prescribed as Prescribed
+from derive.algebra.prescribed import depends_on_time as depends_on_time
+from derive.algebra.prescribed import prescribed_in as prescribed_in
 from derive.algebra.relation import Relation as Relation
 from derive.algebra.relation import sympify_number as sympify_number
 
@@ -76,14 +81,12 @@ PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign, + or -: its square is 1, 
 
 BLANK = scalar("?")  # a placeholder for a result that a page does not show
 
-TIME = scalar("t")  # the only time symbol: an expression that contains it depends on time explicitly
-
-RATES = ("", "_dot", "_ddot", "_dddot")
-
 
 @lru_cache(maxsize=1024)
 def rate(coordinate: Symbol, order: int = 1) -> Symbol:
     """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""
+    if isinstance(coordinate, Prescribed):
+        return coordinate.rate(order)
     name = coordinate.name
     now = next(n for n in (3, 2, 1, 0) if name.endswith(RATES[n]))
     return scalar(name.removesuffix(RATES[now]) + RATES[now + order])
@@ -342,7 +345,7 @@ class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
     Evaluated by the chain rule: the partial derivative of f with respect to each coordinate and each rate is multiplied
-    by the next rate, and the partial derivative with respect to time is added.
+    by the next rate, and the partial derivative with respect to time is added; it includes prescribed functions.
     """
 
     def doit(self, **hints: Any) -> Expr:

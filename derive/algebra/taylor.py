@@ -24,6 +24,7 @@ from sympy import (
     cos,
     diff,
     exp,
+    factorial,
     nan,
     series,
     sin,
@@ -32,7 +33,7 @@ from sympy import (
     zoo,
 )
 
-from derive.algebra.expressions import as_expr, stand_in
+from derive.algebra.expressions import RATES, TIME, Prescribed, as_expr, rate, stand_in
 from derive.algebra.normal_form import vanishes
 
 __all__ = ["NoSeries", "arithmetic_along", "coefficient_along", "series_along", "slope", "taylor"]
@@ -161,11 +162,22 @@ class _Arithmetic:
 
     def _atom(self, expr: Expr) -> Series:
         series = self._letters.get(expr)
+        if series is None and isinstance(expr, Prescribed):
+            return self._prescribed(expr)
         if series is None:
             return self._constant(expr)
         if len(series) < len(self._orders):
             raise NoSeries
         return tuple(series[: len(self._orders)])
+
+    def _prescribed(self, function: Prescribed) -> Series:
+        """The series X + X_dot s + X_ddot s^2/2 + ... if the time is t + s. Raises `NoSeries` for any other time."""
+        times = self._letters.get(TIME)
+        if times is None:
+            return self._constant(function)
+        if times[0] != TIME or times[1] != 1 or any(times[2:]) or function.order + self._orders[-1] >= len(RATES):
+            raise NoSeries
+        return tuple((rate(function, n) if n else function) / factorial(n) for n in self._orders)
 
     def _sum(self, resting: list[Expr], moving: list[Series]) -> Series:
         first, *others = zip(*moving, strict=True)

@@ -325,10 +325,13 @@ def pinned_by(
 ) -> Pinned:
     """Read three keys of a file: `symbols:`, `values:` and `given:`; the script determines the names in `given:`."""
     symbols = declared_letters(kinds, faults)
-    moving = _coordinates_in(given) - {*symbols} if isinstance(script, StockScript) else set()
-    for name in moving.intersection(numbers):
+    moving: dict[str, str] = {}
+    if isinstance(script, StockScript):
+        moving |= dict.fromkeys(_names_under(given, "coordinates") - {*symbols}, "a coordinate")
+        moving |= dict.fromkeys(_names_under(given, "functions") - {*symbols}, "a function of the time")
+    for name in [name for name in moving if name in numbers]:
         place = next(word.place for word in numbers if word == name)
-        faults.error("changes", f"`{name}` is a coordinate, which has no value", place, help="leave it out here")
+        faults.error("changes", f"`{name}` is {moving[name]}, which has no value", place, help="leave it out here")
     values = read_numbers({name: node for name, node in numbers.items() if name not in moving}, symbols, faults)
     if script is None:
         return Pinned(symbols, (), values)
@@ -349,10 +352,10 @@ def pinned_by(
     return Pinned(symbols, givens, (*values, *(measured for given in givens for measured in given.measured)))
 
 
-def _coordinates_in(given: Mapping | None) -> set[str]:
-    """Return the coordinates of a description, which vary with time."""
-    coordinates = given.get("coordinates") if given else None
-    return {name.text for name, _ in coordinates.pairs} if isinstance(coordinates, Mapping) else set()
+def _names_under(given: Mapping | None, key: str) -> set[str]:
+    """Return the names that a description declares under a key, such as its coordinates."""
+    declared = given.get(key) if given else None
+    return {name.text for name, _ in declared.pairs} if isinstance(declared, Mapping) else set()
 
 
 def _described_by(

@@ -19,7 +19,7 @@ from sympy import Expr
 
 from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import RATES, TIME
+from derive.algebra.expressions import RATES, TIME, depends_on_time
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.assumed import Assumed
 from derive.course.expression import Declared, read_expression
@@ -27,6 +27,7 @@ from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, Spelled, rejected
+from derive.steps.record import called_if_changing
 from derive.steps.signs import DECIDES
 
 T = TypeVar("T")
@@ -152,12 +153,14 @@ class InLetters:
             rejected("letter-clash", message, name.place, help_line)
         return str(name)
 
-    def value(self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False) -> Expr:
-        """Read a constant expression of a kind.
+    def value(
+        self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False, in_time: bool = False
+    ) -> Expr:
+        """Read a constant expression of a kind; with `in_time`, it may be a function of the time.
 
         If quantities of this kind are positive, a negative expression is rejected; zero is allowed only with `or_zero`.
         """
-        found = self.constant(node, name, kind, of)
+        found = self.constant(node, name, kind, of, in_time)
         if (
             found.is_nonpositive
             and not (or_zero and found.is_zero)
@@ -167,15 +170,19 @@ class InLetters:
             rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
         return found
 
-    def constant(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """Read an expression of a kind, and reject it if it depends on time, on a coordinate or on a rate."""
+    def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
+        """Read an expression of a kind that contains no coordinate, no rate and, without `in_time`, not the time."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
-        changing = sorted(letter.name for letter in found.free_symbols if letter.name in moving)
+        changing = sorted((letter for letter in found.free_symbols if letter.name in moving), key=str)
+        if in_time:
+            changing = [letter for letter in changing if not depends_on_time(letter)]
         if changing:
-            what = "the time t" if changing[0] == TIME.name else f"the coordinate {changing[0]}"
-            message = f"`{name}` must be constant, but `{_text(node)}` depends on {what}"
+            is_coordinate = not depends_on_time(changing[0])
+            what = f"the coordinate {changing[0]}" if is_coordinate else called_if_changing(changing[0])
+            must = "be constant or a function of the time" if in_time else "be constant"
+            message = f"`{name}` must {must}, but `{_text(node)}` depends on {what}"
             rejected("changes", message, node.place)
         return found
 

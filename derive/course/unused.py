@@ -15,7 +15,8 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-OF_STATES = ("at", "results", "conserved", "coordinates")  # keys that may mention a coordinate that nothing uses
+OF_STATES = ("at", "results", "conserved", "coordinates", "functions")  # may mention a coordinate that nothing uses
+NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")
 
@@ -102,15 +103,16 @@ def _of_limit(limit: object) -> Iterator[str]:
 
 
 def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of coordinates on which no place, body or energy depends."""
-    coordinates = given.get("coordinates") if given is not None else None
-    if given is None or not isinstance(coordinates, Mapping):
+    """Warn of coordinates and prescribed functions on which no place, body or energy depends."""
+    if given is None:
         return
     used = {name for key, value in given.pairs if key.text not in OF_STATES for name in _names(value)}
-    for q, _ in coordinates.pairs:
-        if not used & {f"{q.text}{rate}" for rate in _RATES}:
-            message = f"no place, body, force or energy depends on the coordinate `{q.text}`"
-            yield Complaint("unused-letter", message, q.place, help="leave it out", severity="warning")
+    for key, noun in NOUNS.items():
+        moving = given.get(key)
+        for q, _ in moving.pairs if isinstance(moving, Mapping) else ():
+            if not used & {f"{q.text}{rate}" for rate in _RATES}:
+                message = f"no place, body, force or energy depends on the {noun} `{q.text}`"
+                yield Complaint("unused-letter", message, q.place, help="leave it out", severity="warning")
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:

@@ -1,9 +1,10 @@
-"""The names that prose may mention on a page: inputs, axes, coordinates, and each step by its key."""
+"""The names that prose may mention on a page: inputs, axes, coordinates, prescribed functions, each step by its key."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from derive.algebra.expressions import Prescribed
 from derive.course.problem import Problem
 from derive.page.wording import AXIS_NAMES, Math, Phrases, given_words, name_of
 from derive.steps.derivation import Derivation
@@ -14,8 +15,14 @@ def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict
     described = problem.described.letters if problem.described else {}
     names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
     coordinates = (q for step in derivation.steps for q, _ in step.coordinates)
-    names.update({q.name: (Math(q),) for q in coordinates})
+    names.update({q.name: (Math(q),) for q in (*coordinates, *_functions(derivation))})
     names.update({step.key: name_of(step) for step in derivation.steps})
     for given in problem.givens:
         names[given.name] = given_words(given, problem.measured, words)
     return names
+
+
+def _functions(derivation: Derivation) -> list[Prescribed]:
+    """Return the prescribed functions of the time in the steps."""
+    letters = {s for step in derivation.steps for form in step.chain for s in form.expr.free_symbols}
+    return sorted({s.function for s in letters if isinstance(s, Prescribed)}, key=str)

@@ -50,6 +50,8 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
     if isinstance(expr, MatrixBase):
         return common(list(expr), of)
+    if isinstance(expr, ex.Prescribed):
+        return expr.dimension
     if isinstance(expr, Symbol | MatrixSymbol):
         return table[expr]
     if expr in table:  # names that are expressions, such as cos(theta) and |tau|

@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 
 from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, oo
 
-from derive.algebra.expressions import RATES, TIME, Relation, component_names, explicit, rate
+from derive.algebra.expressions import RATES, TIME, Prescribed, Relation, component_names, explicit, prescribed_in, rate
 from derive.algebra.ranges import own_meaning
 from derive.errors import Complaint, Place, Rejected, Spelled
 from derive.steps.step import Quantity, same_value, value_behind
@@ -304,10 +304,26 @@ def _is_open(quantity: Quantity) -> bool:
 
 
 def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
-    """Return the symbol that makes a value change: the time, a coordinate or a rate; None if the value is constant."""
+    """Return the symbol that makes a value change: the time or a function of it, a coordinate or a rate; None if the
+    value is constant."""
     letters = explicit(value).free_symbols
-    moving = [TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
+    moving = [*prescribed_in(value), TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
     return next((s for s in moving if s in letters), None)
+
+
+def called_if_changing(moving: Symbol) -> str:
+    """Return what an error calls a symbol that changes with time."""
+    if moving == TIME:
+        return "the time t"
+    return f"{moving.name}, a function of the time" if isinstance(moving, Prescribed) else moving.name
+
+
+def require_no_coordinate(verb: str, role: str, given: Any, help: str | None = None) -> None:
+    """Reject an input that depends on a coordinate, for a law that needs a function of the time alone."""
+    moving = next(iter(coordinates_in(explicit(given))), None)
+    if moving is not None:
+        message = f"`{verb}` needs a {role} that is constant or a function of the time, but {given} depends on {moving}"
+        raise Rejected(Complaint("changes", message, help=help))
 
 
 def require_constant(verb: str, role: str, given: Any, help: str | None = None) -> None:
@@ -316,7 +332,7 @@ def require_constant(verb: str, role: str, given: Any, help: str | None = None) 
     run = current_run.get()
     moving = changes(value_behind(given), {**known, **(run.coordinates if run else {})})
     if moving is not None:
-        what = "the time t" if moving == TIME else moving.name
+        what = called_if_changing(moving)
         name = f"`{given.key}`" if isinstance(given, Quantity) else f"{value_behind(given)}"
         message = f"`{verb}` needs a constant {role}, but {name} depends on {what}"
         raise Rejected(Complaint("changes", message, help=help))

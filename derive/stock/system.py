@@ -9,7 +9,7 @@ from typing import Any
 
 from sympy import Expr, Integer
 
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, depends_on_time, explicit
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -416,7 +416,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        return self.described.given is not None or bool(self.system.given_forces)
+        """Whether constant forces may shift the equilibrium; a driving force, which depends on the time, does not."""
+        if depends_on_time(self.lagrangian.value):
+            return False
+        pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []
+        return self.described.given is not None or bool(pushes) and not any(map(depends_on_time, pushes))
 
     def _check_letters(self) -> None:
         """Check that each symbol that the description introduces denotes quantities of one kind."""

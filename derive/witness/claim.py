@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, diff
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.expressions import TIME, Prescribed, Relation, explicit, rate
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.dynamics import Blueprint, Response, Singular
@@ -35,6 +35,7 @@ class Claim:
 
     momenta   the symbols of conserved or conjugate momenta, each with its coordinate
     assumed   the assumptions of the page about its symbols
+    functions prescribed functions and their rates, with the formulas that were substituted for them
     """
 
     quantity: Quantity
@@ -43,6 +44,7 @@ class Claim:
     blueprint: Blueprint
     momenta: Mapping[Symbol, Symbol] = field(default_factory=dict)
     assumed: Sequence[Relation] = ()
+    functions: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     @property
     def is_approximate(self) -> bool:
@@ -59,7 +61,7 @@ class Claim:
 
     @property
     def value(self) -> Any:
-        return explicit(self.quantity.value)
+        return explicit(self.quantity.value).xreplace(self.functions)
 
     @property
     def residuals(self) -> list[Expr]:
@@ -85,6 +87,19 @@ class Claim:
                 found.update(dict.fromkeys(substituted(ancestor)))
         return list(found)
 
+    @property
+    def functions_given(self) -> dict[Symbol, Expr]:
+        """The formulas that were substituted for prescribed functions, and their derivatives for the rates; raises
+        `NotComputable` if there are two formulas for one function."""
+        found: dict[Symbol, Expr] = {}
+        for each in self.givens:
+            function, value = each.target, explicit(each.value)
+            if isinstance(function, Prescribed):
+                if found.setdefault(function, value) != value:
+                    raise NotComputable(function.name)
+                found.update((function.rate(n), diff(value, TIME, n)) for n in (1, 2, 3))
+        return found
+
     @cached_property
     def constants(self) -> dict[Symbol, Expr]:
         """Cyclic coordinate -> its constant momentum, for each cyclic coordinate that was eliminated by means of this
@@ -102,11 +117,19 @@ class Claim:
         return found
 
     def is_of_a_state(self, given: Given) -> bool:
+        if isinstance(given.target, Prescribed):
+            return False
         return bool(explicit(given.target).free_symbols & self.moving) or given.target in self.momenta
 
     @property
     def letters_given(self) -> list[Given]:
-        return [each for each in self.givens if not self.is_of_a_state(each) and isinstance(each.target, Symbol)]
+        return [
+            each
+            for each in self.givens
+            if not self.is_of_a_state(each)
+            and isinstance(each.target, Symbol)
+            and not isinstance(each.target, Prescribed)
+        ]
 
     @property
     def states_given(self) -> list[Given]:

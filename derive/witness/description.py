@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any, TypeAlias
 
 from sympy import Expr, Symbol
+
+from derive.algebra.expressions import explicit
 
 Vector: TypeAlias = tuple[Expr, ...]
 
@@ -121,6 +124,17 @@ class Description:
     def multipliers(self) -> tuple[Symbol, ...]:
         """The symbols of the constraint forces."""
         return tuple(each.multiplier for each in self.conditions if each.multiplier is not None)
+
+
+def with_functions(part: Any, known: Mapping[Symbol, Expr]) -> Any:
+    """The description, or a part of it, with these formulas in place of prescribed functions of the time."""
+    if isinstance(part, Expr):
+        return explicit(part).xreplace(known)
+    if isinstance(part, tuple):
+        return tuple(with_functions(each, known) for each in part)
+    if is_dataclass(part) and not isinstance(part, type):
+        return replace(part, **{f.name: with_functions(getattr(part, f.name), known) for f in fields(part)})
+    return part
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from sympy import Symbol
@@ -13,7 +14,7 @@ from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness import along, runs, small
 from derive.witness.claim import Claim
-from derive.witness.description import Description
+from derive.witness.description import Description, with_functions
 from derive.witness.dynamics import Blueprint
 from derive.witness.tape import NotComputable
 
@@ -63,6 +64,9 @@ def testimony(
     """The verdict on a step; None if a formula cannot be computed, so that nothing was tested."""
     try:
         claim = Claim(quantity, judged, outcome, blueprint(description), momenta, tuple(assumed))
+        if functions := claim.functions_given:
+            own = blueprint(with_functions(description, functions))
+            claim = replace(claim, blueprint=own, functions=functions)
         return None if claim.is_approximate else judge(claim)
     except NotComputable:
         return None

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
 from derive.algebra.ranges import range_of
 from derive.witness.dynamics import Blueprint, Dynamics, Response
 from derive.witness.geometry import STEP, Reals, State
@@ -196,7 +196,7 @@ class Trial:
 
         q, v, t = state.q.copy(), state.v.copy(), state.t
         n = len(q)
-        needs_time = any(TIME in each.free_symbols for each in residuals) or self._depends_on_time
+        needs_time = any(depends_on_time(each) for each in residuals) or self._depends_on_time
         for _ in range(ROUNDS):
             here = State(q, v, t)
             left, slopes = at(q, v, t)
@@ -258,7 +258,7 @@ class Trial:
 
     @cached_property
     def _depends_on_time(self) -> bool:
-        return any(TIME in explicit(c.residual).free_symbols for c in self.blueprint.of.conditions if not c.in_rates)
+        return any(depends_on_time(c.residual) for c in self.blueprint.of.conditions if not c.in_rates)
 
     def _by_time(self, state: State) -> Reals:
         """The partial derivatives, with respect to time, of the conditions on coordinates."""

@@ -17,6 +17,7 @@ from derive.mechanics import (
     coordinate,
     energy_function,
     equations_of_motion,
+    function_of_time,
     kinetic_energy_of,
     lagrangian,
     multipliers,
@@ -67,6 +68,21 @@ def test_an_equation_of_motion_holds_and_one_with_another_sign_does_not() -> Non
     assert judged(along.equation, motion)
     wrong = Relation(l * rate(q, 2) - g * sin(q), "=", 0)
     assert judged(along.equation, motion, wrong).detail == "it does not hold in the described motion"
+
+
+def test_a_prescribed_function_is_neither_constant_nor_a_coordinate() -> None:
+    X = function_of_time("X", "length")
+    place = (X + l * sin(q), -l * cos(q))
+    moved = replace(PENDULUM, particles=(replace(PENDULUM.particles[0], place=place),))
+    (motion,) = equations_of_motion(lagrangian(System(Particle(m, point(*place)), weight(g))))
+    assert judged(along.equation, motion, of=moved)
+    constant = Relation(l * rate(q, 2) + g * sin(q), "=", 0)
+    along_X = Relation(X.rate(2) + l * rate(q, 2) * cos(q) - l * rate(q) ** 2 * sin(q), "=", 0)
+    for wrong in (constant, along_X):
+        assert judged(along.equation, motion, wrong, of=moved).detail == "it does not hold in the described motion"
+    h = energy_function(lagrangian(System(Particle(m, point(*place)), weight(g))))
+    called_conserved = replace(h, step=replace(h.step, outcome="conserved"))
+    assert not judged(along.conserved, called_conserved, h.value, of=moved)
 
 
 def test_multipliers_and_accelerations_agree_with_the_described_constraint() -> None:

@@ -14,13 +14,13 @@ from tests.rules import records
 from tests.witness.systems import PENDULUM, g, m
 
 WITNESS = sorted((ROOT / "derive" / "witness").glob("*.py"))
-# The letters of coordinates and rates, what a node stands for, the range of a letter, and the words of a verdict. NumPy
-# works out a root in order here.
+# The letters of coordinates, rates and functions of the time, what a node stands for, the range of a letter, and the
+# words of a verdict. NumPy works out a root in order here.
 ALLOWED = {
     "derive.algebra.equality": {"Grade", "Verdict"},
-    "derive.algebra.expressions": {"TIME", "Relation", "explicit", "rate"},
+    "derive.algebra.expressions": {"TIME", "Prescribed", "Relation", "depends_on_time", "explicit", "rate"},
     "derive.algebra.ordered_roots": {"OrderedRoot"},
-    "derive.algebra.ranges": {"range_of"},
+    "derive.algebra.ranges": {"POSITIVE", "range_of"},
     "derive.steps.rule": {"Judged"},
     "derive.steps.step": {"Fact", "Quantity"},
 }

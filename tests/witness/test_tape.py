@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from sympy import Abs, Function, Symbol, atan2, exp, pi, sin, sqrt, symbols
 
+from derive.algebra.expressions import TIME, Prescribed
 from derive.witness.tape import NotComputable, Tape
 
 x, y, a = symbols("x y a", real=True)
@@ -27,6 +28,17 @@ def test_a_complex_step_gives_the_derivative_to_all_figures(formula: object) -> 
     point = np.array([[1.25 + 1e-30j], [0.5 + 0j]])
     found = np.imag(Tape([formula], [x, y]).bound({})(point)[0, 0]) / 1e-30
     assert found == pytest.approx(float(formula.diff(x).subs({x: 1.25, y: 0.5}).evalf()), rel=1e-13)
+
+
+def test_a_prescribed_function_is_tested_by_a_function_with_these_derivatives() -> None:
+    X = Prescribed("X", "length", above=True)
+    point = np.array([[0.7 + 1e-30j]])
+    rates = [X, X.rate(), X.rate(2), X.rate(3)]
+    found = Tape(rates, [TIME]).bound({})(point)[:, 0]
+    assert found[0].real > 0
+    assert np.imag(found[:3]) / 1e-30 == pytest.approx(np.real(found[1:]), rel=1e-12)
+    with pytest.raises(NotComputable, match="X"):
+        Tape([X], [x])
 
 
 def test_equal_parts_are_computed_once() -> None:

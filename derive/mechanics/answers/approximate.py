@@ -10,7 +10,7 @@ from sympy import Function, Integer, Rational, oo
 from sympy.core.symbol import Str
 
 from derive.algebra.expansion import small_of, tidied_terms
-from derive.algebra.expressions import TIME, Relation, explicit
+from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
@@ -82,7 +82,7 @@ def equation_in_limit(
     told = {"small": small, "power": power}
     if place not in (oo, -oo):
         told["place"] = place
-    if kept.has(TIME) and place == 0 and any(f.has(x) and f.has(TIME) for f in left.atoms(Function)):
+    if depends_on_time(kept) and place == 0 and any(f.has(x) and depends_on_time(f) for f in left.atoms(Function)):
         told["short"] = 1 / x  # for small Omega, sin(Omega t) is small only at short times
     return establish(
         EQUATION_IN_LIMIT,

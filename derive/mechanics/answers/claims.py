@@ -26,7 +26,7 @@ from sympy import (
 
 from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
-from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, explicit
+from derive.algebra.expressions import PLUS_MINUS, TIME, Prescribed, Relation, depends_on_time, explicit
 from derive.algebra.ranges import range_of
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
@@ -380,7 +380,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the substitution of all stated values in the original gives the result or an equivalent equation.
 
     This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
-    substituted, and the original contains no rate of a replaced symbol.
+    substituted, and the original contains no rate of a replaced coordinate.
     """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
@@ -391,9 +391,11 @@ def names_put_in(facts: Judged, value: Any) -> bool:
         return True
     before, after = explicit(facts.inputs["original"]), explicit(facts.result)
     names = {s.name for s in before.free_symbols}
-    if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told):  # rates too
-        return True
-    there = before.xreplace({letter: explicit(at) for letter, at in told.items()})
+    of_time = [letter for letter in told if isinstance(letter, Prescribed)]
+    if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told if letter not in of_time):
+        return True  # rates too
+    rates = {letter.rate(n): diff(explicit(told[letter]), TIME, n) for letter in of_time for n in (1, 2, 3)}
+    there = before.xreplace({**{letter: explicit(at) for letter, at in told.items()}, **rates})
     if isinstance(after, Relation):
         return isinstance(there, Relation) and same_equation(there.residual, after.residual)
     return bool(equal(there, after))
@@ -420,7 +422,7 @@ def highest_power(facts: Judged, power: Any) -> bool:
 
 
 def for_short_times(facts: Judged, time: Any) -> bool:
-    return is_zero(time * facts.inputs["letter"] - 1) and explicit(facts.inputs["kept"]).has(TIME)
+    return is_zero(time * facts.inputs["letter"] - 1) and depends_on_time(facts.inputs["kept"])
 
 
 def goes_to(facts: Judged, place: Any) -> bool:

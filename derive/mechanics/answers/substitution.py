@@ -10,7 +10,19 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.collect import by_accelerations, by_rates
-from derive.algebra.expressions import RATES, TIME, Relation, TimeRate, bound, explicit, rate, scalar
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import (
+    RATES,
+    TIME,
+    Prescribed,
+    Relation,
+    TimeRate,
+    bound,
+    explicit,
+    prescribed_in,
+    rate,
+    scalar,
+)
 from derive.errors import Complaint, Rejected, Spelled, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
@@ -69,12 +81,13 @@ def put_in(
     again    an earlier result that this substitution must reproduce
 
     The results are substituted one after another, in the given order; the values follow. If a coordinate is given as a
-    function of other coordinates or of the time, its rates are substituted too.
+    function of other coordinates or of the time, its rates are substituted too. So are the rates of a prescribed
+    function: its value is a function of the time, or a constant if the function does not change.
     Check: all letters of the original replaced at once by their final values; if `again` is given, the earlier result.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
     the substitution), again.
-    Errors: there is nothing to replace; an equation that is not solved for a letter; a relation that cannot hold; a
-    place that the motion does not reach.
+    Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
+    is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
     """
     rests, given = _sorted_out(others)
@@ -85,8 +98,10 @@ def put_in(
     there = _values(of, given, values, value)
     _check_reached(of, rests, [*told, *there])
     for pair in there:
-        if letter_of(pair[0]) in value.free_symbols or pair == there[0]:  # skip removed letters
-            value = _all_put(value, [pair], str(pair[0]), of, told)
+        rates = _of_prescribed(*pair)
+        letters = {letter_of(target) for target, _ in (pair, *rates)}
+        if letters & value.free_symbols or pair == there[0]:  # skip removed letters
+            value = _all_put(value, [*rates, pair], str(pair[0]), of, told)
     result = arranged(value, list(coordinates_of(of, *rests)))
     _check_holds(of, result)
     name = _name(of, symbol)
@@ -233,9 +248,27 @@ def _of_rates(target: Expr, value: Expr, moving: Mapping[Symbol, str]) -> list[R
     return found
 
 
+def _of_prescribed(target: Expr, value: Expr) -> list[Replacement]:
+    """Return the replacements for the rates of a prescribed function, the highest derivative first. Reject a value that
+    is not a function of the time alone."""
+    if not isinstance(target, Prescribed):
+        return []
+    if target.order:
+        message = f"`put_in`: {target.name} follows from {target.function.name}, so it cannot have a value of its own"
+        help_line = f"give {target.function.name} as a function of the time, such as `a*cos(omega*t)`"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+    moving = next(iter(coordinates_in(value)), None)
+    own = next((s for s in prescribed_in(value) if s.function == target), None)
+    if moving is not None or own is not None:
+        message = f"`put_in`: {target.name} is a function of the time alone, but its value contains {moving or own}"
+        raise Rejected(Complaint("changes", message))
+    return [(target.rate(n), derivative(value, *[TIME] * n)) for n in range(len(RATES) - 1, 0, -1)]
+
+
 def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
     """Return the symbols with their values at one instant."""
     letters = {s.name: s for s in value.free_symbols}
+    letters |= {s.function.name: s.function for s in prescribed_in(value)}
     pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
     for name, at in named.items():
         if name not in letters:
@@ -422,7 +455,8 @@ def _in_results(
 ) -> Quantity:
     """Substitute results and the values of a state. The state may contain coordinates and rates that this answer does
     not contain."""
-    there = {s.name for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
+    letters = {s for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
+    there = {s.name for s in letters} | {s.function.name for s in letters if isinstance(s, Prescribed)}
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in there | state):
         message = f"`{of.key}` does not contain `{name}`, so its value has no effect"

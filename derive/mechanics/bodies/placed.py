@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, as_expr, column, explicit
+from derive.algebra.expressions import as_expr, column, depends_on_time, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, with_article
 from derive.mechanics.bodies.boundary import Boundary
@@ -54,7 +54,7 @@ class PlacedBody:
         x, y = (centre - self.at).components
         c, s = cos(self.turned), sin(self.turned)
         own = ImmutableDenseMatrix([tidied(x * c + y * s), tidied(y * c - x * s)])
-        if coordinates_in(own) or own.has(TIME):
+        if coordinates_in(own) or depends_on_time(own):
             message = "the centre of the `rim` does not move with the body"
             help_line = (
                 "give the place of the centre of mass relative to it: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
@@ -94,7 +94,7 @@ class PlacedBody:
     def is_held(self) -> bool:
         """Whether the point whose place is known does not move."""
         here = ImmutableDenseMatrix(self.at.components)
-        return not coordinates_in(here) and TIME not in here.free_symbols
+        return not coordinates_in(here) and not depends_on_time(here)
 
     def place_of(self, point: Any) -> PointOfBody:
         """The place of a point of the body, which moves with the body.

@@ -8,7 +8,17 @@ from typing import Any
 from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, diff, sin
 
 from derive.algebra.collect import by_terms
-from derive.algebra.expressions import TIME, Factors, Partial, PoissonBracket, Terms, bound, explicit, rate
+from derive.algebra.expressions import (
+    TIME,
+    Factors,
+    Partial,
+    PoissonBracket,
+    Terms,
+    bound,
+    depends_on_time,
+    explicit,
+    rate,
+)
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -81,7 +91,7 @@ def poisson_bracket(
     def outcome(found: Expr) -> str:
         if found != 0:
             return "generic"
-        return "conserved" if flow and TIME not in values[0].free_symbols else "zero"
+        return "conserved" if flow and not depends_on_time(values[0]) else "zero"
 
     value = _written(law(values[0], values[1]))
     worked = [sign * Factors(diff(values[0], u), diff(values[1], v)) for sign, u, v in derivatives]

@@ -11,17 +11,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import (
-    TIME,
-    At,
-    Factors,
-    Partial,
-    Terms,
-    bound,
-    explicit,
-    rate,
-    scalar,
-)
+from derive.algebra.expressions import At, Factors, Partial, Terms, bound, depends_on_time, explicit, rate, scalar
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
@@ -265,7 +255,7 @@ def effective_potential(
     Errors: L contains the time; no coordinate remains; a force outside L acts where the rates vanish.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
-    if TIME in explicit(of.value).free_symbols:
+    if depends_on_time(of.value):
         message = f"`effective_potential`: `{of.key}` contains the time t, so nothing is at rest"
         raise Rejected(Complaint("changes", message))
     constants = constants or _cyclic(of)

@@ -23,7 +23,7 @@ from sympy import (
 )
 
 from derive.algebra.collect import by_rates
-from derive.algebra.expressions import RATES, TIME, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import RATES, TIME, Prescribed, TimeRate, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
 from derive.algebra.taylor import NoSeries, taylor
 from derive.errors import Complaint, Rejected
@@ -34,7 +34,7 @@ from derive.steps.record import coordinate_named
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Level, Quantity, compared_with
 
-__all__ = ["Coordinate", "coordinate", "euler_angles", "rate_of", "unknown"]
+__all__ = ["Coordinate", "coordinate", "euler_angles", "function_of_time", "rate_of", "unknown"]
 
 T = TIME  # in second routes, coordinates are functions of this symbol
 
@@ -124,6 +124,22 @@ def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordi
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
+
+
+def function_of_time(name: str, kind: str = "length", positive: bool = False) -> Prescribed:
+    """Return a prescribed function of the time, such as the position X(t) of a shaken support, m.
+
+    name      the symbol of the function; its rates are X_dot and X_ddot, `X.rate()` and `X.rate(2)` in a script
+    kind      the kind of its values: `length`, `angle`, `force` and so on
+    positive  whether its values are known to be positive, as for the length of a string
+    A prescribed function is not an unknown: it has no equation of motion, and its derivative with respect to a
+    coordinate vanishes.
+    Source: Landau, Lifshitz, *Mechanics*, section 5.
+    """
+    if kind not in KINDS:
+        message = f"`function_of_time`: there is no kind `{kind}`"
+        raise Rejected(Complaint("unknown-kind", message, help=f"the kinds are {', '.join(KINDS)}"))
+    return Prescribed(name, kind, positive)
 
 
 def euler_angles() -> tuple[Coordinate, Coordinate, Coordinate]:

@@ -20,6 +20,7 @@ from derive.algebra.expressions import (
     applied,
     as_expr,
     bound,
+    depends_on_time,
     explicit,
     rate,
     scalar,
@@ -156,7 +157,7 @@ def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
     """Return the rates of the components that change, if a step derives each of these components and there are
     several."""
     known = dict(mover.at.found)
-    changing = [k for k, c in enumerate(mover.place) if c.has(TIME, *moving)]
+    changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
 
 
@@ -415,7 +416,8 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         terms = []
         for field in matter.fields:
             pairs = zip(field.vector_potential, field.place, strict=True)
-            rates = [Factors(a, TimeRate(c, *moving)) for a, c in pairs if a != 0 and c.has(TIME, *moving)]
+            changing = [(a, c) for a, c in pairs if a != 0 and (c.has(*moving) or depends_on_time(c))]
+            rates = [Factors(a, TimeRate(c, *moving)) for a, c in changing]
             terms.append(Factors(field.charge, Terms(*rates) if len(rates) > 1 else Add(*rates)))
         return Terms(*terms) if len(terms) > 1 else terms[0]
 

@@ -12,7 +12,18 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, factor
 
 from derive.algebra.collect import by_rates, by_terms
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import (
+    TIME,
+    Factors,
+    Partial,
+    Relation,
+    Terms,
+    TimeRate,
+    depends_on_time,
+    explicit,
+    rate,
+    scalar,
+)
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
@@ -39,7 +50,7 @@ def outcome_of_energy(value: Expr, of: Quantity) -> str:
     whole = is_zero(value - of.needed(Energies).whole)
     if not is_zero(_power_beside(of)):
         return "work_energy" if whole else "work"
-    if TIME not in explicit(of.value).free_symbols:
+    if not depends_on_time(of.value):
         return "energy" if whole else "conserved"
     return "changing_energy" if whole else "changing"
 
@@ -48,7 +59,7 @@ def _of_given(of: Quantity) -> str:
     """Return the outcome for a given Lagrangian: whether h is conserved. T and U are unknown."""
     if not is_zero(_power_beside(of)):
         return "given_work"
-    return "given_changing" if TIME in explicit(of.value).free_symbols else "given_conserved"
+    return "given_changing" if depends_on_time(of.value) else "given_conserved"
 
 
 def _power_beside(of: Quantity) -> Expr:
@@ -62,7 +73,7 @@ def _power_beside(of: Quantity) -> Expr:
 def _constrained(of: Quantity) -> dict[str, str]:
     """Return the word that constraint forces act and no constraint contains the time, if this is so."""
     kept = of.fact(Constrained)
-    fixed = kept is not None and not any(each.residual.has(TIME) for each in kept.constraints)
+    fixed = kept is not None and not any(depends_on_time(each.residual) for each in kept.constraints)
     return {"constrained": "constrained"} if fixed else {}
 
 

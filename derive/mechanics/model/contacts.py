@@ -8,7 +8,7 @@ from typing import Any, Self, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import TIME, Relation, as_expr, scalar
+from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
@@ -139,7 +139,7 @@ def _check_carried(touch: Contact, rough: bool) -> None:
             "so the contact force on the surface would act on nothing"
         )
         raise Rejected(Complaint("which-body", message, help="name the body that carries the surface, `of: wedge`"))
-    if rough and surface.of is None and any(c.has(TIME) for c in turning):
+    if rough and surface.of is None and any(depends_on_time(c) for c in turning):
         message = "the surface rotates, so the velocity of its material is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: plate`"))
 

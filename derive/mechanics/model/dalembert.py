@@ -16,7 +16,7 @@ from functools import lru_cache
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 
-from derive.algebra.expressions import TIME, explicit
+from derive.algebra.expressions import depends_on_time, explicit
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Unverified
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
@@ -145,7 +145,7 @@ class Matter(Fact):
     @property
     def is_driven(self) -> bool:
         """Whether a place depends on time explicitly, not only through the coordinates."""
-        return any(TIME in explicit(x).free_symbols for point in self.points for x in point.place)
+        return any(depends_on_time(x) for point in self.points for x in point.place)
 
     @property
     def weights(self) -> set[Symbol]:

@@ -20,7 +20,7 @@ from derive.mechanics.model.forces import Damper, damping
 from derive.mechanics.model.material import material_point
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import raw_distance
-from derive.steps.record import coordinates_in
+from derive.steps.record import coordinates_in, require_no_coordinate
 from derive.steps.step import is_zero
 
 __all__ = ["dashpot", "motor", "pin", "weld"]
@@ -111,8 +111,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
     torque  the symbol of the torque of the motor, N m; positive in the sense in which the angle increases
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    if coordinates_in(explicit(as_expr(turns))):
-        raise Rejected(Complaint("wrong-argument", "`motor` needs an angle that is a function of time only"))
+    require_no_coordinate("motor", "value of the angle", as_expr(turns))
     kept = replace(constraint(on, turns, torque), enforcer="motor")
     return Motor((), explicit(as_expr(on)), kept.force), kept
 

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import TIME, as_expr, scalar
+from derive.algebra.expressions import as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
@@ -20,7 +20,7 @@ from derive.mechanics.model.contacts import radius_of
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import direction_between, distance_between, dot, raw_distance
-from derive.steps.record import coordinates_in, require_constant
+from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
 from derive.steps.step import is_zero
 
 __all__ = ["massless_rod", "pulley", "string", "wire", "wound_string"]
@@ -122,7 +122,7 @@ def string(
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
 
     start, end   particles, points of bodies, or places in space
-    length       the length of the straight pieces, m
+    length       the length of the straight pieces, m; it may be a function of the time, for a string that is pulled in
     over         the pulleys or holes between the ends: pulleys; or places, particles or points of bodies, where the
                  radius of the pulley is negligible
     tension      the symbol of the tension, N; positive if the string pulls. Needed, together with the length, if the
@@ -151,7 +151,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     this force."""
     whole = as_expr(length) if length is not None else None
     if whole is not None:
-        require_constant(verb, "length", whole)
+        require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
@@ -227,7 +227,7 @@ def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
         lengths.append(length.replace(Abs, lambda size: size))
     for signs in product((1, -1), repeat=len(lengths)):
         whole = tidied(Add(*(sign * length for sign, length in zip(signs, lengths, strict=True))))
-        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])) and not whole.has(TIME):
+        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])) and not depends_on_time(whole):
             return -whole if whole.could_extract_minus_sign() else whole
     return None
 

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, Relation, as_expr
+from derive.algebra.expressions import TIME, Prescribed, Relation, as_expr, depends_on_time, prescribed_in
+from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.part import moved
 from derive.steps.record import assume, coordinates_in
+from derive.steps.signs import DECIDES, sign_for_all
 from derive.steps.step import is_zero
 
 __all__ = ["circle", "plane"]
@@ -67,7 +69,7 @@ class Surface(ABC):
             return self.of if isinstance(self.of, PlacedBody) else self.of.at
         if isinstance(self.moves, Axes):
             return self.moves
-        if not any(c.has(TIME) for c in self.place.components):
+        if not any(depends_on_time(c) for c in self.place.components):
             return self.moves
         return self.place if self.moves is None else self.place + self.moves
 
@@ -168,7 +170,7 @@ def _check_motion(surface: Plane) -> None:
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
     if isinstance(surface.moves, Location):
         velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
-        if any(c.has(TIME) or coordinates_in(column_of(velocity)) for c in velocity.components):
+        if any(depends_on_time(c) or coordinates_in(column_of(velocity)) for c in velocity.components):
             message = "the velocity of a surface is not constant"
             help_line = "give a place on the surface as a function of time, `through: [A*t**2/2, 0]`"
             raise Rejected(Complaint("changes", message, help=help_line))
@@ -257,17 +259,25 @@ def _positive(length: Expr) -> Expr:
     """Return u or -u for a distance |u|: the one that is positive for all values, or where all coordinates are zero."""
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
-                    if not term.has(TIME)))  # fmt: skip
+                    if not depends_on_time(term)))  # fmt: skip
     for sign in (1, -1):
-        if (sign * length).is_positive:
+        if sign_for_all(sign * length) == 1:
             return sign * length
         if (sign * at_zero).is_positive:
             assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
-    name = next(iter(moving), length)
-    help_line = Spelled(
-        f'make the coordinate positive: `coordinate("{name}", "length", positive=True)`',
-        f"make the coordinate positive: `{name}: positive length`",
+    raise Rejected(Complaint("sign", message, help=_help_to_sign(length, [*moving, *prescribed_in(length)])))
+
+
+def _help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
+    """Return the line that would decide the sign: a coordinate or a function that is positive, or a relation."""
+    if not changing:
+        more, less = sides_without_minus(length)
+        return f"{DECIDES} {less} < {more}"
+    name = changing[0]
+    what, noun = ("function", "function_of_time") if isinstance(name, Prescribed) else ("coordinate", "coordinate")
+    return Spelled(
+        f'make the {what} positive: `{noun}("{name}", "length", positive=True)`',
+        f"make the {what} positive: `{name}: positive length`",
     )
-    raise Rejected(Complaint("sign", message, help=help_line))

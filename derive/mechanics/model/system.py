@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, TypeVar
 
 from sympy import Abs, Add, Dummy, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, diff, factor, sqrt
 
-from derive.algebra.expressions import TIME, Factors, Relation, Terms, column, explicit, rate
+from derive.algebra.expressions import Factors, Relation, Terms, column, depends_on_time, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
@@ -229,7 +229,7 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location, mass
 
     massless   as in `spring`
     """
-    if TIME in energy.free_symbols:
+    if depends_on_time(energy):
         raise Rejected(
             Complaint("changes", "`central` needs an energy of the distance only, but it depends on the time t")
         )
@@ -476,7 +476,7 @@ def _at_zero(value: Expr) -> Expr:
 
 def _undriven(way: Expr) -> Expr:
     """The displacement between two places where all coordinates are zero, without terms that contain the time."""
-    return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not term.has(TIME)))
+    return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not depends_on_time(term)))
 
 
 def _is_sum_of_letters(way: Expr) -> bool:

@@ -10,7 +10,17 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, di
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Approach, NoExpansion
-from derive.algebra.expressions import TIME, Factors, Ratio, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import (
+    Factors,
+    Ratio,
+    Relation,
+    Terms,
+    TimeRate,
+    depends_on_time,
+    explicit,
+    rate,
+    scalar,
+)
 from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
@@ -183,10 +193,8 @@ def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> E
 
 def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
     others = [c for c in energy.coordinates if c != q.symbol and value.has(c, rate(c))]
-    if others or TIME in value.free_symbols or not value.has(q.rate):
-        what = (
-            others[0].name if others else "the time t" if TIME in value.free_symbols else f"no rate of {q.symbol.name}"
-        )
+    if others or depends_on_time(value) or not value.has(q.rate):
+        what = others[0].name if others else "the time t" if depends_on_time(value) else f"no rate of {q.symbol.name}"
         message = (
             f"`speed_from_energy` needs an energy of only {q.symbol.name} and its rate, but `{energy.key}` has {what}"
         )

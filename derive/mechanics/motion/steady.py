@@ -12,7 +12,7 @@ from typing import Any
 from sympy import Add, Dummy, Expr, Integer, Mul, Symbol
 
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, explicit, rate
+from derive.algebra.expressions import TIME, Partial, Relation, as_expr, bound, depends_on_time, explicit, rate
 from derive.algebra.ranges import never_vanishes_within
 from derive.algebra.taylor import slope
 from derive.errors import Complaint, Rejected
@@ -60,8 +60,10 @@ def steady_motion(
     equation, of = (of, known.lagrangian) if known is not None else (None, of)
     require_kind("steady_motion", "of", of, "energy")
     L = explicit(of.value)
-    if L.has(TIME) or of.fact(ActedOn) is not None:
-        why = "contains the time explicitly" if L.has(TIME) else "has additional forces without a potential energy"
+    if depends_on_time(L) or of.fact(ActedOn) is not None:
+        why = (
+            "contains the time explicitly" if depends_on_time(L) else "has additional forces without a potential energy"
+        )
         raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
     every = coordinates_of(of)
     turning = [q for q in every if not L.has(q.symbol)]

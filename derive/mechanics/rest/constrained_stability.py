@@ -17,7 +17,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Matrix, MatrixBase, Symbol
 from derive.algebra.amplitudes import Amplitudes
 from derive.algebra.definite import leading_minors, sign_of_form
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import TIME, Relation, explicit, scalar
+from derive.algebra.expressions import Relation, depends_on_time, explicit, scalar
 from derive.algebra.taylor import coefficient_along
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -198,7 +198,7 @@ class OnConstraints:
 def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapping[Symbol, Expr]) -> Allowed:
     energy = explicit(potential.value)
     for each in constraints:
-        if each.in_rates or explicit(each.residual).has(TIME):
+        if each.in_rates or depends_on_time(each.residual):
             message = f"`stability` needs constraints between coordinates only, not {each.left} = {each.right}"
             raise Rejected(Complaint("constrained", message, help="ask for the equations of motion"))
     needed = {q for each in constraints for q in each.coordinates} | {q for q in potential.coordinates if energy.has(q)}

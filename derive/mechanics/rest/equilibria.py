@@ -18,13 +18,13 @@ from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import (
-    TIME,
     Factors,
     Partial,
     Relation,
     Slope,
     Terms,
     as_expr,
+    depends_on_time,
     explicit,
     rate,
     scalar,
@@ -94,7 +94,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
     """
     require_kind("potential_at_rest", "of", of, "energy")
-    if explicit(of.value).has(TIME):
+    if depends_on_time(of.value):
         raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     moving, pushes = list(of.coordinates), _given_pushes(of)
     if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
@@ -160,7 +160,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
-    if explicit(of.value).has(TIME):
+    if depends_on_time(of.value):
         raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]

@@ -25,7 +25,7 @@ from sympy import (
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import determinant_of
-from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
 from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
@@ -262,7 +262,7 @@ def departing(facts: Judged) -> bool:
     """Whether all moving coordinates grow exponentially with the same positive rate."""
     rates = {tidied(entry.diff(TIME) / entry) for entry in map(explicit, moving(facts))}
     (rate, *others) = rates
-    return not others and not rate.has(TIME) and signs(rate, _points(facts)) == {1}
+    return not others and not depends_on_time(rate) and signs(rate, _points(facts)) == {1}
 
 
 def straight(facts: Judged) -> bool:

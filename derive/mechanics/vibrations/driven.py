@@ -12,7 +12,13 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.linear_motion import LinearCoefficients, is_linear_in_time, linear_equation, put_back
+from derive.mechanics.vibrations.linear_motion import (
+    LinearCoefficients,
+    check_no_function,
+    is_linear_in_time,
+    linear_equation,
+    put_back,
+)
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told, positive
@@ -150,6 +156,7 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
     """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
+    check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"

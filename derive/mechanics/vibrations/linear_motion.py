@@ -36,7 +36,7 @@ from sympy.simplify.fu import TR8
 
 from derive.algebra.collect import by_terms
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, stand_in
+from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, explicit, prescribed_in, rate, stand_in
 from derive.algebra.length import length, shortest
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor, tidied
@@ -49,7 +49,7 @@ from derive.solving.relations import conditions_told
 from derive.solving.unknowns import coordinates_of, is_number, residual_of
 from derive.steps.claims import as_told
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.record import assume, changes, require_constant
+from derive.steps.record import assume, require_constant
 from derive.steps.rule import CHECK, Rule
 from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, approximations_among, is_zero, value_behind
@@ -214,9 +214,9 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
     a, b, c = (tidied(derivative(left, s)) for s in state)
     rest = left.xreplace(dict.fromkeys(state, ZERO))
     _check_alone(equation, left, q)
-    if a == 0 and c == 0 and b.has(TIME) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
+    if a == 0 and c == 0 and depends_on_time(b) and not rest.has(*state) and is_zero(left - b * state[1] - rest):
         return LinearCoefficients(ZERO, ONE, ZERO, tidied(-rest / b))
-    constant = not any(k.has(*state, TIME) for k in (a, b, c))
+    constant = not any(k.has(*state) or depends_on_time(k) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
     if not constant or not whole or (a == 0 and b == 0):
         message = f"`{equation.key}` is not a linear equation for only {q.symbol.name} with constant coefficients"
@@ -235,7 +235,8 @@ def _left_of(equation: Quantity, q: Coordinate) -> Expr:
 
 def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
     """Reject an equation with other coordinates, rates or accelerations that change with time."""
-    other = changes(left.xreplace({TIME: ONE}), [s for s in coordinates_of(equation) if s != q.symbol])
+    others = [rate(s, n) if n else s for s in coordinates_of(equation) if s != q.symbol for n in range(3)]
+    other = next((s for s in others if left.has(s)), None)
     if other is not None:
         message = f"`{equation.key}` is not an equation for only {q.symbol.name}: it has {other.name}, which moves too"
         help_line = f"substitute the value of {other.name} from another equation"
@@ -324,14 +325,23 @@ def _particular(linear: LinearCoefficients, equation: Quantity) -> Expr:
     """Return a particular motion under the driving force: the sum of the particular motions under its terms."""
     if linear.driven == 0:
         return ZERO
+    check_no_function("solution", linear.driven, equation)
     terms = [_particular_of(linear, term, equation) for term in Add.make_args(_driving(linear.driven))]
     return Add(*(tidied(term) for term in terms))
+
+
+def check_no_function(verb: str, driven: Expr, equation: Quantity) -> None:
+    """Reject a driving force with a prescribed function, whose formula is unknown."""
+    for each in prescribed_in(driven):
+        message = f"`{verb}`: the driving force in `{equation.key}` contains {each.name}, whose formula is unknown"
+        help_line = f"substitute a formula for {each.function.name} first, with `put_in`"
+        raise Rejected(Complaint("unknown-driving", message, help=help_line))
 
 
 def _driving(driven: Expr) -> Expr:
     """Write products of sines and cosines of the time as sums."""
     value = expand(driven)
-    return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if f.has(TIME)]) > 1 else value
+    return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if depends_on_time(f)]) > 1 else value
 
 
 def _particular_of(linear: LinearCoefficients, term: Expr, equation: Quantity) -> Expr:
@@ -349,7 +359,7 @@ def _particular_of(linear: LinearCoefficients, term: Expr, equation: Quantity) -
 
 
 def is_linear_in_time(angle: Expr) -> bool:
-    return not diff(angle, TIME).has(TIME)
+    return not depends_on_time(diff(angle, TIME))
 
 
 def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
@@ -363,7 +373,7 @@ def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
 
     This polynomial has the factor t if c = 0, or t^2 if b = 0 too.
     """
-    degree = power.as_poly(TIME).degree() if power.has(TIME) else 0
+    degree = power.as_poly(TIME).degree() if depends_on_time(power) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
     unknown = [stand_in(f"u_{n}") for n in range(degree + 1)]
     trial = Add(*(u * TIME ** (n + lowest) for n, u in enumerate(unknown)))
@@ -428,7 +438,7 @@ def _accumulated(inside: Expr, equation: Quantity) -> Expr:
         rate = diff(inside.args[0], TIME)
         whole = {exp: inside, sin: -cos(inside.args[0]), cos: sin(inside.args[0])}[inside.func]
         return whole / rate
-    if is_linear_in_time(base) and not power.has(TIME):
+    if is_linear_in_time(base) and not depends_on_time(power):
         rate = diff(base, TIME)
         if power == -1:
             start = base.subs(TIME, 0)
@@ -465,12 +475,12 @@ def _joined(free: Expr, particular: Expr) -> Expr:
 
     If a constant particular motion cancels the free motion at t = 0, the sum is written like v_t (1 - e^(-t/T)).
     """
-    if not particular.has(TIME) and particular != 0 and not free.is_Add:
+    if not depends_on_time(particular) and particular != 0 and not free.is_Add:
         outside, inside = free.as_independent(TIME, as_Add=False)
         if is_zero(outside + particular):
             return Mul(presented(particular), 1 - inside, evaluate=False)
     whole = free + particular
-    marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if f.has(TIME)}
+    marks = {f: Dummy(str(f)) for f in whole.atoms(sin, cos, exp, cosh, sinh) if depends_on_time(f)}
     back = {mark: f for f, mark in marks.items()}
     factored = presented(whole.xreplace(marks)).xreplace(back)
     forms = (whole, factor_terms(whole.expand()), factor_terms(whole), factored)

@@ -16,7 +16,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.collect import by_accelerations, spread
 from derive.algebra.derivatives import derivative
 from derive.algebra.expansion import FirstOrder
-from derive.algebra.expressions import TIME, Relation, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, explicit, rate, scalar
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
@@ -302,9 +302,9 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
-        letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if value.has(TIME) else []
+        letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if depends_on_time(value) else []
         slopes = [derivative(value, s) for s in letters]
-        if any(_at_rest(slope, moving, place).has(TIME) for slope in slopes):
+        if any(depends_on_time(_at_rest(slope, moving, place)) for slope in slopes):
             message = f"`{equation.key}` contains the time explicitly, so it has no constant coefficients"
             raise Rejected(Complaint("changes", message))
         left = lasting(_at_rest(value, moving, place))
@@ -318,7 +318,9 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
 
 def lasting(value: Expr) -> Expr:
     """Return the terms of a sum that do not depend on the time."""
-    return Add(*(term for term in Add.make_args(value.expand()) if not term.has(TIME))) if value.has(TIME) else value
+    if not depends_on_time(value):
+        return value
+    return Add(*(term for term in Add.make_args(value.expand()) if not depends_on_time(term)))
 
 
 def _coefficients(

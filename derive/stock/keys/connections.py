@@ -199,7 +199,9 @@ class StringKeys(Record):
         "the pulleys or holes between the ends, in order: pulleys, or places, particles or points of bodies",
         list_of(PLACE, "a list of places"),
     )
-    length: Tree | None = key("the length of its straight pieces", SCALAR)
+    length: Tree | None = key(
+        "the length of its straight pieces; a function of the time if the string is pulled in", SCALAR
+    )
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
@@ -285,7 +287,8 @@ class MotorKeys(Record):
         return [self.torque]
 
     def part(self, known: Connected) -> Deferred[Any]:
-        of = (known.letters.of_kind(self.on, "on", "angle"), known.letters.of_kind(self.turns, "turns", "angle"))
+        turns = known.letters.value(self.turns, "turns", "angle", in_time=True)
+        of = (known.letters.of_kind(self.on, "on", "angle"), turns)
         torque = force_letter(self.torque, known.letters)
         return Deferred(motor, of, {"torque": torque}, forces=(torque,), place=self.places[""])
 
@@ -333,7 +336,7 @@ def _line(
 ) -> Deferred[Any]:
     """Return a string or a massless rod; `name` is the argument of `make` for the symbol of its force."""
     if length is not None:
-        named["length"] = known.letters.value(length, "length", "length")
+        named["length"] = known.letters.value(length, "length", "length", in_time=True)
     if force is not None:
         named[name] = force_letter(force, known.letters)
     return Deferred(make, ends, named, forces=(str(force),) if force is not None else (), place=place)

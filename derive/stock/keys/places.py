@@ -9,6 +9,7 @@ from functools import partial
 from sympy import Expr
 
 from derive.algebra.expressions import TIME, rate, scalar
+from derive.algebra.kinds import KINDS
 from derive.algebra.ranges import POSITIVE, Range
 from derive.course.declared import read_range
 from derive.course.expression import RESERVED, Declared
@@ -30,9 +31,10 @@ from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import X, Y, Z, point, space
-from derive.mechanics.kinematics.coordinates import kind_of_rate
+from derive.mechanics.kinematics.coordinates import function_of_time, kind_of_rate
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.stock.keys.deferred import Material
+from derive.stock.keys.formulas import OfKnownDimension
 
 ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
 
@@ -42,6 +44,7 @@ def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
 
 
 COORDINATES = mapping_of(Reader(schema_of_sorts((ANGLE, LENGTH, CHARGE)), _sort))
+FUNCTIONS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 COMPONENTS = list_of(SCALAR, "a list of components, `[x, y]` in a vertical plane or `[x, y, z]`")
 TURNS = mapping_of(list_of(mapping_of(SCALAR), "a list of rotations, such as `[{z: phi}, {x: theta}]`"))
 AXIS_OF = {"x": X, "y": Y, "z": Z}
@@ -110,13 +113,8 @@ def coordinate_letters(
     """Return each coordinate, its rate and its acceleration: theta, theta_dot, theta_ddot."""
     found: dict[str, Declared] = {}
     for name, sort in written.items():
-        kind = str(sort)
-        if name in symbols:
-            message = f"`{name}` is declared under `symbols`, but is also a coordinate"
-            faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
-        elif not is_letter(name):
-            faults.error("symbol", f"`{name}` is not a valid symbol for a coordinate", name.place)
-        else:
+        if _may_be_named(name, symbols, "coordinate", faults):
+            kind = str(sort)
             lies = _range(str(name), sort, faults)
             positive = lies is not None and lies.is_above_zero and kind == LENGTH
             q = scalar(str(name), positive=True) if positive else scalar(str(name))
@@ -125,6 +123,38 @@ def coordinate_letters(
             found[f"{name}_dot"] = Declared(f"{name}_dot", rate(q), faster)
             found[f"{name}_ddot"] = Declared(f"{name}_ddot", rate(q, 2), kind_of_rate(faster))
     return found
+
+
+def function_letters(
+    written: Mapping[Word, SortOfLetter],
+    symbols: Mapping[str, Declared],
+    coordinates: Mapping[str, Declared],
+    faults: Faults,
+) -> dict[str, Declared]:
+    """Return each prescribed function of the time and its first two rates: X, X_dot, X_ddot."""
+    found: dict[str, Declared] = {}
+    for name, sort in written.items():
+        if name in coordinates:
+            message = f"`{name}` is a coordinate, so it cannot be a prescribed function of the time too"
+            faults.error("letter-clash", message, name.place, help="remove it from `coordinates` or from `functions`")
+        elif _may_be_named(name, symbols, "function of the time", faults):
+            lies = _range(str(name), sort, faults)
+            function = function_of_time(str(name), str(sort), positive=lies is not None and lies.is_above_zero)
+            found[str(name)] = Declared(str(name), function, str(sort), None if lies == POSITIVE else lies)
+            for order in (1, 2):
+                its_rate = function.rate(order)
+                found[its_rate.name] = OfKnownDimension(its_rate.name, its_rate, "", has=its_rate.dimension)
+    return found
+
+
+def _may_be_named(name: Word, symbols: Mapping[str, Declared], what: str, faults: Faults) -> bool:
+    """Report a name that is already a symbol, or that cannot be a symbol."""
+    if name in symbols:
+        message = f"`{name}` is declared under `symbols`, but is also a {what}"
+        faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
+    elif not is_letter(name):
+        faults.error("symbol", f"`{name}` is not a valid symbol for a {what}", name.place)
+    return name not in symbols and is_letter(name)
 
 
 def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:

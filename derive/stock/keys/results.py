@@ -16,6 +16,7 @@ from typing import Any
 from sympy import Expr
 
 import derive.mechanics  # noqa: F401  registers the verbs of `results:`
+from derive.algebra.expressions import Prescribed
 from derive.course.declared import INFINITE
 from derive.course.expression import names_in
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
@@ -148,6 +149,9 @@ def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], lett
         if letter not in letters.letters:
             help_line = did_you_mean(letter, letters.letters) or "use a symbol, a coordinate or a rate"
             rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
+        known = letters.letters[letter].symbol
+        if isinstance(known, Prescribed) and not known.order:  # the value is for all times, also if it is a constant
+            return letter, letters.of_kind(value, str(letter), known.sort)
         return letter, value_or_infinity(value, letters)
 
     return dict(each([partial(one, letter, value) for letter, value in written.items()]))

@@ -68,12 +68,14 @@ from derive.stock.keys.parts import (
 from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKeys
 from derive.stock.keys.places import (
     COORDINATES,
+    FUNCTIONS,
     PLACES,
     TURNS,
     Places,
     WrittenPlace,
     check_known,
     coordinate_letters,
+    function_letters,
     is_letter,
 )
 from derive.stock.keys.results import RESULTS, names, read_results, written_in
@@ -102,6 +104,11 @@ class SystemKeys(Record):
         "the coordinates: `theta: angle`, `x: length`, `r: positive length`, `beta: angle in (0, pi/2)`",
         COORDINATES,
         required=True,
+    )
+    functions: Mapping[Word, SortOfLetter] = key(
+        "prescribed functions of the time, such as the place of a shaken support: `X: length`, `L: positive length`; "
+        "`X_dot` and `X_ddot` are its rates",
+        FUNCTIONS,
     )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
         "rotating axes, by the rotations that lead to them from the axes fixed in space: `hoop: [{z: omega*t}]`", TURNS
@@ -192,7 +199,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     The order in which values are read matters, because numbers get their symbols in this order.
     """
     letters = coordinate_letters(written.coordinates, symbols, faults)
-    known = InLetters({**symbols, **letters})
+    functions = function_letters(written.functions, symbols, letters, faults)
+    known = InLetters({**symbols, **functions, **letters})
     carried = {name: one.at for name, one in written.particles.items()}
     places = Places(written.points, written.axes, known, carried, written.bodies)
     named = attempted(faults, places.all_named) or {}
@@ -206,7 +214,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     attempted(faults, _check_different, brought)
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
     forces = _multipliers([*parts["acting"], *parts["rolling"]])
-    own = {**letters, **forces, **_constants(written.conserved, letters, known, faults)}
+    own = {**letters, **functions, **forces, **_constants(written.conserved, letters, known, faults)}
     names = [*map(str, (*written.bodies, *written.particles))]
     impact = attempted(faults, written.impact.read, letters, forces, names, places, known) if written.impact else None
     own |= impact.letters if impact else {}
@@ -214,8 +222,9 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     momenta = _momenta(written.coordinates, letters, given[1] if given is not None else "energy")
     with_own = known.also({**momenta, **symbols, **own})
     results = read_results(written.results, with_own, faults)
-    constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*letters, *forces}}
-    assumed = attempted(faults, _assumed, written.assume, constants, letters) or ()
+    moving = {**letters, **functions}
+    constants = {name: letter for name, letter in {**symbols, **own}.items() if name not in {*moving, *forces}}
+    assumed = attempted(faults, _assumed, written.assume, constants, moving) or ()
     rest = written.at.word if isinstance(written.at, Scalar) and not written.at.empty else None
     return DescribedSystem(
         assumed=assumed,
@@ -228,7 +237,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         ),
         **parts,
         gravity=gravity,
-        conserved=tuple((str(q), own[name].symbol) for q, (name, _) in _symbols(written.conserved).items() if q in own),
+        conserved=tuple((str(q), own[n].symbol) for q, (n, _) in _symbols(written.conserved).items() if n in own),
         kept=kept,
         at=_state(None if rest else written.at, letters, with_own, faults),
         at_rest=rest,
