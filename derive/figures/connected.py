@@ -266,8 +266,8 @@ class ConnectedScene:
             return
         yield CircleMark(centre, ACROSS, circle.radius, not circle.inside)
         yield PointMark(centre)
-        yield ConnectionMark(centre, column_of(contacts[0].at), label=circle.radius)
-        yield from angle_marks(self.system, link_between(circle.centre, contacts[0].at))
+        yield ConnectionMark(centre, column_of(contacts[0].foot), label=circle.radius)
+        yield from angle_marks(self.system, link_between(circle.centre, contacts[0].foot))
 
     # --- bodies and particles ---
 

@@ -219,7 +219,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         letters = {each.force for each in self.system.constraints}
         if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
             message = "sliding friction does not act at rest: static friction can have any value up to a maximum"
-            help_line = "ask for the equilibria without friction; static friction allows a range around each of them"
+            help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
         return rest_with_forces(self.equations_of_motion, self.independent, forces)

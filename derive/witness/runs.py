@@ -189,12 +189,12 @@ def slips(claim: Claim) -> Verdict | None:
     if margin is None or side is None or claim.outcome == "always":
         return None
     result, count = claim.value, 0
-    friction = claim.judged.quantities["friction"].symbol
+    F, N = (claim.judged.quantities[role].symbol for role in ("friction", "normal"))
     for trial in claim.trials(MANY):
-        formulas = trial.formulas([margin, explicit(side) * friction, result.residual])
+        formulas = trial.formulas([margin, explicit(side) * F, N, result.residual])
         for state, response in claim.moments(trial):
-            room, held, difference = formulas.at(state, response)
-            if held <= 0 or abs(room) < CLEAR * held or abs(difference) < EXACT:
+            room, held, pushed, difference = formulas.at(state, response)
+            if held <= 0 or pushed <= 0 or abs(room) < CLEAR * held or abs(difference) < EXACT:
                 continue
             states_it = HOLDS[result.operator](difference) != (claim.outcome == "cannot")
             if states_it != (room > 0):

@@ -215,14 +215,14 @@ def _turns_back_within(facts: Judged, begin: Expr, end: Expr, point: Point) -> b
 
 
 def _letters_of_motion(facts: Judged) -> set[Any]:
-    roles = ("friction", "normal", "coefficient", "squared", "start")
+    roles = ("friction", "normal", "coefficient", "squared", "begin")
     found = set[Any]().union(*(letters_of(with_numbers(facts.inputs[role])) for role in roles))
     return found - {facts.inputs["coordinate"]}
 
 
 def slips_first(facts: Judged) -> bool:
     """Whether, numerically, mu_s N - |F| is positive up to the place, and zero there; and the conditions are right."""
-    start, place = with_numbers(facts.inputs["start"]), with_numbers(_letter_at(*facts.result.sides)[1])
+    start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)
     conditions, told = assumptions_about(letters), facts.inputs.get("starts")
 
@@ -248,7 +248,7 @@ def slips_at_once(facts: Judged) -> bool:
     letters = _letters_of_motion(facts)
 
     def is_so(point: Point) -> bool | None:
-        begin = real_at(with_numbers(facts.inputs["start"]), point)
+        begin = real_at(with_numbers(facts.inputs["begin"]), point)
         room = None if begin is None else _room(facts, begin, point)
         return None if room is None else bool(room < 0)
 
@@ -260,7 +260,7 @@ def never_slips(facts: Judged) -> bool:
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
 
     def is_so(point: Point) -> bool | None:
-        begin = real_at(with_numbers(facts.inputs["start"]), point)
+        begin = real_at(with_numbers(facts.inputs["begin"]), point)
         if begin is None:
             return None
         places = [begin + far for far in distances if not _turns_back_within(facts, begin, begin + far, point)]

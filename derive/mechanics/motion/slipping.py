@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
-from sympy import Abs, Expr, Integer, Mul, Poly, Pow, Rational, Symbol, cos, sin, sqrt, tan
-from sympy.polys.polyerrors import PolynomialError
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, sin, sqrt, tan, together
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Factors, Relation, explicit
@@ -206,11 +205,19 @@ def _condition(contact: _Friction, unknown: Expr, side: int, key: str, alone: bo
         outcome="sticks" if known is None else "cannot" if known == 1 else "always",
         phrase_data=PhraseData(
             words={**contact.sense(side), **({"seen": "state"} if moving is not None else {})},
-            formulas=conditions_told(pushing=positive(contact.N) if sign_known(contact.N) is None else None),
+            formulas=conditions_told(pushing=_pushing(contact.N)),
             outcome_data={"side": Integer(side), "alone": Integer(alone)},
         ),
         key=key,
     )
+
+
+def _pushing(N: Expr) -> Relation | None:
+    """Return the condition for the surface to push; None if it always does."""
+    unsure = [each.as_base_exp() for each in Mul.make_args(N) if sign_known(each) != 1]
+    if unsure and all(power.is_even for _, power in unsure):
+        return Relation(Mul(*(base for base, _ in unsure)), "!=", 0)
+    return positive(N) if unsure else None
 
 
 def _solved(contact: _Friction, side: int, mark: str, unknown: Expr) -> Relation:
@@ -226,7 +233,8 @@ def _solution(contact: _Friction, result: Relation, excess: Expr) -> Form:
     """Return the last line; it differs from the line before by a factor that does not vanish, such as N > 0."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
-        return Form(result, "solved", nonzero=Mul.make_args(contact.N))
+        pushing = Mul.make_args(contact.N)
+        return Form(result, "solved", nonzero=(*pushing, *(each.expand() for each in pushing if each.is_Pow)))
     factor = tidied(_without_tangents(excess / result.residual))
     sign = sign_known(factor)
     return Form(result, "solved", nonzero=Mul.make_args(factor * sign) if sign else divided_out(excess, alone, solved))
@@ -234,18 +242,16 @@ def _solution(contact: _Friction, result: Relation, excess: Expr) -> Form:
 
 def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
     """Return a value with the same sign that contains the unknown; for tan(alpha), divide by powers of cos(alpha)."""
-    if not isinstance(unknown, tan):
+    if not isinstance(unknown, tan) or sign_known(cos(unknown.args[0])) != 1:
         return value
-    angle = unknown.args[0]
-    c, t = Symbol("c", positive=True), mark_for(unknown)
-    numerator, below = tidied(value).xreplace({sin(angle): t * c, cos(angle): c}).as_numer_denom()
-    try:
-        terms = Poly(numerator.expand(), c).terms()
-    except PolynomialError:
-        return value
-    if sign_known(cos(angle)) != 1 or len(terms) != 1:
-        return value
-    return (terms[0][1] / below.xreplace({c: Integer(1)})).xreplace({t: unknown}) if not below.has(c, t) else value
+    c, t = Dummy("c", positive=True), mark_for(unknown)
+    with_cosines = _without_tangents(tidied(value)).xreplace({sin(unknown.args[0]): t * c, cos(unknown.args[0]): c})
+    divided = [each.expand().collect(c) for each in together(with_cosines).as_numer_denom()]
+    powers = [[term.as_independent(c)[1] for term in Add.make_args(each)] for each in divided]
+    if any(len(set(each)) > 1 for each in powers):
+        return value  # not the same power of the cosine in each term
+    above, below = (each.xreplace({c: Integer(1), t: unknown}) for each in divided)
+    return above / below
 
 
 def _with_tangents(value: Expr) -> Expr:
@@ -382,8 +388,14 @@ def _unless_sure(condition: Relation | None) -> Relation | None:
 
 
 def _data(motion: _Motion, side: int = 0) -> dict[str, Expr]:
-    start, squared = motion.start, squared_by_energy(motion.speed)
-    return {"unknown": motion.unknown, "coordinate": motion.q, "start": start, "squared": squared, "side": Integer(side)}
+    return {
+        "unknown": motion.unknown,
+        "coordinate": motion.q,
+        "begin": motion.start,
+        "start": motion.unknown.xreplace({motion.q: motion.start}),
+        "squared": squared_by_energy(motion.speed),
+        "side": Integer(side),
+    }
 
 
 def _at_once(motion: _Motion, side: int, key: str) -> Quantity:
