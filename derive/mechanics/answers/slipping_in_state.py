@@ -12,7 +12,8 @@ from derive.mechanics.answers.substitution import NONE, put_in
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Values, in_results
 from derive.mechanics.lagrange.facts import KeptMomentum
-from derive.mechanics.motion.slipping import slips, static_friction
+from derive.mechanics.motion.slipping import slips
+from derive.mechanics.motion.static_friction import static_friction
 from derive.solving.unknowns import with_unknown
 from derive.steps.record import established
 from derive.steps.step import Quantity
@@ -36,8 +37,8 @@ def _in_results(
     assert limit is not None
     normal = _beside(friction, limit.normal)
     _check_used(friction, normal, results, values)
-    both = (_in_state(force, results, values, key) for force in (friction, normal))
-    return checked(slips)(*both, letter, key=key)
+    held, pushed = (_in_state(force, results, values, key) for force in (friction, normal))
+    return checked(slips)(held, pushed, letter, key=key)
 
 
 def _beside(friction: Quantity, letter: Symbol) -> Quantity:
@@ -84,9 +85,7 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
     return explicit(left), explicit(right)
 
 
-def _check_used(
-    friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]
-) -> None:
+def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
     """Reject a result or a value that changes neither force."""
     used = [_with_effect(force, results, values) for force in (friction, normal)]
     for each in results:

@@ -350,9 +350,7 @@ def _particle_of_ground(ground: Ground, at: Location) -> MaterialPoint:
     return particle_of(ground, at) if isinstance(ground, PlacedBody) else MaterialPoint(ground.components)
 
 
-def velocity_of_particle(
-    body: Any, at: Location, ground: Ground | None, foot: Location | None = None
-) -> list[Expr]:
+def velocity_of_particle(body: Any, at: Location, ground: Ground | None, foot: Location | None = None) -> list[Expr]:
     """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
 
     body   a placed body or a particle; None for a fixed place

@@ -135,7 +135,7 @@ def steady(facts: Judged, fact: Steady) -> bool:
 
 
 def friction_and_normal_of_one_contact(facts: Judged, outcome: str) -> bool:
-    """Whether the two forces act at one place, perpendicular to each other, and the coefficient belongs to the contact."""
+    """Whether the two forces act at one place at right angles, and the coefficient belongs to this contact."""
     friction, normal = (_constraint_of(facts.quantities[role]) for role in ("friction", "normal"))
     if friction is None or normal is None or friction.limit is None:
         return False
