@@ -8,7 +8,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.errors import Complaint, Rejected
-from derive.mechanics.answers.substitution import NONE, put_in
+from derive.mechanics.answers.substitution import NONE, check_values_used, put_in
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Values, in_results
 from derive.mechanics.lagrange.facts import KeptMomentum
@@ -86,13 +86,11 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
 
 
 def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
-    """Reject a result or a value that changes neither force."""
-    used = [_with_effect(force, results, values) for force in (friction, normal)]
+    """Reject a result that changes neither force, and a value of a letter that does not occur."""
+    used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
-        if not any(each in kept for kept, _ in used):
+        if each not in used:
             message = f"`slips`: neither force has anything that `{each.key}` could replace"
             raise Rejected(Complaint("unused-value", message, help="leave it out", argument="results"))
-    for name in values:
-        if not any(name in state for _, state in used):
-            message = f"neither force contains `{name}`, so its value has no effect"
-            raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))
+    letters = {s.name for each in (friction, normal, *results) for s in explicit(each.value).free_symbols}
+    check_values_used(friction.key, values, letters)

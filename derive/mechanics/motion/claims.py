@@ -258,6 +258,7 @@ def slips_at_once(facts: Judged) -> bool:
 def never_slips(facts: Judged) -> bool:
     """Whether, numerically, mu_s N - |F| is positive wherever the motion gets."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
+    told = facts.inputs.get("starts")
 
     def is_so(point: Point) -> bool | None:
         begin = real_at(with_numbers(facts.inputs["begin"]), point)
@@ -265,6 +266,8 @@ def never_slips(facts: Judged) -> bool:
             return None
         places = [begin + far for far in distances if not _turns_back_within(facts, begin, begin + far, point)]
         room = [_room(facts, here, point) for here in (begin, *places)]
+        if told is not None and not holds_at(with_numbers(told), point):
+            return room[0] is None or not room[0] > 0
         return all(each is not None and each > 0 for each in room)
 
     return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)

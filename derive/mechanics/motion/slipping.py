@@ -179,16 +179,17 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
         return _at_once(motion, 1 if signs[0] == 1 else -1, key)
     places, squared = places_of_limit(motion)
     first = index_of_first(motion, places)
+    open_ = [-each for each, sign in zip(at_start, signs, strict=True) if sign is None]
+    starts = positive(Mul(*open_)) if open_ else None
     if first is None:
-        return _stays(motion, key)
+        return _stays(motion, starts, key)
     solved = places[first]
     result = Relation(unknown, "=", solved)
     side = sign_of_friction(motion, solved)
-    open_ = [-each for each, sign in zip(at_start, signs, strict=True) if sign is None]
     told = conditions_told(
         existing=unless_sure(existence(contact.friction, result)),
         reached=unless_sure(condition_to_reach(contact.friction, speed, unknown, solved)),
-        starts=positive(Mul(*open_)) if open_ else None,
+        starts=starts,
     )
     law = Relation(side * contact.friction.symbol, "=", Factors(contact.limit.coefficient, contact.normal.symbol))
     return establish(
@@ -249,7 +250,7 @@ def _at_once(motion: Motion, side: int, key: str) -> Quantity:
     )
 
 
-def _stays(motion: Motion, key: str) -> Quantity:
+def _stays(motion: Motion, starts: Relation | None, key: str) -> Quantity:
     """The motion reaches no place where the friction has its largest value."""
     contact = motion.contact
     return establish(
@@ -260,7 +261,11 @@ def _stays(motion: Motion, key: str) -> Quantity:
         lines=Lines(law=Level.BRIEF, put_in=None, result=False, arranged=explicit),
         routes={"on_the_way": lambda found: is_never_reached(motion)},
         outcome="stays",
-        phrase_data=PhraseData(named={"from": Relation(motion.q, "=", motion.start)}, outcome_data=_data(motion)),
+        phrase_data=PhraseData(
+            formulas=conditions_told(starts=starts),
+            named={"from": Relation(motion.q, "=", motion.start)},
+            outcome_data=_data(motion),
+        ),
         key=key,
         parents=[motion.speed],
     )
