@@ -104,6 +104,7 @@ class ConnectedScene:
         for constraint in self.system.constraints:
             if not constraint.in_rates:
                 found |= self._solved(constraint, found)
+        found |= self._over_corners(found)
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
         carriers = [each.through for each in self._planes if each.of is not None]
         carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
@@ -124,6 +125,17 @@ class ConnectedScene:
         up = -1 if circle.inside else 1
         along = Location((far * sin(ROUND), up * far * cos(ROUND)))
         return dict(zip((x, y), (circle.centre + along).components, strict=True))
+
+    def _over_corners(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
+        """Values of coordinates at which a rod lies over a fixed corner, at a third of its length."""
+        found: dict[Symbol, Any] = {}
+        for touch in (each for each in self.contacts if each.of is None):
+            past = tidied(dot(touch.tangent, touch.at - touch.surface.of.centre).subs(known))
+            bars = [mark for mark in placed_outline(with_its_shape(touch.surface.of)) if isinstance(mark, BarMark)]
+            if bars and (past in self.system.coordinates or -past in self.system.coordinates):
+                ends = (Location(tuple(place)) for place in (bars[0].start, bars[0].end))
+                found[past if past.is_Symbol else -past] = distance_between(*ends) / 6
+        return found
 
     def _solved(self, constraint: Constraint, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
         """Solve a constraint for a coordinate, or for a length that it contains, such as the length of a string."""
@@ -197,6 +209,9 @@ class ConnectedScene:
                 yield from self._slope(surface, low, high)
             elif isinstance(surface.of, Particle):
                 yield from self._carrier(surface, low, high)
+        for touch in contacts:
+            if touch.of is None:
+                yield from self._corner(touch)
 
     def _plane(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
         """Yield the hatched line of a fixed plane; a moving plane, such as a belt, has no hatches, and an arrow."""
@@ -228,6 +243,15 @@ class ConnectedScene:
         low = first if meets and first == 0 else first - past
         high = last if meets and last == 0 else last + past
         return plane.through + low * along, plane.through + high * along
+
+    def _corner(self, touch: Contact) -> Iterable[Mark]:
+        """Yield the top and the side of a table with its edge at a fixed corner, below the higher part of the body."""
+        x, y = (self._number(c) for c in touch.tangent.components)
+        level = Location((ONE if x * y > 0 else -ONE, ZERO))
+        down = Location((ZERO, -ONE))
+        for along, inwards in ((level, down), (down, level)):
+            end = touch.at + self._size * Rational(4, 5) * along
+            yield GroundMark(column_of(touch.at), column_of(end), column_of(inwards))
 
     @property
     def _planes(self) -> list[Plane]:
