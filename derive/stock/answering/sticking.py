@@ -11,7 +11,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics import slips
 from derive.mechanics.model.constraint import Constraint, StaticLimit
-from derive.steps.record import assume, established
+from derive.steps.record import assume, changes, established, named_coordinates
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
@@ -50,14 +50,17 @@ def _assume_solved(friction: Quantity, normal: Quantity, limit: StaticLimit) -> 
         message = f"the body slips: static friction is at most {most}, but the motion needs {tidied(side * F)}"
         help_line = "describe sliding friction, `{sliding: mu, direction: [1, 0]}`"
         raise Rejected(Complaint("contradiction", message, help=help_line))
-    if excess is not None:
+    if side == 0 or excess is not None:
         return
-    try:
-        first, *others = slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")
-    except Rejected:
-        _assume_letters(friction.symbol, limit)
-        return
-    if others or "seen" in dict(first.step.words):
-        _assume_letters(friction.symbol, limit)
+    conditions = _conditions(friction, normal, limit)
+    if len(conditions) == 1:
+        assume(conditions[0])
     else:
-        assume(first.value)
+        _assume_letters(friction.symbol, limit)
+
+
+def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:
+    """Return the conditions for mu_s, one for each sense; none if the forces change, or if mu_s is a number."""
+    if changes(explicit(friction.value) - explicit(normal.value), named_coordinates()) or limit.coefficient.is_number:
+        return []
+    return [each.value for each in slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")]
