@@ -270,7 +270,8 @@ def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
 
 def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
     if not isinstance(touch.of, PlacedBody):
-        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
+        help_line = "leave out `rolling`, or give static friction, `{static: mu_s, force: F}`"
+        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help=help_line))
     if not touch.is_kept:
         message = "in space, rolling needs coordinates that keep the body on the surface"
         raise Rejected(Complaint("wrong-argument", message, help="leave out the coordinate away from the surface"))
