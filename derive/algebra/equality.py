@@ -30,10 +30,12 @@ from sympy import (
     Mul,
     Rational,
     cancel,
+    cos,
     nan,
     oo,
     sign,
     sin,
+    tan,
     together,
     zoo,
 )
@@ -434,7 +436,9 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Multiply out, with squares of sines replaced by squares of cosines, so that common factors are visible."""
+    """Multiply out, with squares of sines replaced by squares of cosines, so that common factors are visible. Tangents
+    are replaced by sines and cosines."""
+    expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 
 

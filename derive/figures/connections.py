@@ -102,6 +102,7 @@ class Connections:
         for constraint in self.system.constraints:
             if not constraint.in_rates and constraint.forces:
                 found |= self._solved(constraint, found)
+        found |= self._over_corners(found)
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
         carriers = [each.through for each in self._planes if each.of is not None]
         carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
@@ -163,6 +164,17 @@ class Connections:
         along = Location((far * sin(ROUND), up * far * cos(ROUND)))
         return dict(zip((x, y), (circle.centre + along).components, strict=True))
 
+    def _over_corners(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
+        """Values of coordinates at which a rod lies over a fixed corner, at a third of its length."""
+        found: dict[Symbol, Any] = {}
+        for touch in (each for each in self.contacts if each.of is None):
+            past = tidied(dot(touch.tangent, touch.at - touch.surface.of.centre).subs(known))
+            bars = [mark for mark in placed_outline(with_its_shape(touch.surface.of)) if isinstance(mark, BarMark)]
+            if bars and (past in self.system.coordinates or -past in self.system.coordinates):
+                ends = (Location(tuple(place)) for place in (bars[0].start, bars[0].end))
+                found[past if past.is_Symbol else -past] = distance_of(*ends) / 6
+        return found
+
     def _solved(self, constraint: Constraint, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
         """Solve a constraint for a coordinate, or for a length that it contains, such as the length of a string."""
         if constraint.left.is_Symbol and constraint.left not in self.system.coordinates:
@@ -187,11 +199,13 @@ class Connections:
         places = [place for line in self.lines for place in line.places]
         return max((distance_of(a, b) for a, b in combinations(places, 2) if not same(a, b)), key=self.number)
 
-    @property
+    @cached_property
     def size(self) -> Expr:
-        """The size of the largest body."""
+        """The radius of the largest round body; a sixth of the longest rod, if there is no round body."""
         sizes = [mark.radius for mark in self._outlines if isinstance(mark, WheelMark) and mark.radius is not None]
-        return max(sizes, key=numeric, default=ONE)
+        bars = [mark for mark in self._outlines if isinstance(mark, BarMark)]
+        ends = [[Location(tuple(place)) for place in (bar.start, bar.end)] for bar in bars]
+        return max(sizes or [distance_of(*each) / 6 for each in ends], key=numeric, default=ONE)
 
     def number(self, value: Expr) -> float:
         return numeric(value.subs(self.values), self.values)
@@ -235,6 +249,9 @@ class Connections:
             elif surface.of is None and not all(self._carries(each.of) for each in contacts):
                 yield from self._plane(surface, low, high, contacts)
                 yield from self._slope(surface, low, high)
+        for touch in contacts:
+            if touch.of is None:
+                yield from self._corner(touch)
 
     def _table(self, plane: Plane) -> Iterable[Mark]:
         """Yield a horizontal plane in space as a round table, with the axis about which it rotates."""
@@ -256,7 +273,7 @@ class Connections:
 
     def _carries(self, of: Any) -> bool:
         """Whether a particle carries a surface, and is therefore drawn as a wedge or a plank on its own floor."""
-        return any(each.surface.of == of for each in self.contacts)
+        return of is not None and any(each.surface.of == of for each in self.contacts)
 
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
         """Yield the hatched line of a fixed plane; a rail has no hatches, and a belt has an arrow instead."""
@@ -320,6 +337,15 @@ class Connections:
         high = last if meets and last == 0 else last + past
         return plane.through + low * along, plane.through + high * along
 
+    def _corner(self, touch: Contact) -> Iterable[Mark]:
+        """Yield the top and the side of a table with its edge at a fixed corner, below the higher part of the body."""
+        x, y = (self.number(c) for c in touch.tangent.components)
+        level = Location((ONE if x * y > 0 else -ONE, ZERO))
+        down = Location((ZERO, -ONE))
+        for along, inwards in ((level, down), (down, level)):
+            end = touch.at + self.size * Rational(4, 5) * along
+            yield GroundMark(column_of(touch.at), column_of(end), column_of(inwards))
+
     @property
     def _planes(self) -> list[Plane]:
         return list(dict.fromkeys(each.surface for each in self.contacts if isinstance(each.surface, Plane)))
@@ -373,8 +399,8 @@ class Connections:
             between = line_between(circle.centre, touch.of.hub)
             yield Edge(centre, column_of(touch.of.hub), label=between.length if touch.is_kept else None)
         else:
-            yield ConnectionMark(centre, column_of(touch.at), label=circle.radius)
-        yield from angle_marks(self.system, line_between(circle.centre, touch.at))
+            yield ConnectionMark(centre, column_of(touch.foot), label=circle.radius)
+        yield from angle_marks(self.system, line_between(circle.centre, touch.foot))
 
     # --- strings, rods, wires and joints ---
 

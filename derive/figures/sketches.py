@@ -367,6 +367,8 @@ class _Scene:
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
 
     def _touches(self, touch: Any, at: Location) -> bool:
+        if touch.of is None:
+            return False
         own = touch.of.centre if hasattr(touch.of, "centre") else touch.of.at
         return same(own, at)
 

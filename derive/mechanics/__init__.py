@@ -13,6 +13,7 @@ from derive.mechanics.answers.extrema import *
 from derive.mechanics.answers.limits import *
 from derive.mechanics.answers.quadratics import *
 from derive.mechanics.answers.roots import *
+from derive.mechanics.answers.slipping_in_state import *
 from derive.mechanics.answers.solved_for import *
 from derive.mechanics.answers.substitution import *
 from derive.mechanics.answers.values import *
@@ -53,6 +54,7 @@ from derive.mechanics.model.system import *
 from derive.mechanics.motion.conservation import *
 from derive.mechanics.motion.energy_integral import *
 from derive.mechanics.motion.leaving import *
+from derive.mechanics.motion.slipping import *
 from derive.mechanics.motion.steady import *
 from derive.mechanics.rest.equilibria import *
 from derive.mechanics.rest.potentials import *

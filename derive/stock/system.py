@@ -53,6 +53,7 @@ from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
 from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
+from derive.stock.answering.sticking import state_static_friction
 from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
@@ -85,7 +86,16 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
+            self._state_static_friction()
         return answers
+
+    def _state_static_friction(self) -> None:
+        """State the conditions under which static friction suffices, if the answers do not find them."""
+        of = {each.force.name: each for each in self.system.constraints}
+        for part in self.described.acting:
+            if "static" in part.named:
+                with told_at(part.place):
+                    state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
         """Draw the forces on each body, if parts of the problem derive the constraint forces on the body."""
@@ -219,7 +229,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         letters = {each.force for each in self.system.constraints}
         if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
             message = "sliding friction does not act at rest: static friction can have any value up to a maximum"
-            help_line = "ask for the equilibria without friction; static friction allows a range around each of them"
+            help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
         return rest_with_forces(self.equations_of_motion, self.independent, forces)

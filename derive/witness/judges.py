@@ -31,6 +31,7 @@ JUDGES: Mapping[str, Judge] = {
     "motion.energy_kept": along.kept,
     "motion.speed_from_energy": runs.speed,
     "motion.leaves_contact": runs.leaves,
+    "motion.slips": runs.slips,
     "vibrations.solution": runs.solution,
     "rest.equilibrium": small.rest,
     "rest.stability": small.stability,

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from sympy import Expr, Integer, Symbol, diff
+from sympy import Abs, Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Relation, explicit, rate
@@ -19,7 +19,7 @@ from derive.witness.claim import TRIALS, Claim, seen
 from derive.witness.dynamics import Singular
 from derive.witness.facts import Around
 from derive.witness.geometry import Reals, State
-from derive.witness.trial import Contradiction, Given, Trial
+from derive.witness.trial import EXACT, HOLDS, Contradiction, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
@@ -136,10 +136,10 @@ TURNS_BACK, TURNS_THERE = "turns_back", "turns_there"
 def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:
     """The refutation of the claim by one motion; otherwise the number of motions (0 or 1) that confirm the claim."""
     unknown, begin = explicit(inputs["unknown"]), explicit(inputs["start"])
-    force = claim.judged.quantities.get("force")
-    watched = trial.formulas([unknown, explicit(force.symbol) if force is not None else Integer(0)])
-    if force is None or force.symbol not in claim.blueprint.multipliers:
+    margin = _margin(claim)
+    if margin is None:
         return 0
+    watched = trial.formulas([unknown, margin])
     stays = claim.outcome == TURNS_BACK
     first, last = trial.value(begin), trial.value(place)
     if not abs(last - first) > CLEAR:
@@ -169,6 +169,41 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
         return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
     return 1
+
+
+def _margin(claim: Claim) -> Expr | None:
+    """The expression in the multipliers that vanishes where the contact ends: N, or mu_s N - |F| if the body slips."""
+    quantities, inputs = claim.judged.quantities, claim.judged.inputs
+    found = [quantities[role] for role in ("force", "normal", "friction") if role in quantities]
+    if not found or any(each.symbol not in claim.blueprint.multipliers for each in found):
+        return None
+    push, *hold = (explicit(each.symbol) for each in found)
+    return explicit(inputs["coefficient"]) * push - Abs(*hold) if hold else push
+
+
+def slips(claim: Claim) -> Verdict | None:
+    """Test whether |F| <= mu_s N exactly where a condition holds; or the place where a motion first violates this."""
+    if claim.outcome in SLIPS_ALONG:
+        return leaves(claim)
+    margin, side = _margin(claim), claim.judged.inputs.get("side")
+    if margin is None or side is None or claim.outcome == "always":
+        return None
+    result, count = claim.value, 0
+    F, N = (claim.judged.quantities[role].symbol for role in ("friction", "normal"))
+    for trial in claim.trials(MANY):
+        formulas = trial.formulas([margin, explicit(side) * F, N, result.residual])
+        for state, response in claim.moments(trial):
+            room, held, pushed, difference = formulas.at(state, response)
+            if held <= 0 or pushed <= 0 or abs(room) < CLEAR * held or abs(difference) < EXACT:
+                continue
+            states_it = HOLDS[result.operator](difference) != (claim.outcome == "cannot")
+            if states_it != (room > 0):
+                return claim.refuted("static friction in the described motion contradicts it", trial, state)
+            count += 1
+    return seen(count, "states")
+
+
+SLIPS_ALONG = ("slips", "slips_squared")
 
 
 def _can_start(claim: Claim, trial: Trial, unknown: Expr, at: Expr) -> bool:

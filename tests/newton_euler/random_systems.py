@@ -25,9 +25,10 @@ class Trial:
 
 
 def on_a_surface() -> Iterator[Trial]:
-    """A particle or a round body on a plane, on a wedge that moves, or on a circle; smooth, rolling or sliding."""
+    """A particle or a round body on a plane, on a wedge that moves, or on a circle; smooth, rolling, sliding or held by
+    static friction."""
     grounds = ("floor", "incline", "wedge", "outside", "inside")
-    for shape, ground, friction in product(SHAPES, grounds, ("none", "rolling", "sliding")):
+    for shape, ground, friction in product(SHAPES, grounds, ("none", "rolling", "sliding", "static")):
         if (shape, friction) != ("particle", "rolling"):
             yield _OnSurface(shape, ground, friction).trial()
 
@@ -43,13 +44,18 @@ class _OnSurface:
         return self.shape != "particle"
 
     @property
+    def is_held(self) -> bool:
+        """Whether friction keeps the points in contact together."""
+        return self.friction in ("rolling", "static")
+
+    @property
     def is_circle(self) -> bool:
         return self.ground in ("outside", "inside")
 
     def trial(self) -> Trial:
         unknowns = ["x_ddot", "y_ddot", *(["phi_ddot"] if self.is_round else []), "N"]
         unknowns += ["X_ddot"] if self.ground == "wedge" else []
-        unknowns += ["F"] if self.friction == "rolling" else []
+        unknowns += ["F"] if self.is_held else []
         name = f"{self.shape}-{self.ground}-{self.friction}"
         return Trial(name, self.given(), tuple(unknowns), self.state)
 
@@ -66,6 +72,7 @@ class _OnSurface:
         friction = {
             "none": "none",
             "rolling": "{rolling: F}",
+            "static": "{static: mu, force: F}",
             "sliding": f"{{sliding: mu, direction: [{', '.join(self._slip())}]}}",
         }[self.friction]
         size = "radius: a, " if self.is_round else ""
@@ -96,6 +103,7 @@ class _OnSurface:
         v["alpha"], v["R"] = random.uniform(0.2, 1.2), random.uniform(5.0, 8.0)
         a = v["a"] if self.is_round else 0.0
         speed, spin = random.uniform(0.5, 3.0), random.uniform(-2.0, 2.0)
+        speed = 0.0 if self.friction == "static" and not self.is_round else speed
         if self.is_circle:
             at = random.uniform(0.3, 1.2)
             distance = v["R"] + a if self.ground == "outside" else v["R"] - a
@@ -113,13 +121,13 @@ class _OnSurface:
         v["x"], v["y"] = place
         moving = random.uniform(-1.0, 1.0) if self.ground == "wedge" else 0.0
         v["X_dot"], v["x_dot"], v["y_dot"] = moving, moving + speed * t[0], speed * t[1]
-        v["phi"], v["phi_dot"] = spin, -speed / a if self.friction == "rolling" and a else spin
+        v["phi"], v["phi_dot"] = spin, -speed / a if self.is_held and a else spin
         return v, solved(self._laws(v, n, t, bent, a))
 
     def _laws(self, v: Numbers, n: Vector, t: Vector, bent: float, a: float) -> list[Equation]:
         arm = (-a * n[0], -a * n[1])
         touch = [Force(n, arm, "N")]
-        if self.friction == "rolling":
+        if self.is_held:
             touch.append(Force(t, arm, "F"))
         if self.friction == "sliding":
             touch.append(Force((-v["mu"] * t[0], -v["mu"] * t[1]), arm, "N"))
@@ -131,8 +139,9 @@ class _OnSurface:
             back = [Force((-f.direction[0], -f.direction[1]), unknown=f.unknown) for f in touch]
             found += Body(v["M"], wedge).equations(back)
         found.append({"x_ddot": n[0], "y_ddot": n[1], KNOWN: -bent, **({wedge: -n[0]} if wedge else {})})
-        if self.friction == "rolling":
-            found.append({"x_ddot": t[0], "y_ddot": t[1], "phi_ddot": a, **({wedge: -t[0]} if wedge else {})})
+        if self.is_held:
+            turning = {"phi_ddot": a} if self.is_round else {}
+            found.append({"x_ddot": t[0], "y_ddot": t[1], **turning, **({wedge: -t[0]} if wedge else {})})
         return found
 
 

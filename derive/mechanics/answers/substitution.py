@@ -457,9 +457,14 @@ def _in_results(
     not contain."""
     letters = {s for quantity in (of, *results) for s in explicit(quantity.value).free_symbols}
     there = {s.name for s in letters} | {s.function.name for s in letters if isinstance(s, Prescribed)}
-    state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
-    for name in (name for name in values if name not in there | state):
-        message = f"`{of.key}` does not contain `{name}`, so its value has no effect"
-        raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))
+    check_values_used(of.key, values, there)
     needed = {name: value for name, value in values.items() if name in there}
     return checked(put_in)(of, *results, key=key, symbol=symbol, **(needed or values))
+
+
+def check_values_used(key: str, values: Values, letters: set[str]) -> None:
+    """Reject a value of a letter that does not occur, unless the letter is a coordinate or a rate of the state."""
+    state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
+    for name in (name for name in values if name not in letters | state):
+        message = f"`{key}` does not contain `{name}`, so its value has no effect"
+        raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))

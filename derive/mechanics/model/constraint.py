@@ -24,6 +24,18 @@ ZERO = Integer(0)
 
 
 @dataclass(frozen=True)
+class StaticLimit:
+    """The largest static friction: |F| <= mu_s N.
+
+    coefficient   mu_s
+    normal        the symbol of the normal force of the same contact
+    """
+
+    coefficient: Expr
+    normal: Symbol
+
+
+@dataclass(frozen=True)
 class Constraint(Part):
     """A constraint f = c, enforced by a force with the virtual work lambda df; or a_1 q_1_dot + ... = c, enforced
     by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
@@ -36,6 +48,7 @@ class Constraint(Part):
     routes use them in place of the derivatives of f
     enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
     it is unknown
+    limit     for static friction with a known coefficient: its largest value
     """
 
     left: Expr
@@ -44,6 +57,7 @@ class Constraint(Part):
     in_rates: bool = False
     forces: tuple[PointForce, ...] = ()
     enforcer: str = ""
+    limit: StaticLimit | None = None
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Constraint:
         if not self.forces:

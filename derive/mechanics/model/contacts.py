@@ -15,7 +15,7 @@ from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
-from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.constraint import Constraint, StaticLimit
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import (
@@ -28,6 +28,7 @@ from derive.mechanics.model.no_slip import (
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact"]
@@ -40,7 +41,7 @@ Part: TypeAlias = Constraint | GivenForce | Quantity
 class Contact(Connection):
     """A body that touches a surface.
 
-    of       the body or particle
+    of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface
     gap      the distance between the body and the surface, m
@@ -94,10 +95,13 @@ def contact(
     rolling: str | bool = False,
     sliding: Any = None,
     direction: Any = None,
+    static: Any = None,
+    force: str = "",
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`
+    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`; or a fixed
+               place, such as the edge of a table, that touches a surface which a body carries
     on         a surface, `plane(...)` or `circle(...)`; or another round body
     normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
                coordinates allow the body to leave the surface
@@ -105,14 +109,18 @@ def contact(
                the surface with the free side on the left
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
     direction  with `sliding`: the direction in which the material point of the body slips over the surface
+    static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
+               a round body rolls; this requires |F| <= mu_s N
+    force      with `static`: the symbol of the friction F, N, positive as for `rolling`
     Equal and opposite forces act on the material points of both. The distance of a round body from the surface is the
     distance of its centre minus its radius.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
     """
     touch = _contact(of, on)
-    _check_carried(touch, bool(rolling) or sliding is not None)
-    if rolling and sliding is not None:
-        raise Rejected(Complaint("wrong-argument", "a body either rolls or slides: give `rolling` or `sliding`"))
+    _check_carried(touch, bool(rolling) or sliding is not None or static is not None)
+    if bool(rolling) + (sliding is not None) + (static is not None) > 1:
+        message = "a body rolls, slides or sticks: give one of `rolling`, `sliding` and `static`"
+        raise Rejected(Complaint("wrong-argument", message))
     found: list[Part] = []
     if not touch.is_kept:
         found.append(_normal(touch, normal))
@@ -124,6 +132,10 @@ def contact(
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None:
         raise Rejected(Complaint("unused-key", "`direction` is the direction of slip, so it needs `sliding`"))
+    if static is not None:
+        found.append(_sticking(touch, force, _static_limit(touch, static, normal)))
+    elif force:
+        raise Rejected(Complaint("unused-key", "`force` is the symbol of the static friction, so it needs `static`"))
     return replace(touch, forces=tuple(_forces_of(touch, found))), *found
 
 
@@ -164,7 +176,7 @@ def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
 def _contact(of: Any, on: Any) -> Contact:
     surface = on if isinstance(on, Surface) else _surface_of(on)
     at, body = end_of(of) if is_end(of) else (None, None)
-    if at is None or body is None:
+    if at is None or body is None and (surface.of is None or coordinates_in(ImmutableDenseMatrix(at.components))):
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
@@ -239,23 +251,43 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
             return []  # the coordinates already satisfy the condition of rolling
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
-    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
-    along = tidied(dot(touch.tangent, slip))
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
-    letter = scalar(rolling)
+    return [_sticking(touch, rolling)]
+
+
+def _sticking(touch: Contact, symbol: str, limit: StaticLimit | None = None) -> Constraint:
+    """Return the condition that the material points in contact do not move over each other, with its friction."""
+    if not symbol:
+        message = "static friction needs the symbol of its force"
+        raise Rejected(Complaint("missing-key", message, help="give it as `force`, `{static: mu_s, force: F}`"))
+    ground = touch.surface.ground
+    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
+    along = tidied(dot(touch.tangent, slip))
     of_particles = velocity_of_particle(touch.of, touch.at, ground, touch.foot)
     by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
     if not is_zero(tidied(along - by_particles)):
         raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))
-    pair = touch.pair(letter, touch.tangent)
-    return [Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction")]
+    pair, letter = touch.pair(scalar(symbol), touch.tangent), scalar(symbol)
+    return Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction", limit=limit)
+
+
+def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
+    mu = _coefficient(touch, coefficient, normal or "N")
+    if len(touch.at.components) == 3:
+        message = "static friction with a coefficient needs a plane of motion; this system moves in space"
+        raise Rejected(Complaint("wrong-argument", message, help="leave out the coefficient: `friction: rolling`"))
+    if sign_known(mu) != 1:
+        message = f"the coefficient of static friction {mu} is not known to be positive"
+        raise Rejected(Complaint("sign", message, help="declare its letter as `positive number`"))
+    return StaticLimit(mu, scalar(normal))
 
 
 def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
     if not isinstance(touch.of, PlacedBody):
-        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
+        help_line = "leave out `rolling`, or give static friction, `{static: mu_s, force: F}`"
+        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help=help_line))
     if not touch.is_kept:
         message = "in space, rolling needs coordinates that keep the body on the surface"
         raise Rejected(Complaint("wrong-argument", message, help="leave out the coordinate away from the surface"))
@@ -268,12 +300,7 @@ def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
 
 def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:
     """Return the friction mu N against the velocity of slip, on the material points of both."""
-    mu = as_expr(coefficient)
-    require_constant("contact", "coefficient of friction", mu)
-    if touch.is_kept:
-        message = f"the coordinates keep the body on the surface, so its normal force `{letter}` is unknown"
-        help_line = "give the body a coordinate for its distance from the surface"
-        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
+    mu = _coefficient(touch, coefficient, letter)
     if direction is None:
         message = "sliding friction needs the direction in which the body slips over the surface"
         raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
@@ -285,3 +312,14 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
     force = tuple(-mu * scalar(letter) * c for c in along.components)
     by = touch.surface.of if touch.surface.of is not None else GROUND
     return GivenForce(force, touch.at.components, touch.of, by)
+
+
+def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
+    """Return a coefficient of friction; require an unknown normal force, by which it is multiplied."""
+    mu = as_expr(coefficient)
+    require_constant("contact", "coefficient of friction", mu)
+    if touch.is_kept:
+        message = f"the coordinates keep the body on the surface, so its normal force `{letter}` is unknown"
+        help_line = f"give the body a coordinate for its distance from the surface, and the contact `normal: {letter}`"
+        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
+    return mu

@@ -20,7 +20,7 @@ from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.material import MaterialPoint, at_rest_in, particle_of
+from derive.mechanics.model.material import MaterialPoint, at_rest_in, material_point, particle_of
 from derive.mechanics.model.system import KnownCoordinate
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, changes, coordinates_in
@@ -350,19 +350,16 @@ def _particle_of_ground(ground: Ground, at: Location) -> MaterialPoint:
     return particle_of(ground, at) if isinstance(ground, PlacedBody) else MaterialPoint(ground.components)
 
 
-def velocity_of_particle(
-    body: PlacedBody, at: Location, ground: Ground | None, foot: Location | None = None
-) -> list[Expr]:
+def velocity_of_particle(body: Any, at: Location, ground: Ground | None, foot: Location | None = None) -> list[Expr]:
     """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
 
+    body   a placed body or a particle; None for a fixed place
     foot   the place of the particle of the surface; by default the place of the particle of the body
 
     The position of the particle in the body is constant.
     """
-    point = particle_of(body, at)
-    place = list(point.place)
-    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
-    fast = [by_functions_of_time(c, moving).subs(point.values) for c in place]
+    point = material_point("no_slip", body, at)
+    fast = [by_functions_of_time(c, list(coordinates_in(c))).subs(point.values) for c in point.place]
     if ground is None:
         return fast
     surface = _particle_of_ground(ground, foot or at)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from sympy import (
+    Add,
     Expr,
     Integer,
+    Rational,
     Symbol,
     acos,
     asin,
@@ -20,17 +22,22 @@ from sympy import (
 from derive.algebra.expressions import explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
+from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.motion.facts import ByEnergy, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
-from derive.steps.step import is_zero
+from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import (
+    SMALL,
     Point,
     assumptions_about,
     everywhere,
+    holds_at,
     just_where,
+    real_at,
     sign_at,
+    sign_found,
     signs_of,
     trial_points,
 )
@@ -125,6 +132,152 @@ def steady(facts: Judged, fact: Steady) -> bool:
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
     return fits and all(s in held and is_zero(held[s] - value) for s, value in told.items())
+
+
+def friction_and_normal_of_one_contact(facts: Judged, outcome: str) -> bool:
+    """Whether the two forces act at one place at right angles, and the coefficient belongs to this contact."""
+    friction, normal = (_constraint_of(facts.quantities[role]) for role in ("friction", "normal"))
+    if friction is None or normal is None or friction.limit is None:
+        return False
+    along, pushing = (each.forces[0] for each in (friction, normal))
+    together = zip(along.at.components, pushing.at.components, strict=True)
+    across = zip(along.direction, pushing.direction, strict=True)
+    is_one_place = all(is_zero(a - b) for a, b in together) and is_zero(Add(*(a * b for a, b in across)))
+    return is_one_place and is_zero(friction.limit.coefficient - facts.inputs["coefficient"])
+
+
+def _constraint_of(force: Quantity) -> Constraint | None:
+    kept = (ancestor.fact(Constrained) for ancestor in force.ancestors())
+    every = (each for found in kept if found is not None for each in found.constraints)
+    return next((each for each in every if each.force == force.symbol), None)
+
+
+def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
+    """Whether, numerically, the friction on the body is opposite to the sense in which the sentence says it slips."""
+    if "sense" not in facts.words:
+        return True
+    constraint = _constraint_of(facts.quantities["friction"])
+    assert constraint is not None
+    x, y = next(each for each in constraint.forces if each.of is not None).direction
+    side = facts.inputs["side"]
+    across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
+    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
+    return is_level and sign_found(side * across) == wanted
+
+
+def needs_no_friction(facts: Judged) -> bool:
+    return is_zero(facts.inputs["friction"]) and facts.result.operator == "=" and is_zero(facts.result.residual)
+
+
+def sticks_where(wanted: bool | None) -> Predicate:
+    """Whether, numerically, |F| <= mu_s N exactly where the result holds; or, if `wanted`, always, or if not, never.
+
+    A result for one of two senses claims nothing about forces in the other sense; then F must have both signs.
+    """
+
+    def is_so(facts: Judged) -> bool:
+        F, N, mu = (with_numbers(facts.inputs[role]) for role in ("friction", "normal", "coefficient"))
+        side, alone = facts.inputs["side"], facts.inputs["alone"] == 1
+        letters = letters_of(F) | letters_of(N) | letters_of(mu)
+        conditions = assumptions_about(letters)
+
+        def suffices(point: Point) -> bool | None:
+            held, pushed, most = (real_at(each, point) for each in (F, N, mu))
+            if held is None or pushed is None or most is None or not pushed > 0:
+                return None
+            return bool(abs(held) <= most * pushed) or not alone and bool(side * held < 0)
+
+        if not alone and not {1, -1} <= signs_of(F, *conditions):
+            return False
+        if wanted is None:
+            return just_where([with_numbers(facts.result)], suffices, letters, *conditions)
+        return everywhere(trial_points(letters, *conditions), lambda point: _as_wanted(wanted, suffices(point)))
+
+    return is_so
+
+
+def _as_wanted(wanted: bool, verdict: bool | None) -> bool | None:
+    return None if verdict is None else verdict == wanted
+
+
+def _room(facts: Judged, at: Expr, point: Point) -> Expr | None:
+    """Return mu_s N - |F| at a place; None if N is not positive there, or a force is not real."""
+    there = {**point, facts.inputs["coordinate"]: at}
+    F, N, mu = (real_at(with_numbers(facts.inputs[role]), there) for role in ("friction", "normal", "coefficient"))
+    return None if F is None or N is None or mu is None or not N > 0 else mu * N - abs(F)
+
+
+def _turns_back_within(facts: Judged, begin: Expr, end: Expr, point: Point) -> bool:
+    """Whether the squared rate is negative at one of several places between the two places, or at the second."""
+    q, squared = facts.inputs["coordinate"], with_numbers(facts.inputs["squared"])
+    way = (begin + (end - begin) * Rational(n, 7) for n in range(1, 8))
+    return any(sign_at(squared, {**point, q: here}) == -1 for here in way)
+
+
+def _letters_of_motion(facts: Judged) -> set[Any]:
+    roles = ("friction", "normal", "coefficient", "squared", "begin")
+    found = set[Any]().union(*(letters_of(with_numbers(facts.inputs[role])) for role in roles))
+    return found - {facts.inputs["coordinate"]}
+
+
+def slips_first(facts: Judged) -> bool:
+    """Whether, numerically, mu_s N - |F| is positive up to the place, and zero there; and the conditions are right."""
+    start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
+    letters = _letters_of_motion(facts)
+    conditions, told = assumptions_about(letters), facts.inputs.get("starts")
+
+    def is_so(point: Point) -> bool | None:
+        begin, end = real_at(start, point), real_at(place, point)
+        if begin is None or end is None or _turns_back_within(facts, begin, end, point):
+            return None
+        room = [_room(facts, begin + (end - begin) * Rational(n, 9), point) for n in range(10)]
+        if told is not None and not holds_at(with_numbers(told), point):
+            return room[0] is None or not room[0] > 0
+        F = real_at(with_numbers(facts.inputs["friction"]), {**point, facts.inputs["coordinate"]: end})
+        there = room[-1]
+        is_border = F is not None and there is not None and abs(there) <= SMALL * abs(F)
+        on_the_way = all(each is not None and each > 0 for each in room[:-1])
+        return is_border and on_the_way and bool(facts.inputs["side"] * F > 0)
+
+    is_first = _vanishing_force(facts) and everywhere(trial_points(letters, *conditions), is_so)
+    return is_first and _gets_there_as_told(facts)
+
+
+def slips_at_once(facts: Judged) -> bool:
+    """Whether, numerically, mu_s N - |F| is negative at the start."""
+    letters = _letters_of_motion(facts)
+
+    def is_so(point: Point) -> bool | None:
+        begin = real_at(with_numbers(facts.inputs["begin"]), point)
+        room = None if begin is None else _room(facts, begin, point)
+        return None if room is None else bool(room < 0)
+
+    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
+
+
+def never_slips(facts: Judged) -> bool:
+    """Whether, numerically, mu_s N - |F| is positive wherever the motion gets."""
+    letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
+    told = facts.inputs.get("starts")
+
+    def is_so(point: Point) -> bool | None:
+        begin = real_at(with_numbers(facts.inputs["begin"]), point)
+        if begin is None:
+            return None
+        places = [begin + far for far in distances if not _turns_back_within(facts, begin, begin + far, point)]
+        room = [_room(facts, here, point) for here in (begin, *places)]
+        if told is not None and not holds_at(with_numbers(told), point):
+            return room[0] is None or not room[0] > 0
+        return all(each is not None and each > 0 for each in room)
+
+    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
+
+
+def start_of_motion(facts: Judged, place: Any) -> bool:
+    """Whether a motion from which the forces were derived starts there."""
+    forces = (facts.quantities["friction"], facts.quantities["normal"])
+    found = (ancestor.fact(ByEnergy) for force in forces for ancestor in force.ancestors())
+    return any(known.coordinate == place.left and is_zero(known.start - place.right) for known in found if known)
 
 
 def energy_there(facts: Judged, place: Any) -> bool:

@@ -18,10 +18,14 @@ def rest_with_forces(
     """Return the positions and forces that solve the static equations, if there are as many unknowns as equations.
 
     motions   the equations of motion, one for each coordinate
+    If there are as many forces as equations, as with static friction, every position is an equilibrium: the result is
+    the forces in this position.
     """
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}
-    unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + [s for s in forces if s in present]
+    unknown = [s for s in forces if s in present]
+    if len(unknown) != len(still):
+        unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + unknown
     if len(unknown) != len(still):
         names = ", ".join(s.name for s in unknown) or "nothing"
         message = f"{len(still)} static equations do not determine {names}: constraint forces add unknowns"

@@ -105,6 +105,19 @@ class FrictionKeys(Record):
     rolling: Word | None = key("the symbol of the friction that prevents slipping", TEXT)
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
     direction: tuple[Tree, ...] = key("with `sliding`: the direction in which the body slips", COMPONENTS)
+    static: Tree | None = key("the coefficient of static friction, if the body does not slip", SCALAR)
+    force: Word | None = key("with `static`: the symbol of the friction", TEXT)
+
+    @property
+    def symbol(self) -> Word | None:
+        """Return the symbol of the friction that prevents slipping."""
+        return self.rolling or self.force
+
+
+FRICTION_ALSO = (  # key, the key that it belongs to, and its meaning
+    ("direction", "sliding", "is the direction of slip"),
+    ("force", "static", "is the symbol of the static friction"),
+)
 
 
 def _friction(node: Tree, name: str, faults: Faults) -> FrictionKeys | str | None:
@@ -123,22 +136,28 @@ FRICTION: Reader[Any] = Reader(
 class ContactKeys(Record):
     """The keys of one entry of `contacts:`, a body that touches a surface."""
 
-    of: Word = key("a particle, a round body, or a point of a body such as `ladder.end`", TEXT, required=True)
+    of: WrittenPlace = key(
+        "a particle, a round body, or a point of a body such as `ladder.end`; or a fixed corner, as a place, that "
+        "touches a surface of a body",
+        PLACE,
+        required=True,
+    )
     on: Word = key("the surface, or another round body", TEXT, required=True)
     normal: Word | None = key(
         "the symbol of the normal force, if a coordinate allows the body to leave the surface", TEXT
     )
     friction: Any = key(
-        "`none`, `rolling`, `{rolling: F}` with the symbol of the friction, or `{sliding: mu, direction: [1, 0]}`",
+        "`none`, `rolling`, `{rolling: F}` with the symbol of the friction, `{sliding: mu, direction: [1, 0]}`, or "
+        "`{static: mu_s, force: F}`",
         FRICTION,
     )
 
     def symbols(self) -> list[Word]:
-        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
-        return [word for word in (self.normal, rolling) if word is not None]
+        friction = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
+        return [word for word in (self.normal, friction) if word is not None]
 
     def part(self, known: Connected) -> Deferred[Any]:
-        named: dict[str, Any] = {"of": material(self.of, known), "on": self._surface(known)}
+        named: dict[str, Any] = {"of": self._body(known), "on": self._surface(known)}
         if self.normal:
             named["normal"] = force_letter(self.normal, known.letters)
         own = self.friction
@@ -149,18 +168,34 @@ class ContactKeys(Record):
         return Deferred(contact, (), named, forces=tuple(map(str, self.symbols())), place=self.places[""])
 
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
-        if (own.rolling is None) == (own.sliding is None):
-            rejected("missing-key", "`friction` needs either `rolling` or `sliding`", own.places[""])
+        given = [each for each in ("rolling", "sliding", "static") if each in own.values_at]
+        if len(given) != 1:
+            message = "`friction` needs one of `rolling`, `sliding` and `static`"
+            help_line = "with `{static: mu_s, force: F}` a round body rolls" if "static" in given else None
+            rejected("missing-key", message, own.places[""], help_line)
+        (sort,) = given
+        for name, of, why in FRICTION_ALSO:
+            if name in own.values_at and sort != of:
+                rejected("unused-key", f"`{name}` {why}, so it needs `{of}`", own.places[name], "leave it out")
         if own.rolling is not None:
-            if own.direction:
-                message = "`direction` is the direction of slip, and a body that rolls does not slip"
-                rejected("unused-key", message, own.places["direction"], "leave it out")
             return {"rolling": force_letter(own.rolling, known.letters)}
+        if own.static is not None:
+            if own.force is None:
+                help_line = "give the symbol of the friction, `{static: mu_s, force: F}`"
+                rejected("missing-key", "static friction needs the symbol of its force", own.places[""], help_line)
+            coefficient = known.letters.of_kind(own.static, "static", "number")
+            return {"static": coefficient, "force": force_letter(own.force, known.letters)}
         assert own.sliding is not None
         found: dict[str, Any] = {"sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
         if own.direction:
             found["direction"] = direction_of(own.direction, known.letters)
         return found
+
+    def _body(self, known: Connected) -> Any:
+        """Return the body, particle or point of a body that touches the surface, or a fixed corner."""
+        if self.of.name is not None and self.of.name not in known.places.written:
+            return material(self.of.name, known)
+        return _end(self.of, known, "of")
 
     def _surface(self, known: Connected) -> Any:
         if self.on in known.surfaces:

@@ -1,0 +1,153 @@
+"""The static friction of a contact and its normal force: when the friction suffices, |F| <= mu_s N."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+
+from sympy import Add, Dummy, Expr, Integer, Mul, Symbol, cos, sin, tan, together
+
+from derive.algebra.equality import Grade, Verdict
+from derive.algebra.expressions import Relation, explicit
+from derive.algebra.samples import NoNumber, Undefined, points, seed_of
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.model.constraint import Constrained, Constraint, StaticLimit
+from derive.solving.presentation import presented
+from derive.solving.relations import TURNED, divided_out, number_of, positive, solved_for_unknown
+from derive.solving.unknowns import mark_for
+from derive.steps.signs import sign_known
+from derive.steps.step import Form, Quantity
+
+POINTS = 40  # sets of numbers
+
+
+@dataclass(frozen=True)
+class Friction:
+    """The friction F and the normal force N of one contact, as functions of the same letters."""
+
+    friction: Quantity
+    normal: Quantity
+    constraint: Constraint
+    limit: StaticLimit
+
+    @property
+    def F(self) -> Expr:
+        return tidied(explicit(number_of(self.friction)))
+
+    @property
+    def N(self) -> Expr:
+        return tidied(explicit(number_of(self.normal)))
+
+    @property
+    def roles(self) -> dict[str, Quantity | Expr]:
+        return {"friction": self.friction, "normal": self.normal, "coefficient": self.limit.coefficient}
+
+    def excess(self, side: int) -> Expr:
+        """How much the friction, in one sense, exceeds its largest value, N."""
+        return tidied(side * self.F - self.limit.coefficient * self.N)
+
+    def sense(self, side: int) -> dict[str, str]:
+        """Return in words where the body would slip, if F has this sign: against the friction on the body."""
+        force = next((each for each in self.constraint.forces if each.of is not None), None)
+        signs = [sign_known(-side * c) for c in force.direction] if force is not None else []
+        if len(signs) == 2 and signs[1] is not None and (signs[1] != 0 or signs[0]):
+            words = {1: "up", -1: "down"} if signs[1] else {1: "right", -1: "left"}
+            return {"sense": words[signs[1] or signs[0] or 0]}
+        return {}
+
+
+def static_friction(friction: Quantity) -> Constraint:
+    """Return the constraint whose force is this friction, with its largest value."""
+    for ancestor in friction.ancestors():
+        kept = ancestor.fact(Constrained)
+        for each in kept.constraints if kept is not None else ():
+            if each.force == friction.symbol and each.limit is not None:
+                return each
+    help_line = "describe the contact with `friction: {static: mu_s, force: F}`, and give F"
+    message = f"`{friction.key}` is not the friction of a contact with a coefficient of static friction"
+    raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def friction_of(friction: Quantity, normal: Quantity) -> Friction:
+    constraint = static_friction(friction)
+    assert constraint.limit is not None
+    if normal.symbol != constraint.limit.normal:
+        message = f"`slips`: `{normal.key}` is not the normal force of this contact"
+        raise Rejected(Complaint("different-subjects", message, help=f"give {constraint.limit.normal}"))
+    return Friction(friction, normal, constraint, constraint.limit)
+
+
+def condition_to_push(N: Expr) -> Relation | None:
+    """Return the condition for the surface to push; None if it always does."""
+    unsure = [each.as_base_exp() for each in Mul.make_args(N) if sign_known(each) != 1]
+    if unsure and all(power.is_even for _, power in unsure):
+        return Relation(Mul(*(base for base, _ in unsure)), "!=", 0)
+    return positive(N) if unsure else None
+
+
+def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> Relation:
+    """Solve the relation between side F and mu_s N for the unknown, where N > 0."""
+    if unknown == contact.limit.coefficient:
+        return Relation(unknown, TURNED[mark], _with_tangents(presented(side * contact.F / contact.N)))
+    excess = _in_terms_of(contact.excess(side), unknown)
+    found = solved_for_unknown(contact.friction, excess, mark, unknown)
+    return Relation(found.left, found.operator, _with_tangents(found.right))
+
+
+def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
+    """Return the last line; it differs from the line before by a factor that does not vanish, such as N > 0."""
+    alone, solved = result.sides
+    if alone == contact.limit.coefficient:
+        pushing = Mul.make_args(contact.N)
+        return Form(result, "solved", nonzero=(*pushing, *(each.expand() for each in pushing if each.is_Pow)))
+    factor = tidied(_without_tangents(excess / result.residual))
+    sign = sign_known(factor)
+    return Form(result, "solved", nonzero=Mul.make_args(factor * sign) if sign else divided_out(excess, alone, solved))
+
+
+def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
+    """Return a value with the same sign that contains the unknown; for tan(alpha), divide by powers of cos(alpha)."""
+    if not isinstance(unknown, tan) or sign_known(cos(unknown.args[0])) != 1:
+        return value
+    c, t = Dummy("c", positive=True), mark_for(unknown)
+    with_cosines = _without_tangents(tidied(value)).xreplace({sin(unknown.args[0]): t * c, cos(unknown.args[0]): c})
+    divided = [each.expand().collect(c) for each in together(with_cosines).as_numer_denom()]
+    powers = [[term.as_independent(c)[1] for term in Add.make_args(each)] for each in divided]
+    if any(len(set(each)) > 1 for each in powers):
+        return value  # not the same power of the cosine in each term
+    above, below = (each.xreplace({c: Integer(1), t: unknown}) for each in divided)
+    return above / below
+
+
+def _with_tangents(value: Expr) -> Expr:
+    """Write sin(a)/cos(a) as tan(a)."""
+    powers = value.as_powers_dict()
+    for base, power in powers.items():
+        if isinstance(base, sin) and powers.get(cos(base.args[0])) == -power:
+            return value * cos(base.args[0]) ** power / base**power * tan(base.args[0]) ** power
+    return value
+
+
+def _without_tangents(value: Expr) -> Expr:
+    return value.replace(tan, lambda angle: sin(angle) / cos(angle))
+
+
+def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr]]:
+    return islice(points(letters, seed_of(of)), POINTS)
+
+
+def sampled(is_so: Callable[[Mapping[Symbol, Expr]], bool | None], letters: set[Symbol], of: Expr) -> Verdict:
+    """Return the verdict on a statement at random points; None means that the statement has no meaning at a point."""
+    seen = 0
+    for point in numbers_for(letters, of):
+        try:
+            verdict = is_so(point)
+        except (Undefined, NoNumber, TypeError):
+            continue
+        if verdict is False:
+            where = tuple((str(name), str(value)) for name, value in point.items())
+            return Verdict(Grade.REFUTED, "the friction is not as stated", where)
+        seen += verdict is True
+    return Verdict(Grade.SAMPLED, f"{seen} points") if seen else Verdict(Grade.REFUTED, "undefined at all points tried")
