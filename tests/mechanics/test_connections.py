@@ -90,13 +90,13 @@ def test_rolling_without_the_velocity_of_the_surface_is_refused(
 def test_different_tensions_on_the_two_sides_of_a_pulley_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pulls = strings._pulls
+    pulls = strings.Piece.pulls
 
-    def twice_at_one_end(through: Any, tension: Any) -> Any:
-        first, *others = pulls(through, tension)
-        return replace(first, size=2 * tension), *others
+    def twice_at_one_end(piece: Any, tension: Any) -> Any:
+        first, other = pulls(piece, tension)
+        return replace(first, size=2 * tension), other
 
-    monkeypatch.setattr(strings, "_pulls", twice_at_one_end)
+    monkeypatch.setattr(strings.Piece, "pulls", twice_at_one_end)
     assert "`virtual_work` disagrees" in refused(tmp_path, MOVABLE)
 
 
@@ -160,7 +160,7 @@ parts:
             "its material moves with its centre",
         ),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [x, 1]}", "different dimensions"),
-        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [1, 0], side: inside}", "belongs to a circle"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [1, 0], side: inside}", "a plane has no `inside`"),
         ("centre: [x, y]", "centre: [x, a]", "keep the body on the surface"),
         ("shape: ball, radius: a", "shape: cone, radius: a, height: a, across: x", "is not round in this view"),
     ],
