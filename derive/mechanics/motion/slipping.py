@@ -191,7 +191,8 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
         reached=unless_sure(condition_to_reach(contact.friction, speed, unknown, solved)),
         starts=starts,
     )
-    law = Relation(side * contact.friction.symbol, "=", Factors(contact.limit.coefficient, contact.normal.symbol))
+    held, most = side * contact.friction.symbol, Factors(contact.limit.coefficient, contact.normal.symbol)
+    border = (Relation(held, "=", most), Relation(held - explicit(most), "=", 0)) if squared else None
     return establish(
         SLIPS,
         None,
@@ -207,7 +208,7 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
         routes={"on_the_way": lambda found: is_first(motion, found.right)},
         outcome="slips_squared" if squared else "slips",
         phrase_data=PhraseData(
-            formulas={**told, **({"border": (law, law)} if squared else {})},
+            formulas={**told, **({"border": border} if border is not None else {})},
             words=contact.sense(side),
             named={"from": Relation(motion.q, "=", motion.start)},
             outcome_data=_data(motion, side),
