@@ -36,7 +36,15 @@ from derive.figures.recognition import Link, is_fixed, is_spring, moving_in, sam
 from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
-from derive.figures.surroundings import AngleBetween, FixedEnd, FloorMark, GravityMark, GroundMark
+from derive.figures.surroundings import (
+    AngleBetween,
+    CurvedGround,
+    FixedEnd,
+    FloorMark,
+    GravityMark,
+    GroundMark,
+    WayMark,
+)
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
@@ -45,7 +53,7 @@ from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.joints import Dashpot, Pin
 from derive.mechanics.model.strings import Line
-from derive.mechanics.model.surfaces import Circle, Plane, Surface, distance_between, dot
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, distance_between, dot
 from derive.mechanics.model.system import Central, Particle, System
 
 ZERO, ONE = Integer(0), Integer(1)
@@ -197,6 +205,8 @@ class ConnectedScene:
                 yield from self._slope(surface, low, high)
             elif isinstance(surface.of, Particle):
                 yield from self._carrier(surface, low, high)
+        elif isinstance(surface, Curve):
+            yield self._curve(surface, contacts)
 
     def _plane(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
         """Yield the hatched line of a fixed plane; a moving plane, such as a belt, has no hatches, and an arrow."""
@@ -259,6 +269,16 @@ class ConnectedScene:
                 yield AngleBetween(column_of(low), level, column_of(high - low), label=angle)
         yield sort(tuple(map(column_of, corners)), label=label)
         yield FloorMark(tuple(column_of(corner) for corner in corners[-2:]))
+
+    def _curve(self, curve: Curve, contacts: Sequence[Contact]) -> Mark:
+        """Return the drawn part of a curve: to both sides of its origin, a little farther than the bodies on it."""
+        ways = [(each.at - curve.through).components[0] for each in contacts]
+        far = PAST * max((way if self._number(way) > 0 else -way for way in ways), key=self._number)
+        place = column_of(curve.through + Location((curve.letter, curve.formula)))
+        if curve.wire:
+            return WayMark(place, curve.letter, -far, far, "wire")
+        solid = _direction(0, 1 if curve.below else -1)
+        return CurvedGround(place, curve.letter, -far, far, "ground", solid=solid)
 
     def _circle(self, circle: Circle, contacts: Sequence[Contact]) -> Iterable[Mark]:
         centre = column_of(circle.centre)

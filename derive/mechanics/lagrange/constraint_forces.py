@@ -285,7 +285,11 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
         phrase_data=PhraseData(
             formulas={**told_of_divisors([found[each.force]]), **shown},
-            outcome_data={"condition": each.residual, "place": _places(problem) if length is not None else ()},
+            outcome_data={
+                "condition": each.residual,
+                "gradient": each.gradient,
+                "place": _places(problem) if length is not None else (),
+            },
         ),
         key=each.force.name,
         kind=each.kind_of_force,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
 
 from derive.algebra.expressions import TIME, Relation, as_expr, scalar
 from derive.algebra.tidy import tidied
@@ -20,8 +20,9 @@ from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact"]
@@ -37,7 +38,7 @@ class Contact(Connection):
     of       the body or particle
     at       the place of contact
     surface  the surface
-    gap      the distance between the body and the surface, m
+    gap      the distance between the body and the surface, or the height of the body above a curve, m
     normal   the unit vector from the surface to the body
     """
 
@@ -98,7 +99,8 @@ def contact(
     rolling    whether the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
                the surface with the free side on the left
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
-    direction  with `sliding`: the direction in which the material point of the body slips over the surface
+    direction  with `sliding`: the direction in which the material point of the body slips over the surface, or "right"
+               or "left"
     Equal and opposite forces act on the material points of both. The distance of a round body from the surface is the
     distance of its centre minus its radius.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
@@ -140,7 +142,9 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal), enforcer="surface")
+    enforcer, gradient = "wire" if touch.surface.wire else "surface", touch.surface.gradient(touch.at)
+    pair = touch.pair(force, touch.normal)
+    return Constraint(touch.gap, ZERO, force, forces=pair, enforcer=enforcer, gradient=gradient)
 
 
 def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
@@ -159,9 +163,13 @@ def _contact(of: Any, on: Any) -> Contact:
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     radius = radius_of(of) if isinstance(of, PlacedBody) else ZERO
+    if radius != 0 and (isinstance(surface, Curve) or surface.wire):
+        message = "a round body touches a plane, a circle or a sphere, but neither a curve nor a wire"
+        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of a body touch it"))
     away = surface.normal(at)
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
-    found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
+    gap = surface.distance(at) if radius == 0 else tidied(surface.distance(at) - radius)
+    found = Contact((), body, place, surface, gap, away)
     _check(found)
     return found
 
@@ -170,7 +178,8 @@ def _check(touch: Contact) -> None:
     """Check that the normal is a unit vector, and that the place of contact is as far from the surface as the body."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
-    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - touch.gap)):
+    gap = touch.gap / touch.surface.gradient(touch.at)
+    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - gap)):
         raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
 
 
@@ -249,6 +258,20 @@ def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
     return list(rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground))
 
 
+def _slip(touch: Contact, direction: Any) -> Location:
+    """Return the unit vector in the direction in which the body slips."""
+    if direction is None:
+        message = "sliding friction needs the direction in which the body slips over the surface"
+        raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
+    if direction not in ("right", "left"):
+        return unit("contact", vector("contact", direction, touch.at))
+    upwards = sign_known(touch.normal.components[1]) if len(touch.normal.components) == 2 else None
+    if upwards not in (1, -1):
+        message = f"the direction along the surface that points to the {direction} is unknown"
+        raise Rejected(Complaint("wrong-argument", message, help="give the components of `direction`"))
+    return touch.tangent if (upwards == 1) == (direction == "right") else -touch.tangent
+
+
 def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:
     """Return the friction mu N against the velocity of slip, on the material points of both."""
     mu = as_expr(coefficient)
@@ -257,14 +280,16 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` is unknown"
         help_line = "give the body a coordinate for its distance from the surface"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
-    if direction is None:
-        message = "sliding friction needs the direction in which the body slips over the surface"
-        raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
-    along = unit("contact", vector("contact", direction, touch.at))
+    if touch.surface.wire:
+        message = f"the normal force `{letter}` of a wire may have either sign, so the sign of mu {letter} is unknown"
+        raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `wire`"))
+    along = _slip(touch, direction)
     if not is_zero(ImmutableDenseMatrix([tidied(dot(along, touch.normal))])):
         raise Rejected(Complaint("wrong-argument", "the direction of slip must be along the surface"))
     slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
-    assume(Relation(tidied(dot(along, slip)), ">", ZERO))  # otherwise the friction has the opposite direction
+    speed = tidied(dot(along, slip))
+    signed = Mul(*(factor for factor in Mul.make_args(speed) if not factor.is_positive))
+    assume(Relation(signed, ">", ZERO))  # otherwise the friction has the opposite direction
     force = tuple(-mu * scalar(letter) * c for c in along.components)
     by = touch.surface.of if touch.surface.of is not None else GROUND
     return GivenForce(force, touch.at.components, touch.of, by)

@@ -1,16 +1,16 @@
-"""Surfaces that bodies touch: planes and circles or spheres, fixed, moving, or carried by a body."""
+"""Surfaces that bodies touch: planes, circles or spheres, and curves y = f(x); fixed, moving, or carried by a body."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Self, TypeAlias
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, Relation, as_expr
+from derive.algebra.expressions import TIME, Relation, TimeRate, as_expr, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
@@ -19,8 +19,9 @@ from derive.mechanics.model.part import moved
 from derive.steps.record import assume, coordinates_in
 from derive.steps.step import is_zero
 
-__all__ = ["circle", "plane"]
+__all__ = ["circle", "curve", "plane"]
 
+ZERO, ONE = Integer(0), Integer(1)
 Vector: TypeAlias = tuple[Expr, ...]
 Ground: TypeAlias = Location | Axes | PlacedBody
 
@@ -32,14 +33,20 @@ class Surface(ABC):
     of      the body or particle that carries the surface; None if no described body does
     moves   the motion of the material of the surface, if no body carries it: the axes in which it is at rest, as for a
             turntable, or a place that moves with it, as for a belt; None if it is at rest
+    wire    whether the surface is a wire, on which bodies are threaded; the normal force then has either sign
     """
 
     of: Any
     moves: Location | Axes | None
+    wire: bool = field(default=False, kw_only=True)
 
     @abstractmethod
     def distance(self, at: Location) -> Expr:
-        """The distance of a place from the surface, m; positive on the free side."""
+        """The distance of a place from the surface, or the height above a curve, m; positive on the free side."""
+
+    def gradient(self, at: Location) -> Expr:
+        """The length of the gradient of `distance` on the surface."""
+        return ONE
 
     @abstractmethod
     def normal(self, at: Location) -> Location:
@@ -131,8 +138,59 @@ class Circle(Surface):
         return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))
 
 
+@dataclass(frozen=True)
+class Curve(Surface):
+    """A curve y = f(x) in a plane of motion; x and y are measured from a place. The free side is above or below.
+
+    through   the place where x = 0 and y = 0
+    letter    x
+    formula   f(x)
+    """
+
+    through: Location
+    letter: Symbol
+    formula: Expr
+    below: bool = False
+
+    def _at(self, value: Expr, at: Location) -> Expr:
+        return tidied(value.xreplace({self.letter: (at - self.through).components[0]}))
+
+    def distance(self, at: Location) -> Expr:
+        above = (at - self.through).components[1] - self._at(self.formula, at)
+        return -above if self.below else above
+
+    def gradient(self, at: Location) -> Expr:
+        return sqrt(1 + self._at(diff(self.formula, self.letter), at) ** 2)
+
+    def normal(self, at: Location) -> Location:
+        slope, length = self._at(diff(self.formula, self.letter), at), self.gradient(at)
+        above = Location((-slope / length, 1 / length))
+        return -above if self.below else above
+
+    def height(self, at: Location, normal: Location) -> Expr:
+        """The distance of a place from the tangent to the curve vertically below it."""
+        x, _ = (at - self.through).components
+        beneath = self.through + Location((x, self._at(self.formula, at)))
+        return dot(normal, at - beneath)
+
+    def foot(self, at: Location, normal: Location) -> Location:
+        return at
+
+    @property
+    def place(self) -> Location:
+        return self.through
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), through=self.through.with_values(known))
+
+
 def plane(
-    through: Location, normal: Any = None, along: Any = None, of: Any = None, moves: Location | Axes | None = None
+    through: Location,
+    normal: Any = None,
+    along: Any = None,
+    of: Any = None,
+    moves: Location | Axes | None = None,
+    wire: bool = False,
 ) -> Plane:
     """A plane surface through a place.
 
@@ -141,11 +199,12 @@ def plane(
              is above a surface from left to right
     of       the body or particle that carries the surface
     moves    the axes in which the surface is at rest, or a place that moves with it; by default it is at rest
+    wire     whether it is a wire, on which bodies are threaded: the normal force then has either sign
     """
     if (normal is None) == (along is None):
         raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
     across = vector("plane", normal, through) if along is None else _left_of(vector("plane", along, through))
-    found = Plane(of, moves, through, unit("plane", across))
+    found = Plane(of, moves, through, unit("plane", across), wire=wire)
     _check_motion(found)
     return found
 
@@ -170,12 +229,15 @@ def _check_motion(surface: Plane) -> None:
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
-def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, moves: Any = None) -> Circle:
+def circle(
+    centre: Location, radius: Any, inside: bool = False, of: Any = None, moves: Any = None, wire: bool = False
+) -> Circle:
     """A circular surface in a plane of motion, or a spherical surface in space.
 
     inside   whether the free side is inside, as in a bowl; by default it is outside
     of       as for `plane`; without it, the material moves with the centre
     moves    the axes in which the sphere is at rest
+    wire     as for `plane`
     """
     if isinstance(moves, Location):
         message = "a circle has no `velocity`: its material moves with its centre, or with the body that carries it"
@@ -183,7 +245,51 @@ def circle(centre: Location, radius: Any, inside: bool = False, of: Any = None, 
     if isinstance(moves, Axes) and len(centre.components) == 2:
         message = "a surface rotates with axes only in space; this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
-    return Circle(of, moves, centre, as_expr(radius), inside)
+    return Circle(of, moves, centre, as_expr(radius), inside, wire=wire)
+
+
+def curve(
+    x: Any,
+    height: Any,
+    through: Location | None = None,
+    below: bool = False,
+    of: Any = None,
+    moves: Any = None,
+    wire: bool = False,
+) -> Curve:
+    """A curve y = f(x) in a plane of motion, as a surface.
+
+    x        the symbol for the horizontal distance from `through`, m
+    height   f(x), the height above `through`, m
+    through  the place from which x and y are measured; by default the origin. The material of the curve moves with it
+    below    whether the free side is below the curve; by default it is above
+    of       the body or particle that carries the curve; the curve moves with it without rotation
+    wire     as for `plane`
+    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The condition y - f(x) = 0 has
+    a gradient of the length sqrt(1 + f'^2), so its multiplier is N/sqrt(1 + f'^2).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    through = Location((ZERO, ZERO)) if through is None else through
+    letter, formula = as_expr(x), explicit(as_expr(height))
+    if not isinstance(letter, Symbol):
+        raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
+    if len(through.components) != 2 or moves is not None:
+        message = "a curve moves with the place `through`, or with the body that carries it, in a plane of motion"
+        raise Rejected(Complaint("wrong-argument", message, help="give `through` as a function of time, or `of`"))
+    moving = [s.name for s in {**coordinates_in(formula), TIME: ""} if s != letter and formula.has(s)]
+    if moving:
+        message = f"the formula of a curve contains {moving[0]}, but a curve has a constant shape"
+        raise Rejected(Complaint("changes", message, help=f"the formula may contain {letter} and constants"))
+    if isinstance(of, PlacedBody) and not is_zero(_turning(of)):
+        message = f"a curve moves without rotation, but {of.body.name} rotates"
+        raise Rejected(Complaint("wrong-argument", message, help="let a particle carry the curve"))
+    return Curve(of, None, through, letter, formula, below, wire=wire)
+
+
+def _turning(body: PlacedBody) -> Expr:
+    """The angular velocity of a body in a plane."""
+    angle = as_expr(body.turned)
+    return explicit(TimeRate(angle, *coordinates_in(angle)))
 
 
 def column_of(place: Location) -> ImmutableMatrix:

@@ -6,19 +6,51 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from derive.algebra.expressions import TIME
-from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, one_of, read_record, record_of
+from sympy import Integer
+
+from derive.algebra.expressions import TIME, stand_in
+from derive.course.expression import Declared
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    YES_OR_NO,
+    Reader,
+    Record,
+    key,
+    list_of,
+    mapping_of,
+    one_of,
+    read_record,
+    record_of,
+)
 from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping as MappingNode
-from derive.course.yaml_tree import Tree, Word
+from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, did_you_mean, rejected
-from derive.mechanics import circle, contact, dashpot, massless_rod, motor, pin, plane, string, weld, wound_string
+from derive.mechanics import (
+    circle,
+    contact,
+    curve,
+    dashpot,
+    massless_rod,
+    motor,
+    pin,
+    plane,
+    string,
+    weld,
+    wound_string,
+)
 from derive.mechanics.kinematics.places import Location
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, point_called
 
-SURFACE_SHAPES = "give `through` with `along` or `normal` for a plane, or `centre` and `radius` for a circle or sphere"
+X = "x"  # the symbol for the horizontal distance in the formula of a curve
+SURFACE_SHAPES = (
+    "give `through` with `along` or `normal` for a plane, `centre` and `radius` for a circle or sphere, "
+    "or `y` for a curve"
+)
+RIGHT_OR_LEFT = one_of(("right", "left"))
 
 
 @dataclass(frozen=True)
@@ -35,7 +67,7 @@ class Connected:
 class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
-    through: WrittenPlace | None = key("for a plane, a place on it", PLACE)
+    through: WrittenPlace | None = key("for a plane, a place on it; for a curve, the place where x = y = 0", PLACE)
     along: tuple[Tree, ...] = key(
         "for a plane, in a plane of motion, a direction along it: the free side is on the left, so above `[1, 0]`",
         COMPONENTS,
@@ -43,7 +75,12 @@ class SurfaceKeys(Record):
     normal: tuple[Tree, ...] = key("for a plane, in place of `along`, the direction towards its free side", COMPONENTS)
     centre: WrittenPlace | None = key("for a circle or a sphere, its centre", PLACE)
     radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
-    side: str | None = key("for a circle or a sphere, the side of the bodies", one_of(("outside", "inside")))
+    y: Tree | None = key("for a curve y = f(x) in a plane of motion, the formula f(x), such as `x**2/(2*b)`", SCALAR)
+    side: str | None = key(
+        "the side of the bodies: for a circle or a sphere `outside` or `inside`, for a curve `above` or `below`",
+        one_of(("outside", "inside", "above", "below")),
+    )
+    wire: bool = key("`true` for a wire, on which bodies are threaded: its normal force has either sign", YES_OR_NO)
     of: Word | None = key("the body or particle that carries the surface", TEXT)
     axes: Word | None = key("the axes in which the surface is at rest, as for a turntable", TEXT, called="in")
     velocity: tuple[Tree, ...] = key("the velocity of the surface, as for a belt", COMPONENTS)
@@ -53,21 +90,53 @@ class SurfaceKeys(Record):
         carried = {"of": named_bodies("of", [self.of], bodies, "")}
         if self.of and named["moves"] is not None:
             rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
+        named["wire"] = self.wire
+        if self.y is not None:
+            return Deferred(curve, self._curve(places, letters), named, carried, self.places[""])
         if self.centre is not None and self.radius is not None and not (self.through or self.along or self.normal):
+            self._check_side(("outside", "inside"))
             named["inside"] = self.side == "inside"
             of = (places.at(self.centre, "centre"), letters.value(self.radius, "radius", "length"))
             return Deferred(circle, of, named, carried, self.places[""])
         if self.through is not None and bool(self.along) != bool(self.normal) and not (self.centre or self.radius):
-            if self.side:
-                message = "`side` belongs to a circle; the free side of a plane follows from `along` or `normal`"
-                rejected("unused-key", message, self.places["side"], "leave it out")
+            self._check_side(())
             for role in ("along", "normal"):
                 if nodes := getattr(self, role):
                     named[role] = direction_of(nodes, letters)
             return Deferred(plane, (places.at(self.through, "through"),), named, carried, self.places[""])
         rejected(
-            "missing-key", f"the surface `{name}` is neither a plane nor a circle", self.places[""], SURFACE_SHAPES
+            "missing-key", f"the surface `{name}` is not a plane, a circle or a curve", self.places[""], SURFACE_SHAPES
         )
+
+    def _check_side(self, allowed: Collection[str]) -> None:
+        if self.side and self.side not in allowed:
+            if allowed:
+                message, help_line = f"this surface has no side `{self.side}`", f"write {' or '.join(allowed)}"
+            else:
+                message = (
+                    "`side` belongs to a circle or a curve; the free side of a plane follows from `along` or `normal`"
+                )
+                help_line = "leave it out"
+            rejected("unused-key", message, self.places["side"], help_line)
+
+    def _curve(self, places: Places, letters: InLetters) -> tuple[Any, ...]:
+        """Return the symbol x, the formula of a curve, the place from which x is measured, and whether the free side is
+        below."""
+        for name in ("along", "normal", "centre", "radius"):
+            if name in self.places:
+                message = f"`{name}` does not belong to a curve `y`"
+                rejected("unused-key", message, self.places[name], "leave one of them out")
+        if X in letters.letters and f"{X}_dot" not in letters.letters:
+            message = (
+                f"in the formula of a curve, `{X}` is the horizontal distance, but it is also a symbol of the problem"
+            )
+            rejected("letter-clash", message, self.places["y"], "give the symbol another name")
+        self._check_side(("above", "below"))
+        assert self.y is not None
+        x = stand_in(X)
+        formula = letters.also({X: Declared(X, x, "length")}).of_kind(self.y, "y", "length")
+        through = places.at(self.through, "through") if self.through else Location((Integer(0), Integer(0)))
+        return x, formula, through, self.side == "below"
 
     def _motion(self, places: Places, letters: InLetters) -> Any:
         if self.axes is not None and self.velocity:
@@ -80,13 +149,22 @@ class SurfaceKeys(Record):
         return None
 
 
+def _direction(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...] | str | None:
+    return RIGHT_OR_LEFT.read(node, name, faults) if isinstance(node, Scalar) else COMPONENTS.read(node, name, faults)
+
+
+DIRECTION: Reader[Any] = Reader({"anyOf": [COMPONENTS.schema, RIGHT_OR_LEFT.schema]}, _direction)
+
+
 @dataclass(frozen=True)
 class FrictionKeys(Record):
     """The keys of `friction:` of a contact."""
 
     rolling: Word | None = key("the symbol of the friction that prevents slipping", TEXT)
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
-    direction: tuple[Tree, ...] = key("with `sliding`: the direction in which the body slips", COMPONENTS)
+    direction: Any = key(
+        "with `sliding`: the direction in which the body slips, `[1, 0]`, `right` or `left`", DIRECTION
+    )
 
 
 def _friction(node: Tree, name: str, faults: Faults) -> FrictionKeys | str | None:
@@ -141,7 +219,8 @@ class ContactKeys(Record):
         assert own.sliding is not None
         found: dict[str, Any] = {"sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
         if own.direction:
-            found["direction"] = direction_of(own.direction, known.letters)
+            written = own.direction
+            found["direction"] = written if isinstance(written, str) else direction_of(written, known.letters)
         return found
 
     def _surface(self, known: Connected) -> Any:
