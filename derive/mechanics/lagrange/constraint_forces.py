@@ -37,7 +37,7 @@ from derive.steps.step import Level, Quantity, compared_with, is_zero
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
-MOST = 8  # greatest number of unknowns in one linear system
+MOST = 9  # greatest number of unknowns in one linear system
 
 
 @dataclass(frozen=True)

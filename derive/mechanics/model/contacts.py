@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
 
 from derive.algebra.expressions import TIME, Relation, as_expr, scalar
 from derive.algebra.tidy import tidied
@@ -18,9 +18,9 @@ from derive.mechanics.model.connection import Connection, PointForce, end_of, is
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
-from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity_at, velocity_of_particle
+from derive.mechanics.model.no_slip import no_slip, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, dot, unit, vector
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, distance_between, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -97,13 +97,17 @@ def contact(
     normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
                coordinates allow the body to leave the surface
     rolling    whether the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
-               the surface with the free side on the left
+               the surface with the free side on the left. In space, F_x and F_y are its components along axes in the
+               surface; if one axis is not in the surface, the component named after it is perpendicular to the other
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
     direction  with `sliding`: the direction in which the material point of the body slips over the surface, or "right"
                or "left"
     Equal and opposite forces act on the material points of both. The distance of a round body from the surface is the
-    distance of its centre minus its radius.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
+    distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at its lowest point: with
+    the unit vector e along its axis and the unit normal n, the distance is that of the centre minus
+    R sqrt(1 - (n.e)^2).
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
+    Lifshitz, *Mechanics*, section 38.
     """
     touch = _contact(of, on)
     _check_carried(touch, bool(rolling) or sliding is not None)
@@ -162,16 +166,43 @@ def _contact(of: Any, on: Any) -> Contact:
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
-    radius = radius_of(of) if isinstance(of, PlacedBody) else ZERO
-    if radius != 0 and (isinstance(surface, Curve) or surface.wire):
+    if isinstance(of, PlacedBody) and (isinstance(surface, Curve) or surface.wire):
         message = "a round body touches a plane, a circle or a sphere, but neither a curve nor a wire"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of a body touch it"))
     away = surface.normal(at)
-    place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
-    gap = surface.distance(at) if radius == 0 else tidied(surface.distance(at) - radius)
+    if not isinstance(of, PlacedBody):
+        place, gap = at, surface.distance(at)
+    else:
+        arm = _arm_of_edge(of, surface) if _is_thin(of) else -radius_of(of) * away
+        place = Location(tuple(tidied(c) for c in (at + arm).components))
+        gap = tidied(surface.distance(at) + dot(away, arm))
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     return found
+
+
+def _is_thin(placed: PlacedBody) -> bool:
+    """Whether a body that moves in space is a thin disc or a hoop."""
+    boundary = placed.body.boundary
+    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
+    return not placed.is_plane and isinstance(outer, Round) and outer.is_flat
+
+
+def _arm_of_edge(placed: PlacedBody, surface: Surface) -> Location:
+    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane.
+
+    The vector has the length of the radius; it is opposite to the component of the normal along the disc.
+    """
+    if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
+        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
+    axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
+    along = n - dot(n, axis) * axis
+    size = distance_between(Location((ZERO, ZERO, ZERO)), along)
+    if is_zero(size):
+        message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
+    return Location(tuple(-placed.body.radius * tidied(c / size) for c in along.components))
 
 
 def _check(touch: Contact) -> None:
@@ -226,36 +257,55 @@ def _reject_normal(letter: str, touch: Contact) -> None:
 
 
 def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
-    if not isinstance(touch.of, PlacedBody) or len(touch.at.components) == 3:
-        return _rolling_in_space(touch, rolling)
     ground = touch.surface.ground
+    if not isinstance(touch.of, PlacedBody):
+        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
     if touch.is_kept and rolling is True:
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
-    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
-    along = tidied(dot(touch.tangent, slip))
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
-    letter = scalar(rolling)
-    of_particles = velocity_of_particle(touch.of, touch.at, ground, touch.foot)
-    by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
-    if not is_zero(tidied(along - by_particles)):
-        raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))
-    pair = touch.pair(letter, touch.tangent)
-    return [Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction")]
+    slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
+    of_particles = Location(tuple(velocity_of_particle(touch.of, touch.at, ground, touch.foot)))
+    constraints = []
+    for letter, way in _frictions(touch, rolling).items():
+        along = tidied(dot(way, slip))
+        if not is_zero(tidied(along - dot(way, of_particles))):
+            message = "the slip is not the relative velocity of the particles in contact"
+            raise Unverified(Complaint("unverified", message))
+        pair = touch.pair(letter, way)
+        constraints.append(Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction"))
+    moving = [each for each in constraints if not is_zero(each.left)]
+    if not moving:
+        message = f"the coordinates keep the body from slipping, so the friction `{rolling}` does not appear"
+        raise Rejected(Complaint("not-an-unknown", message, help="write `rolling` without a symbol"))
+    return [*moving]
 
 
-def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
-    if not isinstance(touch.of, PlacedBody):
-        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
-    if not touch.is_kept:
-        message = "in space, rolling needs coordinates that keep the body on the surface"
-        raise Rejected(Complaint("wrong-argument", message, help="leave out the coordinate away from the surface"))
-    if rolling is True:
-        found = no_slip(touch.of, touch.at, touch.surface.ground)
-        return list(found) if isinstance(found, tuple) else [found]
-    return list(rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground))
+def _frictions(touch: Contact, letter: str) -> dict[Symbol, Location]:
+    """Return the symbols of the components of friction, each with its direction."""
+    if len(touch.at.components) == 2:
+        return {scalar(letter): touch.tangent}
+    return {scalar(f"{letter}_{axis}"): way for axis, way in _ways_along(touch).items()}
+
+
+def _ways_along(touch: Contact) -> dict[str, Location]:
+    """Return perpendicular unit vectors along a surface in space, by the names of axes.
+
+    Two axes, if they are in the surface; or a horizontal axis in the surface and the unit vector perpendicular to it,
+    which points to the side of the other horizontal axis on a surface that faces upwards.
+    """
+    n = touch.normal.components
+    flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
+    if len(flat) == 2:
+        return {"xyz"[i]: way for i, way in flat.items()}
+    if 0 in flat:
+        return {"x": flat[0], "y": Location((ZERO, n[2], -n[1]))}
+    if 1 in flat:
+        return {"x": Location((n[2], ZERO, -n[0])), "y": flat[1]}
+    message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
+    raise Rejected(Complaint("wrong-argument", message, help="use the key `rolling`, or another surface"))
 
 
 def _slip(touch: Contact, direction: Any) -> Location:

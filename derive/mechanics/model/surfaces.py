@@ -17,6 +17,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.part import moved
 from derive.steps.record import assume, coordinates_in
+from derive.steps.signs import sign_for_all
 from derive.steps.step import is_zero
 
 __all__ = ["circle", "curve", "plane"]
@@ -348,16 +349,19 @@ def _positive(length: Expr) -> Expr:
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
                     if not term.has(TIME)))  # fmt: skip
+    known = sign_for_all(length)
     for sign in (1, -1):
-        if (sign * length).is_positive:
+        if known == sign:
             return sign * length
         if (sign * at_zero).is_positive:
             assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
-    name = next(iter(moving), length)
+    name, kind = next(iter(moving.items()), (length, "length"))
     help_line = Spelled(
         f'make the coordinate positive: `coordinate("{name}", "length", positive=True)`',
         f"make the coordinate positive: `{name}: positive length`",
     )
+    if kind == "angle":
+        help_line = Spelled("give the angle a range", f"give the angle a range, such as `{name}: angle in (0, pi)`")
     raise Rejected(Complaint("sign", message, help=help_line))

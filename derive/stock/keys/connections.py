@@ -160,7 +160,9 @@ DIRECTION: Reader[Any] = Reader({"anyOf": [COMPONENTS.schema, RIGHT_OR_LEFT.sche
 class FrictionKeys(Record):
     """The keys of `friction:` of a contact."""
 
-    rolling: Word | None = key("the symbol of the friction that prevents slipping", TEXT)
+    rolling: Word | None = key(
+        "the symbol F of the friction that prevents slipping; in space its components are F_x and F_y", TEXT
+    )
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
     direction: Any = key(
         "with `sliding`: the direction in which the body slips, `[1, 0]`, `right` or `left`", DIRECTION
@@ -206,7 +208,16 @@ class ContactKeys(Record):
             named["rolling"] = True
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
-        return Deferred(contact, (), named, forces=tuple(map(str, self.symbols())), place=self.places[""])
+        forces = tuple(map(str, [*self.symbols(), *self._components(known)]))
+        return Deferred(contact, (), named, forces=forces, place=self.places[""])
+
+    def _components(self, known: Connected) -> list[Word]:
+        """Return the symbols of the components that the friction of rolling has in space."""
+        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
+        if rolling is None or not known.places.turns:  # only a body that moves in space has axes
+            return []
+        components = [Word.at(f"{rolling}_{axis}", rolling.place) for axis in "xyz"]
+        return [word for word in components if force_letter(word, known.letters)]
 
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
         if (own.rolling is None) == (own.sliding is None):
