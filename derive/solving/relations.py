@@ -180,5 +180,9 @@ def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: i
         help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
         return Rejected(Complaint("no-condition", message, help=help_line))
     message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
-    other = f"write `{unknown**power}`" if power > 1 else "give another symbol on which this result depends"
+    other = (
+        f"write `{unknown**power}` in place of `{unknown}`"
+        if power > 1
+        else "give another symbol on which this result depends"
+    )
     return Rejected(Complaint("no-condition", message, help=other))

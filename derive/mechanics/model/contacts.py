@@ -175,7 +175,7 @@ def _contact(of: Any, on: Any) -> Contact:
     else:
         arm = _arm_of_edge(of, surface) if _is_thin(of) else -radius_of(of) * away
         place = Location(tuple(tidied(c) for c in (at + arm).components))
-        gap = tidied(surface.distance(at) + dot(away, arm))
+        gap = tidied(surface.distance(at) + (dot(away, arm) if _is_thin(of) else -radius_of(of)))
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     return found

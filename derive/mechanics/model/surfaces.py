@@ -262,7 +262,8 @@ def curve(
 
     x        the symbol for the horizontal distance from `through`, m
     height   f(x), the height above `through`, m
-    through  the place from which x and y are measured; by default the origin. The material of the curve moves with it
+    through  the place from which x and y are measured; by default the particle that carries the curve, or the origin.
+             The material of the curve moves with it
     below    whether the free side is below the curve; by default it is above
     of       the body or particle that carries the curve; the curve moves with it without rotation
     wire     as for `plane`
@@ -270,7 +271,8 @@ def curve(
     a gradient of the length sqrt(1 + f'^2), so its multiplier is N/sqrt(1 + f'^2).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
-    through = Location((ZERO, ZERO)) if through is None else through
+    origin = of.centre if isinstance(of, PlacedBody) else Location((ZERO, ZERO)) if of is None else of.at
+    through = origin if through is None else through
     letter, formula = as_expr(x), explicit(as_expr(height))
     if not isinstance(letter, Symbol):
         raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
@@ -281,6 +283,12 @@ def curve(
     if moving:
         message = f"the formula of a curve contains {moving[0]}, but a curve has a constant shape"
         raise Rejected(Complaint("changes", message, help=f"the formula may contain {letter} and constants"))
+    apart = coordinates_in(column_of(through - origin)) if of is not None else {}
+    if apart:
+        message = (
+            f"the curve does not move with the body that carries it: their distance changes with {next(iter(apart))}"
+        )
+        raise Rejected(Complaint("which-body", message, help="give a place that moves with the body, `through: track`"))
     if isinstance(of, PlacedBody) and not is_zero(_turning(of)):
         message = f"a curve moves without rotation, but {of.body.name} rotates"
         raise Rejected(Complaint("wrong-argument", message, help="let a particle carry the curve"))

@@ -6,8 +6,6 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Integer
-
 from derive.algebra.expressions import TIME, stand_in
 from derive.course.expression import Declared
 from derive.course.schema import (
@@ -67,7 +65,10 @@ class Connected:
 class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
-    through: WrittenPlace | None = key("for a plane, a place on it; for a curve, the place where x = y = 0", PLACE)
+    through: WrittenPlace | None = key(
+        "for a plane, a place on it; for a curve, the place where x = y = 0: by default the origin, or the body `of`",
+        PLACE,
+    )
     along: tuple[Tree, ...] = key(
         "for a plane, in a plane of motion, a direction along it: the free side is on the left, so above `[1, 0]`",
         COMPONENTS,
@@ -92,7 +93,7 @@ class SurfaceKeys(Record):
             rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
         named["wire"] = self.wire
         if self.y is not None:
-            return Deferred(curve, self._curve(places, letters), named, carried, self.places[""])
+            return Deferred(curve, self._curve(self.y, places, letters), named, carried, self.places[""])
         if self.centre is not None and self.radius is not None and not (self.through or self.along or self.normal):
             self._check_side(("outside", "inside"))
             named["inside"] = self.side == "inside"
@@ -111,15 +112,12 @@ class SurfaceKeys(Record):
     def _check_side(self, allowed: Collection[str]) -> None:
         if self.side and self.side not in allowed:
             if allowed:
-                message, help_line = f"this surface has no side `{self.side}`", f"write {' or '.join(allowed)}"
-            else:
-                message = (
-                    "`side` belongs to a circle or a curve; the free side of a plane follows from `along` or `normal`"
-                )
-                help_line = "leave it out"
-            rejected("unused-key", message, self.places["side"], help_line)
+                message = f"this surface has no side `{self.side}`"
+                rejected("unused-key", message, self.places["side"], f"write {' or '.join(allowed)}")
+            message = "`side` belongs to a circle or a curve; the free side of a plane follows from `along` or `normal`"
+            rejected("unused-key", message, self.places["side"], "leave it out")
 
-    def _curve(self, places: Places, letters: InLetters) -> tuple[Any, ...]:
+    def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
         """Return the symbol x, the formula of a curve, the place from which x is measured, and whether the free side is
         below."""
         for name in ("along", "normal", "centre", "radius"):
@@ -127,15 +125,12 @@ class SurfaceKeys(Record):
                 message = f"`{name}` does not belong to a curve `y`"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
         if X in letters.letters and f"{X}_dot" not in letters.letters:
-            message = (
-                f"in the formula of a curve, `{X}` is the horizontal distance, but it is also a symbol of the problem"
-            )
+            message = f"in the formula of a curve, `{X}` is the horizontal distance, but `{X}` is under `symbols` too"
             rejected("letter-clash", message, self.places["y"], "give the symbol another name")
         self._check_side(("above", "below"))
-        assert self.y is not None
         x = stand_in(X)
-        formula = letters.also({X: Declared(X, x, "length")}).of_kind(self.y, "y", "length")
-        through = places.at(self.through, "through") if self.through else Location((Integer(0), Integer(0)))
+        formula = letters.also({X: Declared(X, x, "length")}).of_kind(written, "y", "length")
+        through = places.at(self.through, "through") if self.through else None
         return x, formula, through, self.side == "below"
 
     def _motion(self, places: Places, letters: InLetters) -> Any:
