@@ -33,7 +33,7 @@ _BEGINNING = """\
 
 `tools/gallery.py` writes this page; do not edit it. Each picture shows the beginning of a page that a build has
 written for a browser. The YAML of the problem is below the picture, without the comparison with a book. All problems of
-`problems/library` are in YAML alone. `make library` builds these 92 problems, and `derive list` lists them.
+`problems/library` are in YAML alone. `make library` builds these 94 problems, and `derive list` lists them.
 `derive new hw10/mine --like library/torus` begins a problem of your own with a copy of `library/torus`.
 """
 

@@ -66,6 +66,7 @@ BENEATH = 18.0  # the distance of dimension lines beneath what carries a plane, 
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
+EXACT = 1e-6
 SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
 
 
@@ -162,6 +163,11 @@ class ConnectedScene:
         """The size of the largest body."""
         sizes = [mark.radius for mark in self._outlines if isinstance(mark, WheelMark) and mark.radius is not None]
         return max(sizes, key=numeric, default=ONE)
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether each body that touches a curve is drawn on the curve; not all coordinates can be found from it."""
+        return all(abs(self._number(each.gap)) < EXACT for each in self.contacts if isinstance(each.surface, Curve))
 
     def _number(self, value: Expr) -> float:
         return numeric(value.subs(self.values), self.values)
@@ -275,8 +281,9 @@ class ConnectedScene:
         ways = [(each.at - curve.through).components[0] for each in contacts]
         far = PAST * max((way if self._number(way) > 0 else -way for way in ways), key=self._number)
         place = column_of(curve.through + Location((curve.letter, curve.formula)))
-        if curve.wire:
-            return WayMark(place, curve.letter, -far, far, "wire")
+        if curve.wire or curve.of is not None:
+            label = curve.of.mass if isinstance(curve.of, Particle) else None
+            return WayMark(place, curve.letter, -far, far, "wire", label=label)
         solid = _direction(0, 1 if curve.below else -1)
         return CurvedGround(place, curve.letter, -far, far, "ground", solid=solid)
 

@@ -85,6 +85,8 @@ def sketch(
     """
     if is_described(system) and len(system.places[0].components) == 2 and impact is None:
         connected = ConnectedScene(system)
+        if not more and not connected.is_possible:
+            return None
         return drawing(key, connected.marks, *more, values={**connected.values, **(values or {})})
     scene = _Scene(system, named, weights, start, impact)
     if not more and not scene.is_whole:
