@@ -463,3 +463,38 @@ def test_a_coordinate_on_the_curve_needs_no_normal_force(tmp_path: Path) -> None
     text = edited(CURVE, ("{x: length, y: length}", "{x: length}"), ("at: [x, y]", "at: [x, x**2/(2*b)]"))
     text = edited(text, (", normal: N", ""), (": N\n", ": motion_x\n"))
     assert "motion_x" in solved(tmp_path, text)
+
+
+def test_the_impulse_of_a_curve_is_along_its_unit_normal(tmp_path: Path) -> None:
+    """A horizontal impulse P at x = c: J_N = P c/sqrt(b^2 + c^2), against the component of P along the normal."""
+    impact = "  impact: {impulses: {components: [m*V, 0], at: bead}, at: {x: c, y: c**2/(2*b)}}\nstatement"
+    text = edited(CURVE, ("statement", impact), (": N\n", ": [J_N, rates_after]\n"))
+    value = explicit(solved(tmp_path, text)["J_N"].value)
+    assert value_at(value, {"m": 2.0, "V": 3.0, "b": 4.0, "c": 3.0}) == pytest.approx(2.0 * 3.0 * 3.0 / 5.0)
+
+
+ROLLING = problem(trial_called("disc-floor-in space"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("normal: [0, 0, 1]", "normal: [1, 1, 1]", "no horizontal axis is in this surface"),
+        ("theta: 'angle in (0, pi)'", "theta: angle", "the sign of sin(theta) is unknown"),
+        ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "touches a plane"),
+        ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
+        ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
+        ("{rolling: F}", "rolling", "a friction must prevent slipping"),
+        ("shape: disc", "shape: cylinder, height: a", "is not round in this view"),
+    ],
+)
+def test_rolling_in_space_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(ROLLING, (old, new)))
+    assert said in message
+
+
+def test_the_direction_along_a_surface_needs_a_known_inclination(tmp_path: Path) -> None:
+    """On a circle the surface faces upwards or downwards, so the direction to the right is not decided."""
+    text = edited(CURVE, SLIDING, ("{y: x**2/(2*b)}", "{centre: [0, 0], radius: b}"))
+    (message, *_) = messages(tmp_path, text)
+    assert "points to the right is unknown" in message

@@ -20,7 +20,7 @@ from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import no_slip, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, distance_between, dot, unit, vector
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, direction_between, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -198,11 +198,11 @@ def _arm_of_edge(placed: PlacedBody, surface: Surface) -> Location:
         raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
     axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
     along = n - dot(n, axis) * axis
-    size = distance_between(Location((ZERO, ZERO, ZERO)), along)
-    if is_zero(size):
+    if is_zero(ImmutableDenseMatrix(along.components)):
         message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
         raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
-    return Location(tuple(-placed.body.radius * tidied(c / size) for c in along.components))
+    way = direction_between(Location((ZERO, ZERO, ZERO)), along)
+    return Location(tuple(-placed.body.radius * c for c in way.components))
 
 
 def _check(touch: Contact) -> None:
