@@ -136,8 +136,8 @@ def test_rolling_in_space_without_the_velocity_of_the_table_is_refused(
 def test_an_edge_of_a_disc_that_is_not_its_lowest_point_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arm = contacts._arm_of_edge
-    monkeypatch.setattr(contacts, "_arm_of_edge", lambda of, on: sin(Symbol("theta", real=True)) * arm(of, on))
+    edge, theta = contacts._to_edge, Symbol("theta", real=True)
+    monkeypatch.setattr(contacts, "_to_edge", lambda of, on: tuple(sin(theta) * each for each in edge(of, on)))
     assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("disc-floor-in space"))
 
 

@@ -173,9 +173,9 @@ def _contact(of: Any, on: Any) -> Contact:
     if not isinstance(of, PlacedBody):
         place, gap = at, surface.distance(at)
     else:
-        arm = _arm_of_edge(of, surface) if _is_thin(of) else -radius_of(of) * away
+        arm, reach = _to_edge(of, surface) if _is_thin(of) else (-radius_of(of) * away, radius_of(of))
         place = Location(tuple(tidied(c) for c in (at + arm).components))
-        gap = tidied(surface.distance(at) + (dot(away, arm) if _is_thin(of) else -radius_of(of)))
+        gap = tidied(surface.distance(at) - reach)
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     return found
@@ -183,13 +183,20 @@ def _contact(of: Any, on: Any) -> Contact:
 
 def _is_thin(placed: PlacedBody) -> bool:
     """Whether a body that moves in space is a thin disc or a hoop."""
+    outline = _outline(placed)
+    return not placed.is_plane and outline is not None and outline.is_flat
+
+
+def _outline(placed: PlacedBody) -> Round | None:
+    """Return the outer boundary of a body, if it is round."""
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    return not placed.is_plane and isinstance(outer, Round) and outer.is_flat
+    return outer if isinstance(outer, Round) else None
 
 
-def _arm_of_edge(placed: PlacedBody, surface: Surface) -> Location:
-    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane.
+def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
+    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane, and the distance
+    of this point from the centre along the normal.
 
     The vector has the length of the radius; it is opposite to the component of the normal along the disc.
     """
@@ -201,8 +208,10 @@ def _arm_of_edge(placed: PlacedBody, surface: Surface) -> Location:
     if is_zero(ImmutableDenseMatrix(along.components)):
         message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
         raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
-    way = direction_between(Location((ZERO, ZERO, ZERO)), along)
-    return Location(tuple(-placed.body.radius * c for c in way.components))
+    outline, way = _outline(placed), direction_between(Location((ZERO, ZERO, ZERO)), along)
+    assert outline is not None
+    radius = outline.radius_at(outline.ends[0])
+    return -radius * way, radius * dot(n, way)
 
 
 def _check(touch: Contact) -> None:
@@ -237,9 +246,8 @@ def radius_of(placed: PlacedBody) -> Expr:
 
 
 def _round_radius(placed: PlacedBody) -> Expr | None:
-    boundary = placed.body.boundary
-    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    if not isinstance(outer, Round) or placed.across not in (2, None):
+    outer = _outline(placed)
+    if outer is None or placed.across not in (2, None):
         return None
     z = Symbol("z_along", real=True)
     middle = (outer.ends[0] + outer.ends[1]) / 2
