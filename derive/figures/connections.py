@@ -36,7 +36,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
-from derive.figures.surroundings import ROOM, AngleBetween, FixedEnd, FloorMark, GroundMark, WayMark
+from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
 from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
@@ -45,7 +45,7 @@ from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.joints import Dashpot, Motor, Pin
 from derive.mechanics.model.strings import Line, Pulley, Wire
-from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, dot
 from derive.mechanics.model.system import Particle, System
 
 ZERO, ONE = Integer(0), Integer(1)
@@ -58,6 +58,7 @@ BOWL = 4  # the radius of a bowl, relative to the largest body in it
 TABLE = 4  # the radius of a table in space, relative to the largest body on it
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
+EXACT = 1e-6
 SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
 FAR = Rational(8, 5)  # drawn range of a wire, relative to the value of its coordinate
 
@@ -207,6 +208,11 @@ class Connections:
         ends = [[Location(tuple(place)) for place in (bar.start, bar.end)] for bar in bars]
         return max(sizes or [distance_of(*each) / 6 for each in ends], key=numeric, default=ONE)
 
+    @property
+    def is_possible(self) -> bool:
+        """Whether each body that touches a curve is drawn on the curve; not all coordinates can be found from it."""
+        return all(abs(self.number(each.gap)) < EXACT for each in self.contacts if isinstance(each.surface, Curve))
+
     def number(self, value: Expr) -> float:
         return numeric(value.subs(self.values), self.values)
 
@@ -242,6 +248,8 @@ class Connections:
     def _surface(self, surface: Surface, contacts: Sequence[Contact]) -> Iterable[Mark]:
         if isinstance(surface, Circle):
             yield from self._circle(surface, contacts)
+        elif isinstance(surface, Curve):
+            yield self._curve(surface, contacts)
         elif isinstance(surface, Plane):
             low, high = self._ends(surface, contacts)
             if isinstance(surface.of, Particle):
@@ -387,6 +395,17 @@ class Connections:
             if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
                 return each.surface.through.components[1]
         return None
+
+    def _curve(self, curve: Curve, contacts: Sequence[Contact]) -> Mark:
+        """Return the drawn part of a curve: to both sides of its origin, a little farther than the bodies on it."""
+        ways = [(each.at - curve.through).components[0] for each in contacts]
+        far = PAST * max((way if self.number(way) > 0 else -way for way in ways), key=self.number)
+        place = column_of(curve.through + Location((curve.letter, curve.formula)))
+        if curve.is_two_sided or curve.of is not None:
+            label = curve.of.mass if isinstance(curve.of, Particle) else None
+            return WayMark(place, curve.letter, -far, far, "wire", label=label)
+        solid = _direction(0, 1 if curve.below else -1)
+        return CurvedGround(place, curve.letter, -far, far, "ground", solid=solid)
 
     def _circle(self, circle: Circle, contacts: Sequence[Contact]) -> Iterable[Mark]:
         centre = column_of(circle.centre)

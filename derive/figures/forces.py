@@ -53,6 +53,8 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     if _has_others(system) or not _moves_by(system, of, acting, found):
         return None
     scene = Connections(system)
+    if not scene.is_possible:
+        return None
     forces = _forces(system, acting, found, {q: scene.values[q] for q in system.coordinates if q in scene.values})
     if forces is None:
         return None

@@ -103,6 +103,7 @@ class _Scene:
         """
         return (
             all(each.enforcer for each in self.system.constraints)
+            and self.connections.is_possible
             and self._bodies_are_seen()
             and self._rolling_is_seen()
             and self._energies_are_seen()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
@@ -155,6 +156,30 @@ class WayMark(Surface):
 
     def in_words(self) -> InWords | None:
         return "wire" if self.pen == "wire" else "way", {"label": self.label}
+
+
+@dataclass(frozen=True)
+class CurvedGround(WayMark):
+    """A curve that is hatched on its solid side.
+
+    solid   a direction towards the solid side, the same for all points
+    """
+
+    solid: Position = field(kw_only=True)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        def spots(steps: int) -> tuple[Spot, ...]:
+            return paper.spots(*paper.numbers.along(self.place, self.letter, (self.lower, self.upper), steps))
+
+        solid = paper.spot(paper.numbers.vector(self.solid))
+        far = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(spots(STEPS)))
+        found: list[Piece] = [Stroke(spots(STEPS), "ground")]
+        for a, b in pairwise(spots(max(1, round(far / HATCH)))):
+            found += hatched(a, b, _across(a, b, solid))[1:]
+        return found
+
+    def in_words(self) -> InWords:
+        return "ground", {}
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,7 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     outside = Mul(written / core, *beside).xreplace({u: unknown})
     found = isolated(core, u)
     if found is None or found.power > 2 or found.factor.has(u):
-        raise unsolvable(of, unknown)
+        raise unsolvable(of, unknown, power=1 if found is None else found.power)
     turned = mark_between(mark, sign_known(found.factor * outside))
     if turned is None:
         raise unsolvable(of, unknown, _without_sign(found.factor * outside))
@@ -173,11 +173,16 @@ def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
 
 
-def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None) -> Rejected:
+def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: int = 1) -> Rejected:
     if factor is not None:
         message = f"`{of.key}` cannot be solved for {unknown}: it would be divided by {factor}, whose sign is unknown"
         letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
         help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
         return Rejected(Complaint("no-condition", message, help=help_line))
     message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
-    return Rejected(Complaint("no-condition", message, help="give another symbol on which this result depends"))
+    other = (
+        f"write `{unknown**power}` in place of `{unknown}`"
+        if power > 1
+        else "give another symbol on which this result depends"
+    )
+    return Rejected(Complaint("no-condition", message, help=other))

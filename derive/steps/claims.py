@@ -107,9 +107,9 @@ def never_vanishes(v: Any) -> bool:
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether two expressions vanish at the same values of the symbols, since their ratio is always positive or always
-    negative."""
-    return is_zero(value) if is_zero(other) else not may_be_zero(tidied(value / other))
+    """Whether two expressions vanish at the same values of the symbols, since they are equal, or since their ratio is
+    always positive or always negative."""
+    return is_zero(value - other) or not is_zero(other) and not may_be_zero(tidied(value / other))
 
 
 def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.result) -> Predicate:

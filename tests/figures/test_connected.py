@@ -13,7 +13,7 @@ from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import BarMark, BlockMark, ParticleMark, RopeMark, WedgeMark, WheelMark
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle
-from derive.figures.surroundings import AngleBetween, FixedEnd, GroundMark
+from derive.figures.surroundings import AngleBetween, CurvedGround, FixedEnd, GroundMark, WayMark
 from derive.steps.record import Run
 from tests.stock.described import edited, loaded
 
@@ -152,3 +152,38 @@ def test_a_force_whose_direction_is_not_decided_has_no_diagram(tmp_path: Path) -
     """Whether the disc is below the axis depends on the sign of R - a."""
     assert "forces_disc" not in drawings(tmp_path, DRUM)
     assert "forces_disc" in drawings(tmp_path, edited(DRUM, ("  gravity: g", "  assume: a < R\n  gravity: g")))
+
+
+CURVE = """\
+title: A particle on a curve
+solve: system
+symbols: {m: mass, b: length, g: acceleration}
+given:
+  coordinates: {x: length, y: length}
+  particles: {particle: {mass: m, at: [x, y]}}
+  gravity: g
+  surfaces: {hill: {y: -x**2/(2*b)}}
+  contacts: {of: particle, on: hill, normal: N}
+statement: A particle.
+parts:
+  - ask: Find the force.
+    answer: N
+"""
+
+
+@pytest.mark.parametrize(("side", "solid"), [("", -1), (", side: below", 1)])
+def test_a_curve_is_hatched_on_its_solid_side(side: str, solid: int, tmp_path: Path) -> None:
+    drawing = drawings(tmp_path, edited(CURVE, ("(2*b)}", f"(2*b){side}}}")))["system"]
+    (mark,) = of_class(drawing, CurvedGround)
+    assert list(mark.solid) == [0, solid]
+
+
+def test_a_wire_has_no_hatches(tmp_path: Path) -> None:
+    drawing = drawings(tmp_path, edited(CURVE, ("(2*b)}", "(2*b), wire: true}")))["system"]
+    assert not of_class(drawing, CurvedGround)
+    assert [mark.pen for mark in of_class(drawing, WayMark)] == ["wire"]
+
+
+def test_a_particle_whose_place_on_a_curve_is_unknown_is_not_drawn(tmp_path: Path) -> None:
+    polar = ("{x: length, y: length}", "{r: positive length, theta: angle}"), ("[x, y]", "[r*cos(theta), r*sin(theta)]")
+    assert not drawings(tmp_path, edited(CURVE, *polar))

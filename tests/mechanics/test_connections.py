@@ -8,7 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Expr, Symbol, cos, sin, symbols
+from sympy import Expr, Integer, Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import explicit
 from derive.course.problem import run_solve
@@ -16,10 +16,12 @@ from derive.errors import DeriveError
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.model import contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.surfaces import Curve
 from derive.steps.record import Run
 from tests.courses import ROOT
+from tests.newton_euler.in_space import in_space
 from tests.newton_euler.laws import solved as newton
-from tests.newton_euler.random_systems import Trial, key_of, on_a_surface, problem, with_strings
+from tests.newton_euler.random_systems import Trial, key_of, on_a_curve, on_a_surface, problem, with_strings
 from tests.stock.described import edited, loaded, messages, solved
 
 
@@ -27,7 +29,7 @@ def on_a_surface_called(name: str) -> Trial:
     return next(trial for trial in on_a_surface() if trial.name == name)
 
 
-TRIALS = [*on_a_surface(), *with_strings()]
+TRIALS = [*on_a_surface(), *on_a_curve(), *with_strings(), *in_space()]
 STATES = 4
 
 
@@ -85,6 +87,57 @@ def test_rolling_without_the_velocity_of_the_surface_is_refused(
     still = lambda of, at: velocity(of if isinstance(of, PlacedBody) else None, at)  # noqa: E731
     monkeypatch.setattr(contacts, "velocity_at", still)
     assert "not the relative velocity" in refused(tmp_path, WEDGE)
+
+
+def trial_called(name: str) -> Trial:
+    return next(trial for trial in TRIALS if trial.name == name)
+
+
+def test_a_normal_of_a_curve_that_is_not_a_unit_vector_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    normal = Curve.normal
+    long = lambda self, at: self.gradient(at) * normal(self, at)  # noqa: E731
+    monkeypatch.setattr(Curve, "normal", long)
+    assert "not a unit vector" in refused(tmp_path, trial_called("bowl-none"))
+    monkeypatch.setattr(contacts, "_check", lambda touch: None)
+    assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("bowl-none"))
+
+
+def test_a_multiplier_of_a_curve_that_is_called_its_force_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    normal = contacts._normal
+    monkeypatch.setattr(contacts, "_normal", lambda *given: replace(normal(*given), gradient=Integer(1)))
+    assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("bowl-none"))
+
+
+def test_friction_at_the_centre_of_a_ball_in_space_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pair = Contact.pair
+
+    def at_centre(touch: Contact, size: Expr, direction: Any) -> Any:
+        one, other = pair(touch, size, direction)
+        return (replace(one, at=one.of.centre) if size.name.startswith("F") else one), other
+
+    monkeypatch.setattr(Contact, "pair", at_centre)
+    assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("ball-floor-in space"))
+
+
+def test_rolling_in_space_without_the_velocity_of_the_table_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    velocity = contacts.velocity_at
+    still = lambda of, at: velocity(of if isinstance(of, PlacedBody) else None, at)  # noqa: E731
+    monkeypatch.setattr(contacts, "velocity_at", still)
+    assert "not the relative velocity" in refused(tmp_path, trial_called("ball-turntable-in space"))
+
+
+def test_an_edge_of_a_disc_that_is_not_its_lowest_point_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edge, theta = contacts._to_edge, Symbol("theta", real=True)
+    monkeypatch.setattr(contacts, "_to_edge", lambda of, on: tuple(sin(theta) * each for each in edge(of, on)))
+    assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("disc-floor-in space"))
 
 
 def test_different_tensions_on_the_two_sides_of_a_pulley_are_refused(
@@ -145,7 +198,7 @@ parts:
             "friction: {static: mu, force: F}",
             "must keep it there",
         ),
-        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "neither a plane nor a circle"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "not a plane, a circle or a curve"),
         ("on: ground, normal", "on: one, normal", "no contact uses the surface `ground`"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface is not constant"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "is not along the surface"),
@@ -160,7 +213,11 @@ parts:
             "its material moves with its centre",
         ),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [x, 1]}", "different dimensions"),
-        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0], along: [1, 0], side: inside}", "a plane has no `inside`"),
+        (
+            "{through: [0, 0], along: [1, 0]}",
+            "{through: [0, 0], along: [1, 0], side: inside}",
+            "a plane has no `inside`",
+        ),
         ("centre: [x, y]", "centre: [x, a]", "keep the body on the surface"),
         ("shape: ball, radius: a", "shape: cone, radius: a, height: a, across: x", "is not round in this view"),
     ],
@@ -333,3 +390,123 @@ def test_an_impulse_at_a_point_of_a_body_acts_on_the_body(tmp_path: Path) -> Non
     value = explicit(solved(tmp_path, text)["theta_dot_after"].value)
     assert {letter.name for letter in value.free_symbols} == {"J", "M", "l"}
     assert value_at(value, {"J": 2.0, "M": 3.0, "l": 5.0}) == pytest.approx(3 * 2 / (3 * 5))
+
+
+CURVE = """\
+title: A bead on a curve
+solve: system
+symbols: {m: mass, b: length, g: acceleration, c: length, mu: positive number, V: speed}
+given:
+  coordinates: {x: length, y: length}
+  particles: {bead: {mass: m, at: [x, y]}}
+  gravity: g
+  surfaces: {bowl: {y: x**2/(2*b)}}
+  contacts: {of: bead, on: bowl, normal: N}
+statement: A bead.
+parts:
+  - ask: Find the motion.
+    answer: N
+"""
+SLIDING = ("normal: N}", "normal: N, friction: {sliding: mu, direction: right}}")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ([("x**2/(2*b)", "x**2")], "`y` must be a length"),
+        ([("x**2/(2*b)", "x**2/(2*b) + V*t")], "contains t, but a curve has a constant shape"),
+        ([("x**2/(2*b)", "x**2/(2*b) + y/7")], "contains y, but a curve has a constant shape"),
+        ([("x**2/(2*b)}", "x**2/(2*b), side: inside}")], "no side `inside`"),
+        ([("x**2/(2*b)}", "x**2/(2*b), radius: b}")], "`radius` does not belong to a curve"),
+        ([("x**2/(2*b)}", "x**2/(2*b), velocity: [V, 0]}")], "a curve moves with the place `through`"),
+        ([("x**2/(2*b)}", "x**2/(2*b), through: [y, 0]}")], "moves with y, but no body carries it"),
+        ([("at: [x, y]", "at: [x, x**2/(2*b)]")], "keep the body on the surface"),
+        ([("x**2/(2*b)}", "x**2/(2*b), side: both}"), SLIDING], "may have either sign"),
+        (
+            [("{y: x**2/(2*b)}", "{centre: [0, 0], radius: b, side: above}")],
+            "no side `above`",
+        ),
+        ([("coordinates: {x: length", "coordinates: {u: length"), ("at: [x", "at: [u"), ("mu:", "x: length, mu:")],
+         "is under `symbols` too"),
+        (
+            [("particles: {bead: {mass: m, at: [x, y]}}", "bodies: {bead: {shape: ball, radius: b, mass: m, "
+              "centre: [x, y], turned: 0}}")],
+            "but neither a curve nor a rail",
+        ),
+    ],
+)  # fmt: skip
+def test_a_curve_that_cannot_be_meant_is_told(changes: list[tuple[str, str]], said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(CURVE, *changes))
+    assert said in message
+
+
+def test_the_force_of_a_wire_has_either_sign_and_is_never_lost(tmp_path: Path) -> None:
+    text = edited(CURVE, ("x**2/(2*b)}", "x**2/(2*b), side: both}"))
+    solved(tmp_path, text)
+    text = edited(
+        text, ("statement", "  results: {off: {leaves: N, for: x, start: 0}}\nstatement"), (": N\n", ": off\n")
+    )
+    (message, *_) = messages(tmp_path, text)
+    assert "is the force of a rail, which may have either sign" in message
+
+
+def test_a_particle_leaves_a_hill_where_its_normal_force_vanishes(tmp_path: Path) -> None:
+    """From rest at the top of y = -x^3/c^2, N is proportional to c^4 - 3 x^4."""
+    hill = "-x**3/c**2"
+    results = f"""\
+  results:
+    on_it: {{put_in: energy_function, values: {{y: {hill}, y_dot: -3*x**2*x_dot/c**2}}}}
+    speed: {{speed: on_it, for: x, start: 0, results: acceleration_x}}
+    force: {{put_in: N, results: [speed]}}
+    off: {{leaves: force, for: x**4, start: 0}}
+statement"""
+    text = edited(
+        CURVE, ("x**2/(2*b)", hill), ("statement", results), (": N\n", ": off\n"), ("{x: length", "{x: positive length")
+    )
+    value = explicit(solved(tmp_path, text)["off"].value)
+    c = next(iter(value.right.free_symbols))
+    assert value.operator == "=" and value.right == c**4 / 3
+    with pytest.raises(DeriveError) as error:
+        solved(tmp_path, edited(text, ("for: x**4", "for: x")))
+    assert error.value.complaints[0].help == "write `x**4` in place of `x`"
+
+
+def test_a_coordinate_on_the_curve_needs_no_normal_force(tmp_path: Path) -> None:
+    text = edited(CURVE, ("{x: length, y: length}", "{x: length}"), ("at: [x, y]", "at: [x, x**2/(2*b)]"))
+    text = edited(text, (", normal: N", ""), (": N\n", ": motion_x\n"))
+    assert "motion_x" in solved(tmp_path, text)
+
+
+def test_the_impulse_of_a_curve_is_along_its_unit_normal(tmp_path: Path) -> None:
+    """A horizontal impulse P at x = c: J_N = P c/sqrt(b^2 + c^2), against the component of P along the normal."""
+    impact = "  impact: {impulses: {components: [m*V, 0], at: bead}, at: {x: c, y: c**2/(2*b)}}\nstatement"
+    text = edited(CURVE, ("statement", impact), (": N\n", ": [J_N, rates_after]\n"))
+    value = explicit(solved(tmp_path, text)["J_N"].value)
+    assert value_at(value, {"m": 2.0, "V": 3.0, "b": 4.0, "c": 3.0}) == pytest.approx(2.0 * 3.0 * 3.0 / 5.0)
+
+
+ROLLING = problem(trial_called("disc-floor-in space"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("normal: [0, 0, 1]", "normal: [1, 1, 1]", "no horizontal axis is in this surface"),
+        ("theta: 'angle in (0, pi)'", "theta: angle", "the sign of sin(theta) is unknown"),
+        ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "touches a plane"),
+        ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
+        ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
+        ("{rolling: F}", "rolling", "a friction must prevent slipping"),
+        ("shape: disc", "shape: cylinder, height: a", "is not round in this view"),
+    ],
+)
+def test_rolling_in_space_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(ROLLING, (old, new)))
+    assert said in message
+
+
+def test_the_direction_along_a_surface_needs_a_known_inclination(tmp_path: Path) -> None:
+    """On a circle the surface faces upwards or downwards, so the direction to the right is not decided."""
+    text = edited(CURVE, SLIDING, ("{y: x**2/(2*b)}", "{centre: [0, 0], radius: b}"))
+    (message, *_) = messages(tmp_path, text)
+    assert "points to the right is unknown" in message

@@ -145,6 +145,54 @@ class _OnSurface:
         return found
 
 
+CURVES: dict[str, tuple[str, Callable[[float, float], tuple[float, float, float]]]] = {
+    "bowl": ("y: x**2/(2*R)", lambda x, R: (x**2 / (2 * R), x / R, 1 / R)),
+    "hill": ("y: -x**3/R**2", lambda x, R: (-(x**3) / R**2, -3 * x**2 / R**2, -6 * x / R**2)),
+    "arch": ("y: R*cos(x/R), side: below", lambda x, R: (R * cos(x / R), -sin(x / R), -cos(x / R) / R)),
+    "track": ("y: x**2/(2*R), through: wedge, of: wedge", lambda x, R: (x**2 / (2 * R), x / R, 1 / R)),
+}
+
+
+def on_a_curve() -> Iterator[Trial]:
+    """A particle on a curve y = f(x), which may be carried by another particle; smooth, or sliding to the right."""
+    for name, friction in product(CURVES, ("none", "{sliding: mu, direction: right}")):
+        is_carried, is_rough = name == "track", friction != "none"
+        wedge = ("X: length, ", "wedge: {mass: M, at: [X, 0]}, ") if is_carried else ("", "")
+        given = (
+            f"  coordinates: {{{wedge[0]}x: length, y: length}}\n"
+            f"  particles: {{{wedge[1]}one: {{mass: m, at: [x, y]}}}}\n  gravity: g\n"
+            f"  surfaces: {{ground: {{{CURVES[name][0]}}}}}\n"
+            f"  contacts: {{of: one, on: ground, normal: N, friction: {friction}}}"
+        )
+        unknowns = ("x_ddot", "y_ddot", "N", *(["X_ddot"] if is_carried else []))
+        yield Trial(f"{name}-{'sliding' if is_rough else 'none'}", given, unknowns, _on_curve(name, is_rough))
+
+
+def _on_curve(name: str, is_rough: bool) -> Callable[[Random], tuple[Numbers, Numbers]]:
+    def state(random: Random) -> tuple[Numbers, Numbers]:
+        v = _letters(random) | {"X": random.uniform(-1, 1), "X_dot": random.uniform(-1, 1)}
+        if name != "track":
+            v |= {"X": 0.0, "X_dot": 0.0}
+        u, speed = random.uniform(-0.4, 1.2), random.uniform(0.5, 2.0)
+        height, slope, bend = CURVES[name][1](u, v["R"])
+        length = hypot(1, slope)
+        t, up = (1 / length, slope / length), -1 if name == "arch" else 1
+        n = (-up * slope / length, up / length)
+        v |= {"x": v["X"] + u, "y": height, "x_dot": v["X_dot"] + speed, "y_dot": slope * speed}
+        touch = [Force(n, unknown="N")]
+        if is_rough:
+            touch.append(Force((-v["mu"] * t[0], -v["mu"] * t[1]), unknown="N"))
+        laws = Body(v["m"], "x_ddot", "y_ddot").equations([*touch, _down(v["m"], v)])
+        relative = {"x_ddot": slope, "y_ddot": -1.0, KNOWN: bend * speed**2}
+        if name == "track":
+            back = [Force((-f.direction[0], -f.direction[1]), unknown=f.unknown) for f in touch]
+            laws += Body(v["M"], "X_ddot").equations(back)
+            relative["X_ddot"] = -slope
+        return v, solved([*laws, relative])
+
+    return state
+
+
 def with_strings() -> Iterator[Trial]:
     """Masses on strings over fixed and movable pulleys, and pendulums that hang from something that moves."""
     yield Trial("atwood", ATWOOD, ("x_ddot", "y_ddot", "T"), _atwood)
@@ -364,7 +412,7 @@ def _rods(random: Random) -> tuple[Numbers, Numbers]:
 
 SYMBOLS = (
     "{m: mass, M: mass, a: length, R: length, l: length, g: acceleration, P: positive force, mu: positive number, "
-    "alpha: 'angle in (0, pi/2)'}"
+    "alpha: 'angle in (0, pi/2)', Omega: angular speed}"
 )
 
 

@@ -379,7 +379,7 @@ class Impact:
             raise Rejected(Complaint("wrong-argument", message))
         kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
         letter = unknown(f"J_{c.force.name}", kind)
-        return Meeting(c.residual, ZERO, letter, "kept", c.in_rates)
+        return Meeting(c.by_length, ZERO, letter, "kept", c.in_rates)
 
     def shares(self, q: Symbol) -> list[Expr]:
         """Return the terms of the sum of J . dr/dq over all impulses, given and unknown."""

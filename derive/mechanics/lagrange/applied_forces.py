@@ -22,7 +22,7 @@ from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Level
 from derive.steps.rule import ROUTE, Quote, Rule, Shown
-from derive.steps.step import Fact, Quantity, compared_with
+from derive.steps.step import Fact, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["applied_force", "dissipation_function", "forced_equation"]
@@ -298,7 +298,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
     """Return the functions that vanish, f_x = x - R sin(theta).
 
     The index of f is the index of the multiplier, here lambda_x. For multipliers without an index, the functions are
-    f_1, f_2 and so on, or f if there is only one constraint.
+    f_1, f_2 and so on, or f if there is only one constraint. If the gradient of f does not have the length 1, the
+    multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
     for i, each in enumerate(constraints, 1):
@@ -307,12 +308,23 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
         terms = [each.left, *(-term for term in Add.make_args(each.right) if term != 0)]
         told = Relation(scalar(called), "=", Terms(*terms) if len(terms) > 1 else each.left)
         found[f"function_{i}"] = (told, Relation(scalar(called), "=", each.residual))
+        if each.gradient != 1:
+            multiplier = scalar(called.replace("f", "lambda"))
+            by_work = Relation(multiplier, "=", _multiplier_by_work(each))
+            found[f"multiplier_{i}"] = Relation(multiplier, "=", each.multiplier), by_work
     return found
 
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
-    """Return the multipliers of the functions in a sentence, which has room for four."""
-    return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1)}
+    """Return the multipliers that are forces, with the numbers of their functions; a sentence has room for four."""
+    return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
+
+
+def _multiplier_by_work(of: Constraint) -> Expr:
+    """Return the multiplier from the virtual work of the forces at material points, lambda df/dq for a coordinate q."""
+    q = next(q for q in of.coordinates if not is_zero(diff(of.residual, q)))
+    loads = of.other_loads([q])
+    return Add(*(load.work_along(q) for load in loads)) / diff(of.residual, q)
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:

@@ -71,7 +71,7 @@ def _is_conserved(facts: Judged) -> bool:
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
-    along += [c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())]
+    along += [c.multiplier * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())]
     return bool(equal(by_functions_of_time(_in_rates(facts), matter.coordinates), Add(*along)))
 
 
@@ -87,7 +87,7 @@ def _is_worked_on(facts: Judged) -> bool:
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
-    power -= Add(*(c.force * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())))
+    power -= Add(*(c.multiplier * c.velocity(list(matter.coordinates)) for c in (kept.constraints if kept else ())))
     return not is_zero(power)
 
 
@@ -223,20 +223,23 @@ def has_rates(condition: Expr) -> bool:
 
 
 def is_stretched(facts: Judged) -> bool:
-    """Whether the gradient of the condition with respect to the position of the particle does not have length 1. The
-    gradient (J J^T)^-1 J a comes from virtual work, and its length is computed numerically."""
+    """Whether the symbol of the multiplier is not the force: the gradient of the condition with respect to the position
+    of the particle does not have the length by which the multiplier is divided, which is 1 except for curves.
+
+    The gradient (J J^T)^-1 J a comes from virtual work, and its length is computed numerically."""
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
     moving = sorted(coordinates_in(ImmutableDenseMatrix([*place, condition])), key=str)
     J = Matrix([[diff(c, q) for q in moving] for c in place])
+    divided = explicit(facts.inputs["gradient"])
     a = Matrix([diff(condition, q) for q in moving])
 
     def is_unit(point: Point) -> bool:
         there = {letter: value.evalf(30) for letter, value in point.items()}
         jacobian, slopes = J.xreplace(there).evalf(30), a.xreplace(there).evalf(30)
         steepest = (jacobian * jacobian.T).inv() * jacobian * slopes
-        return bool(abs(steepest.norm() - 1) <= Rational(1, 10**9))
+        return bool(abs(steepest.norm() - divided.xreplace(there)) <= Rational(1, 10**9))
 
     return not everywhere(trial_points(letters_of(condition).union(*map(letters_of, place)), tried=4), is_unit)
 
@@ -272,19 +275,26 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
-    """Whether the factor of each multiplier in the equation is the derivative of a stated function with respect to the
-    coordinate of the equation, or to its rate. The generalized force may contain a friction term that is proportional
-    to a multiplier; this term is not counted."""
+    """Whether the factor of each force in the equation is the derivative of a stated function with respect to the
+    coordinate of the equation, or to its rate, times the stated ratio of the multiplier to the force, if there is one.
+    The generalized force may contain a friction term that is proportional to a multiplier; this term is not counted."""
     q = facts.inputs["coordinate"]
     if facts.words["between"] not in ("coordinates", "rates", "both"):
         return False
     by = rate(q) if facts.words.get("between") == "rates" else q
-    told = [explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")]
+    told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
+    stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
+    multipliers = {number: explicit(v.right) for number, v in stated.items() if isinstance(v, Relation)}
     residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))
     if facts.words.get("between") == "both":
         return bool(told)
-    along = [diff(function, by) for function in told]
-    return all(any(is_zero(diff(residual, letter) + f) for f in along) for letter in facts.inputs["letters"])
+    works = [(diff(f, by), multipliers.get(number)) for number, f in told.items()]
+
+    def is_stated(letter: Symbol) -> bool:
+        shares = (slope if own is None else slope * diff(own, letter) for slope, own in works)
+        return any(is_zero(diff(residual, letter) + share) for share in shares)
+
+    return all(map(is_stated, facts.inputs["letters"]))
 
 
 def multiplier_of(i: int) -> Naming:

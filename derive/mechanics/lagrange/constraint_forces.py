@@ -37,7 +37,7 @@ from derive.steps.step import Level, Quantity, compared_with, is_zero
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
 ZERO = Integer(0)
-MOST = 8  # greatest number of unknowns in one linear system
+MOST = 9  # greatest number of unknowns in one linear system
 
 
 @dataclass(frozen=True)
@@ -285,7 +285,11 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
         phrase_data=PhraseData(
             formulas={**told_of_divisors([found[each.force]]), **shown},
-            outcome_data={"condition": each.residual, "place": _places(problem) if length is not None else ()},
+            outcome_data={
+                "condition": each.residual,
+                "gradient": each.gradient,
+                "place": _places(problem) if length is not None else (),
+            },
         ),
         key=each.force.name,
         kind=each.kind_of_force,

@@ -81,7 +81,7 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
     """Return -lambda df/dt for each moving constraint; the force of a fixed constraint does no work."""
     kept, moving = of.fact(Constrained), list(of.coordinates)
     still = {rate(q): Integer(0) for q in moving}
-    moved = [(c.force, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
+    moved = [(c.multiplier, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
     return [-force * v for force, v in moved if v != 0]
 
 
@@ -203,7 +203,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
 
     def along_the_motion(found: Relation) -> tuple[Any, Any]:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
-        work += [c.force * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero by the constraints
+        work += [c.multiplier * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero for the motion
         by_time = by_functions_of_time(of.value, moving)
         both = [found.left, found.right, int(found.operator == "=")]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])

@@ -20,7 +20,7 @@ from derive.witness import description as plain
 
 __all__ = ["constraint"]
 
-ZERO = Integer(0)
+ZERO, ONE = Integer(0), Integer(1)
 
 
 @dataclass(frozen=True)
@@ -42,13 +42,14 @@ class Constraint(Part):
 
     left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
-    force     the multiplier
+    force     the multiplier, or the force if `gradient` is not 1
     in_rates  whether the constraint is linear in the rates
     forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
     routes use them in place of the derivatives of f
     enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
     it is unknown
     limit     for static friction with a known coefficient: its largest value
+    gradient  for a curve, the length of the gradient of f: the multiplier is `force` divided by it; otherwise 1
     """
 
     left: Expr
@@ -58,16 +59,28 @@ class Constraint(Part):
     forces: tuple[PointForce, ...] = ()
     enforcer: str = ""
     limit: StaticLimit | None = None
+    gradient: Expr = ONE
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Constraint:
         if not self.forces:
             return self
         forces = tuple(each.moved(known) for each in self.forces)
-        return replace(self, left=self.left.subs(known), right=self.right.subs(known), forces=forces)
+        left, right, gradient = (each.subs(known) for each in (self.left, self.right, self.gradient))
+        return replace(self, left=left, right=right, forces=forces, gradient=gradient)
 
     @property
     def residual(self) -> Expr:
         return self.left - self.right
+
+    @property
+    def by_length(self) -> Expr:
+        """The residual divided by the length of its gradient: the factor of the force in the virtual work is its
+        differential, where the constraint holds."""
+        return self.residual / self.gradient
+
+    @property
+    def multiplier(self) -> Expr:
+        return self.force / self.gradient
 
     @property
     def relation(self) -> Relation:
@@ -78,8 +91,9 @@ class Constraint(Part):
         return coordinates_in(self.residual)
 
     def along(self, q: Symbol) -> Expr:
-        """The factor of lambda in the force along q: df/dq, or a_q for a constraint on rates."""
-        return diff(self.residual, rate(q) if self.in_rates else q)
+        """The factor of the force in the force along q: df/dq, or a_q for a constraint on rates; divided by the length
+        of the gradient."""
+        return diff(self.residual, rate(q) if self.in_rates else q) / self.gradient
 
     def velocity(self, moving: list[Symbol]) -> Expr:
         """An expression in the rates that vanishes for every allowed velocity."""
@@ -98,7 +112,7 @@ class Constraint(Part):
         return [Reaction(self.force, tuple((q, self.along(q)) for q in moving))]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        return {"conditions": [plain.Condition(self.residual, self.in_rates, self.force)]}
+        return {"conditions": [plain.Condition(self.by_length, self.in_rates, self.force)]}
 
     @property
     def kind_of_force(self) -> str | None:

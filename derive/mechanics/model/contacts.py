@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
@@ -18,15 +18,9 @@ from derive.mechanics.model.connection import Connection, PointForce, end_of, is
 from derive.mechanics.model.constraint import Constraint, StaticLimit
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
-from derive.mechanics.model.no_slip import (
-    contact_velocity,
-    no_slip,
-    rolling_constraint,
-    velocity_at,
-    velocity_of_particle,
-)
+from derive.mechanics.model.no_slip import contact_velocity, no_slip, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
+from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, direction_between, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -44,7 +38,7 @@ class Contact(Connection):
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface
-    gap      the distance between the body and the surface, m
+    gap      the distance between the body and the surface, or the height of the body above a curve, m
     normal   the unit vector from the surface to the body
     """
 
@@ -106,15 +100,21 @@ def contact(
     normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
                coordinates allow the body to leave the surface
     rolling    whether the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
-               the surface with the free side on the left
+               the surface with the free side on the left. In space, F_x and F_y are its components along axes in the
+               surface; if one axis is not in the surface, the component named after it is perpendicular to the other
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
-    direction  with `sliding`: the direction in which the material point of the body slips over the surface
+    direction  with `sliding`: the direction in which the material point of the body slips over the surface; with
+               `rolling` or `static`: the direction in which the friction on the body is positive; a vector, "right" or
+               "left"
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, N, positive as for `rolling`
     Equal and opposite forces act on the material points of both. The distance of a round body from the surface is the
-    distance of its centre minus its radius.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6.
+    distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at its lowest point: with
+    the unit vector e along its axis and the unit normal n, the distance is that of the centre minus
+    R sqrt(1 - (n.e)^2).
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
+    Lifshitz, *Mechanics*, section 38.
     """
     touch = _contact(of, on)
     _check_carried(touch, bool(rolling) or sliding is not None or static is not None)
@@ -127,13 +127,13 @@ def contact(
     elif normal:
         _reject_normal(normal, touch)
     if rolling:
-        found += _rolling(touch, rolling)
+        found += _rolling(touch, rolling, direction)
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
-    elif direction is not None:
-        raise Rejected(Complaint("unused-key", "`direction` is the direction of slip, so it needs `sliding`"))
+    elif direction is not None and not isinstance(rolling, str) and static is None:
+        raise Rejected(Complaint("unused-key", "`direction` is the direction of a friction, but no friction is given"))
     if static is not None:
-        found.append(_sticking(touch, force, _static_limit(touch, static, normal)))
+        found += _sticking(touch, force, direction, _static_limit(touch, static, normal))
     elif force:
         raise Rejected(Complaint("unused-key", "`force` is the symbol of the static friction, so it needs `static`"))
     return replace(touch, forces=tuple(_forces_of(touch, found))), *found
@@ -161,8 +161,9 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    enforcer = "rail" if touch.surface.is_two_sided else "surface"
-    return Constraint(touch.gap, ZERO, force, forces=touch.pair(force, touch.normal), enforcer=enforcer)
+    enforcer, gradient = "rail" if touch.surface.is_two_sided else "surface", touch.surface.gradient(touch.at)
+    pair = touch.pair(force, touch.normal)
+    return Constraint(touch.gap, ZERO, force, forces=pair, enforcer=enforcer, gradient=gradient)
 
 
 def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
@@ -180,21 +181,62 @@ def _contact(of: Any, on: Any) -> Contact:
         message = "`contact` needs a particle, a round body or a point of a body"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
-    radius = ZERO
     if isinstance(of, PlacedBody):
-        radius, at = radius_of(of), of.hub
+        at = of.hub
+        if isinstance(surface, Curve) or surface.is_two_sided:
+            message = "a round body touches a plane, a circle or a sphere, but neither a curve nor a rail"
+            raise Rejected(Complaint("no-contact", message, help="let a particle or a point of a body touch it"))
     away = surface.normal(at)
-    place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
-    found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
+    if not isinstance(of, PlacedBody):
+        place, gap = at, surface.distance(at)
+    else:
+        arm, reach = _to_edge(of, surface) if _is_thin(of) else (-radius_of(of) * away, radius_of(of))
+        place = Location(tuple(tidied(c) for c in (at + arm).components))
+        gap = tidied(surface.distance(at) - reach)
+    found = Contact((), body, place, surface, gap, away)
     _check(found)
     return found
+
+
+def _is_thin(placed: PlacedBody) -> bool:
+    """Whether a body that moves in space is a thin disc or a hoop."""
+    outline = _outline(placed)
+    return not placed.is_plane and outline is not None and outline.is_flat
+
+
+def _outline(placed: PlacedBody) -> Round | None:
+    """Return the outer boundary of a body, if it is round."""
+    boundary = placed.body.boundary
+    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
+    return outer if isinstance(outer, Round) else None
+
+
+def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
+    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane, and the distance
+    of this point from the centre along the normal.
+
+    The vector has the length of the radius; it is opposite to the component of the normal along the disc.
+    """
+    if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
+        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
+    axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
+    along = n - dot(n, axis) * axis
+    if is_zero(ImmutableDenseMatrix(along.components)):
+        message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
+    outline, way = _outline(placed), direction_between(Location((ZERO, ZERO, ZERO)), along)
+    assert outline is not None
+    radius = outline.radius_at(outline.ends[0])
+    return -radius * way, radius * dot(n, way)
 
 
 def _check(touch: Contact) -> None:
     """Check that the normal is a unit vector, and that the place of contact is as far from the surface as the body."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
-    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - touch.gap)):
+    gap = touch.gap / touch.surface.gradient(touch.at)
+    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - gap)):
         raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
 
 
@@ -207,7 +249,7 @@ def _surface_of(body: Any) -> Circle:
             "describe a face of the body under `surfaces`, with `of`",
         )
         raise Rejected(Complaint("no-contact", message, help=help_line))
-    return Circle(body, None, False, body.hub, radius)
+    return Circle(body, None, body.hub, radius)
 
 
 def radius_of(placed: PlacedBody) -> Expr:
@@ -223,9 +265,8 @@ def radius_of(placed: PlacedBody) -> Expr:
 def _round_radius(placed: PlacedBody) -> Expr | None:
     if placed.rim is not None:
         return placed.rim[1]
-    boundary = placed.body.boundary
-    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    if not isinstance(outer, Round) or placed.across not in (2, None):
+    outer = _outline(placed)
+    if outer is None or placed.across not in (2, None):
         return None
     z = Symbol("z_along", real=True)
     middle = (outer.ends[0] + outer.ends[1]) / 2
@@ -242,10 +283,10 @@ def _reject_normal(letter: str, touch: Contact) -> None:
     raise Rejected(Complaint("not-an-unknown", message, help=help_line))
 
 
-def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
-    if not isinstance(touch.of, PlacedBody) or len(touch.at.components) == 3:
-        return _rolling_in_space(touch, rolling)
+def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Part]:
     ground = touch.surface.ground
+    if not isinstance(touch.of, PlacedBody):
+        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
     if touch.is_kept and rolling is True:
         if not any(contact_velocity(touch.of, touch.at, ground)):
             return []  # the coordinates already satisfy the condition of rolling
@@ -254,23 +295,60 @@ def _rolling(touch: Contact, rolling: str | bool) -> list[Part]:
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
-    return [_sticking(touch, rolling)]
+    return _sticking(touch, rolling, direction)
 
 
-def _sticking(touch: Contact, symbol: str, limit: StaticLimit | None = None) -> Constraint:
-    """Return the condition that the material points in contact do not move over each other, with its friction."""
+def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticLimit | None = None) -> list[Constraint]:
+    """Return the conditions that the material points in contact do not move over each other, with their friction."""
     if not symbol:
         message = "static friction needs the symbol of its force"
         raise Rejected(Complaint("missing-key", message, help="give it as `force`, `{static: mu_s, force: F}`"))
     ground = touch.surface.ground
     slip = velocity_at(touch.of, touch.at) - velocity_at(ground, touch.foot)
-    along = tidied(dot(touch.tangent, slip))
-    of_particles = velocity_of_particle(touch.of, touch.at, ground, touch.foot)
-    by_particles = Add(*(a * b for a, b in zip(touch.tangent.components, of_particles, strict=True)))
-    if not is_zero(tidied(along - by_particles)):
-        raise Unverified(Complaint("unverified", "the slip is not the relative velocity of the particles in contact"))
-    pair, letter = touch.pair(scalar(symbol), touch.tangent), scalar(symbol)
-    return Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction", limit=limit)
+    of_particles = Location(tuple(velocity_of_particle(touch.of, touch.at, ground, touch.foot)))
+    constraints = []
+    for letter, way in _frictions(touch, symbol, direction).items():
+        along = tidied(dot(way, slip))
+        if not is_zero(tidied(along - dot(way, of_particles))):
+            message = "the slip is not the relative velocity of the particles in contact"
+            raise Unverified(Complaint("unverified", message))
+        pair = touch.pair(letter, way)
+        constraints.append(
+            Constraint(along, ZERO, letter, in_rates=True, forces=pair, enforcer="friction", limit=limit)
+        )
+    moving = [each for each in constraints if not is_zero(each.left)]
+    if not moving:
+        message = f"the coordinates keep the body from slipping, so the friction `{symbol}` does not appear"
+        raise Rejected(Complaint("not-an-unknown", message, help="write `rolling` without a symbol"))
+    return moving
+
+
+def _frictions(touch: Contact, letter: str, direction: Any) -> dict[Symbol, Location]:
+    """Return the symbols of the components of friction, each with the direction in which it is positive."""
+    if len(touch.at.components) == 2:
+        return {scalar(letter): touch.tangent if direction is None else _along(touch, direction)}
+    if direction is not None:
+        message = "in space, the components of friction are along axes, so `direction` has no effect"
+        raise Rejected(Complaint("unused-key", message, help="leave it out"))
+    return {scalar(f"{letter}_{axis}"): way for axis, way in _ways_along(touch).items()}
+
+
+def _ways_along(touch: Contact) -> dict[str, Location]:
+    """Return perpendicular unit vectors along a surface in space, by the names of axes.
+
+    Two axes, if they are in the surface; or a horizontal axis in the surface and the unit vector perpendicular to it,
+    which points to the side of the other horizontal axis on a surface that faces upwards.
+    """
+    n = touch.normal.components
+    flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
+    if len(flat) == 2:
+        return {"xyz"[i]: way for i, way in flat.items()}
+    if 0 in flat:
+        return {"x": flat[0], "y": Location((ZERO, n[2], -n[1]))}
+    if 1 in flat:
+        return {"x": Location((n[2], ZERO, -n[0])), "y": flat[1]}
+    message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
+    raise Rejected(Complaint("wrong-argument", message, help="use the key `rolling`, or another surface"))
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
@@ -284,31 +362,34 @@ def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
     return StaticLimit(mu, scalar(normal))
 
 
-def _rolling_in_space(touch: Contact, rolling: str | bool) -> list[Part]:
-    if not isinstance(touch.of, PlacedBody):
-        help_line = "leave out `rolling`, or give static friction, `{static: mu_s, force: F}`"
-        raise Rejected(Complaint("wrong-argument", "a particle does not roll", help=help_line))
-    if not touch.is_kept:
-        message = "in space, rolling needs coordinates that keep the body on the surface"
-        raise Rejected(Complaint("wrong-argument", message, help="leave out the coordinate away from the surface"))
-    if rolling is True:
-        found = no_slip(touch.of, touch.at, touch.surface.ground)
-        return list(found) if isinstance(found, tuple) else [found]
-    kept = rolling_constraint(touch.of, touch.at, str(rolling), touch.surface.ground)
-    return [replace(each, enforcer="friction") for each in kept]
+def _along(touch: Contact, direction: Any) -> Location:
+    """Return the unit vector along the surface in a direction."""
+    if direction in ("right", "left"):
+        upwards = sign_known(touch.normal.components[1]) if len(touch.normal.components) == 2 else None
+        if upwards not in (1, -1):
+            message = f"the direction along the surface that points to the {direction} is unknown"
+            raise Rejected(Complaint("wrong-argument", message, help="give the components of `direction`"))
+        return touch.tangent if (upwards == 1) == (direction == "right") else -touch.tangent
+    along = unit("contact", vector("contact", direction, touch.at))
+    if not is_zero(ImmutableDenseMatrix([tidied(dot(along, touch.normal))])):
+        raise Rejected(Complaint("wrong-argument", "`direction` must be along the surface"))
+    return along
 
 
 def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:
     """Return the friction mu N against the velocity of slip, on the material points of both."""
     mu = _coefficient(touch, coefficient, letter)
+    if touch.surface.is_two_sided:
+        message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
+        raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     if direction is None:
         message = "sliding friction needs the direction in which the body slips over the surface"
         raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
-    along = unit("contact", vector("contact", direction, touch.at))
-    if not is_zero(ImmutableDenseMatrix([tidied(dot(along, touch.normal))])):
-        raise Rejected(Complaint("wrong-argument", "the direction of slip must be along the surface"))
+    along = _along(touch, direction)
     slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
-    assume(Relation(tidied(dot(along, slip)), ">", ZERO))  # otherwise the friction has the opposite direction
+    speed = tidied(dot(along, slip))
+    signed = Mul(*(factor for factor in Mul.make_args(speed) if not factor.is_positive))
+    assume(Relation(signed, ">", ZERO))  # otherwise the friction has the opposite direction
     force = tuple(-mu * scalar(letter) * c for c in along.components)
     by = touch.surface.of if touch.surface.of is not None else GROUND
     return GivenForce(force, touch.at.components, touch.of, by)

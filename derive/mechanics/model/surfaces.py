@@ -1,16 +1,25 @@
-"""Surfaces that bodies touch: planes and circles or spheres, fixed, moving, or carried by a body."""
+"""Surfaces that bodies touch: planes, circles or spheres, and curves y = f(x); fixed, moving, or carried by a body."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Self, TypeAlias
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
 from sympy.matrices import ImmutableMatrix
 
-from derive.algebra.expressions import TIME, Prescribed, Relation, as_expr, depends_on_time, prescribed_in
+from derive.algebra.expressions import (
+    TIME,
+    Prescribed,
+    Relation,
+    TimeRate,
+    as_expr,
+    depends_on_time,
+    explicit,
+    prescribed_in,
+)
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
@@ -21,8 +30,9 @@ from derive.steps.record import assume, coordinates_in
 from derive.steps.signs import DECIDES, sign_for_all
 from derive.steps.step import is_zero
 
-__all__ = ["circle", "plane"]
+__all__ = ["circle", "curve", "plane"]
 
+ZERO, ONE = Integer(0), Integer(1)
 Vector: TypeAlias = tuple[Expr, ...]
 Ground: TypeAlias = Location | Axes | PlacedBody
 
@@ -39,11 +49,15 @@ class Surface(ABC):
 
     of: Any
     moves: Location | Axes | None
-    is_two_sided: bool
+    is_two_sided: bool = field(default=False, kw_only=True)
 
     @abstractmethod
     def distance(self, at: Location) -> Expr:
-        """The distance of a place from the surface, m; positive on the free side."""
+        """The distance of a place from the surface, or the height above a curve, m; positive on the free side."""
+
+    def gradient(self, at: Location) -> Expr:
+        """The length of the gradient of `distance` on the surface."""
+        return ONE
 
     @abstractmethod
     def normal(self, at: Location) -> Location:
@@ -135,6 +149,52 @@ class Circle(Surface):
         return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))
 
 
+@dataclass(frozen=True)
+class Curve(Surface):
+    """A curve y = f(x) in a plane of motion; x and y are measured from a place. The free side is above or below.
+
+    through   the place where x = 0 and y = 0
+    letter    x
+    formula   f(x)
+    """
+
+    through: Location
+    letter: Symbol
+    formula: Expr
+    below: bool = False
+
+    def _at(self, value: Expr, at: Location) -> Expr:
+        return tidied(value.xreplace({self.letter: (at - self.through).components[0]}))
+
+    def distance(self, at: Location) -> Expr:
+        above = (at - self.through).components[1] - self._at(self.formula, at)
+        return -above if self.below else above
+
+    def gradient(self, at: Location) -> Expr:
+        return sqrt(1 + self._at(diff(self.formula, self.letter), at) ** 2)
+
+    def normal(self, at: Location) -> Location:
+        slope, length = self._at(diff(self.formula, self.letter), at), self.gradient(at)
+        above = Location((-slope / length, 1 / length))
+        return -above if self.below else above
+
+    def height(self, at: Location, normal: Location) -> Expr:
+        """The distance of a place from the tangent to the curve vertically below it."""
+        x, _ = (at - self.through).components
+        beneath = self.through + Location((x, self._at(self.formula, at)))
+        return dot(normal, at - beneath)
+
+    def foot(self, at: Location, normal: Location) -> Location:
+        return at
+
+    @property
+    def place(self) -> Location:
+        return self.through
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), through=self.through.with_values(known))
+
+
 def plane(
     through: Location,
     normal: Any = None,
@@ -155,7 +215,7 @@ def plane(
     if (normal is None) == (along is None):
         raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
     across = vector("plane", normal, through) if along is None else _left_of(vector("plane", along, through))
-    found = Plane(of, moves, is_two_sided, through, unit("plane", across))
+    found = Plane(of, moves, through, unit("plane", across), is_two_sided=is_two_sided)
     _check_motion(found)
     return found
 
@@ -201,7 +261,59 @@ def circle(
     if isinstance(moves, Axes) and len(centre.components) == 2:
         message = "a surface rotates with axes only in space; this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
-    return Circle(of, moves, is_two_sided, centre, as_expr(radius), inside)
+    return Circle(of, moves, centre, as_expr(radius), inside, is_two_sided=is_two_sided)
+
+
+def curve(
+    x: Any,
+    height: Any,
+    through: Location | None = None,
+    below: bool = False,
+    of: Any = None,
+    moves: Any = None,
+    is_two_sided: bool = False,
+) -> Curve:
+    """A curve y = f(x) in a plane of motion, as a surface.
+
+    x        the symbol for the horizontal distance from `through`, m
+    height   f(x), the height above `through`, m
+    through  the place from which x and y are measured; by default the particle that carries the curve, or the origin.
+             The material of the curve moves with it
+    below    whether the free side is below the curve; by default it is above
+    of       the body or particle that carries the curve; the curve moves with it without rotation
+    is_two_sided   as for `plane`
+    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The condition y - f(x) = 0 has
+    a gradient of the length sqrt(1 + f'^2), so its multiplier is N/sqrt(1 + f'^2).
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
+    """
+    origin = of.centre if isinstance(of, PlacedBody) else Location((ZERO, ZERO)) if of is None else of.at
+    through = origin if through is None else through
+    letter, formula = as_expr(x), explicit(as_expr(height))
+    if not isinstance(letter, Symbol):
+        raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
+    if len(through.components) != 2 or moves is not None:
+        message = "a curve moves with the place `through`, or with the body that carries it, in a plane of motion"
+        raise Rejected(Complaint("wrong-argument", message, help="give `through` as a function of time, or `of`"))
+    moving = [s.name for s in {**coordinates_in(formula), TIME: ""} if s != letter and formula.has(s)]
+    if moving:
+        message = f"the formula of a curve contains {moving[0]}, but a curve has a constant shape"
+        raise Rejected(Complaint("changes", message, help=f"the formula may contain {letter} and constants"))
+    apart = coordinates_in(column_of(through - origin)) if of is not None else {}
+    if apart:
+        message = (
+            f"the curve does not move with the body that carries it: their distance changes with {next(iter(apart))}"
+        )
+        raise Rejected(Complaint("which-body", message, help="give a place that moves with the body, `through: track`"))
+    if isinstance(of, PlacedBody) and not is_zero(_turning(of)):
+        message = f"a curve moves without rotation, but {of.body.name} rotates"
+        raise Rejected(Complaint("wrong-argument", message, help="let a particle carry the curve"))
+    return Curve(of, None, through, letter, formula, below, is_two_sided=is_two_sided)
+
+
+def _turning(body: PlacedBody) -> Expr:
+    """The angular velocity of a body in a plane."""
+    angle = as_expr(body.turned)
+    return explicit(TimeRate(angle, *coordinates_in(angle)))
 
 
 def column_of(place: Location) -> ImmutableMatrix:
@@ -277,6 +389,8 @@ def _help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
         return f"{DECIDES} {less} < {more}"
     name = changing[0]
     what, noun = ("function", "function_of_time") if isinstance(name, Prescribed) else ("coordinate", "coordinate")
+    if coordinates_in(ImmutableDenseMatrix([name])).get(name) == "angle":
+        return Spelled("give the angle a range", f"give the angle a range, such as `{name}: angle in (0, pi)`")
     return Spelled(
         f'make the {what} positive: `{noun}("{name}", "length", positive=True)`',
         f"make the {what} positive: `{name}: positive length`",

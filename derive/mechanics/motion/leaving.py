@@ -30,7 +30,7 @@ from derive.solving.unknowns import (
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import CHECK, Rule
-from derive.steps.signs import of_the_size, sign_known
+from derive.steps.signs import of_the_size, sign_for_all, sign_known
 from derive.steps.step import Form, Level, Quantity, is_zero
 
 __all__ = ["leaves_contact"]
@@ -223,11 +223,16 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket."""
+    """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket.
+
+    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola.
+    """
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
-    held = Mul(*beside)
-    return (held, rest.xreplace({u: unknown})) if sign_known(held) == 1 else (Integer(1), value)
+    within = [factor for factor in Mul.make_args(rest) if factor.has(u)]
+    sure = [factor for factor in within if sign_for_all(factor.xreplace({u: unknown})) == 1]
+    held, pushing = Mul(*beside, *sure).xreplace({u: unknown}), (rest / Mul(*sure)).xreplace({u: unknown})
+    return (held, pushing) if sign_known(held) == 1 and len(sure) < len(within) else (Integer(1), value)
 
 
 def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:

@@ -6,15 +6,28 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from derive.algebra.expressions import TIME
-from derive.course.schema import SCALAR, TEXT, Reader, Record, key, list_of, mapping_of, one_of, read_record, record_of
+from derive.algebra.expressions import TIME, stand_in
+from derive.course.expression import Declared
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    Reader,
+    Record,
+    key,
+    list_of,
+    mapping_of,
+    one_of,
+    read_record,
+    record_of,
+)
 from derive.course.stock import InLetters
 from derive.course.yaml_tree import Mapping as MappingNode
-from derive.course.yaml_tree import Tree, Word
+from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 from derive.mechanics import (
     circle,
     contact,
+    curve,
     dashpot,
     massless_rod,
     motor,
@@ -31,7 +44,12 @@ from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, point_called
 
-SURFACE_SHAPES = "give `through` with `along` or `normal` for a plane, or `centre` and `radius` for a circle or sphere"
+X = "x"  # the symbol for the horizontal distance in the formula of a curve
+SURFACE_SHAPES = (
+    "give `through` with `along` or `normal` for a plane, `centre` and `radius` for a circle or sphere, "
+    "or `y` for a curve"
+)
+RIGHT_OR_LEFT = one_of(("right", "left"))
 
 
 @dataclass(frozen=True)
@@ -49,7 +67,10 @@ class Connected:
 class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
-    through: WrittenPlace | None = key("for a plane, a place on it", PLACE)
+    through: WrittenPlace | None = key(
+        "for a plane, a place on it; for a curve, the place where x = y = 0: by default the origin, or the body `of`",
+        PLACE,
+    )
     along: tuple[Tree, ...] = key(
         "for a plane, in a plane of motion, a direction along it: the free side is on the left, so above `[1, 0]`",
         COMPONENTS,
@@ -57,10 +78,11 @@ class SurfaceKeys(Record):
     normal: tuple[Tree, ...] = key("for a plane, in place of `along`, the direction towards its free side", COMPONENTS)
     centre: WrittenPlace | None = key("for a circle or a sphere, its centre", PLACE)
     radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
+    y: Tree | None = key("for a curve y = f(x) in a plane of motion, the formula f(x), such as `x**2/(2*b)`", SCALAR)
     side: str | None = key(
-        "the side of the bodies: `outside` or `inside` of a circle or a sphere; `both` for a rail, a wire or a hoop, "
-        "which holds them",
-        one_of(("outside", "inside", "both")),
+        "the side of the bodies: `outside` or `inside` of a circle or a sphere, `above` or `below` a curve; `both` for "
+        "a rail or a wire, which holds them",
+        one_of(("outside", "inside", "above", "below", "both")),
     )
     of: Word | None = key("the body or particle that carries the surface", TEXT)
     axes: Word | None = key("the axes in which the surface is at rest, as for a turntable", TEXT, called="in")
@@ -71,21 +93,46 @@ class SurfaceKeys(Record):
         carried = {"of": named_bodies("of", [self.of], bodies, "")}
         if self.of and named["moves"] is not None:
             rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
+        if self.y is not None:
+            return Deferred(curve, self._curve(self.y, places, letters), named, carried, self.places[""])
         if self.centre is not None and self.radius is not None and not (self.through or self.along or self.normal):
+            self._check_side(("outside", "inside"))
             named["inside"] = self.side == "inside"
             of = (places.at(self.centre, "centre"), letters.value(self.radius, "radius", "length"))
             return Deferred(circle, of, named, carried, self.places[""])
         if self.through is not None and bool(self.along) != bool(self.normal) and not (self.centre or self.radius):
-            if self.side not in (None, "both"):
-                message = f"a plane has no `{self.side}`; its free side follows from `along` or `normal`"
-                rejected("unused-key", message, self.places["side"], "leave it out")
+            self._check_side(())
             for role in ("along", "normal"):
                 if nodes := getattr(self, role):
                     named[role] = direction_of(nodes, letters)
             return Deferred(plane, (places.at(self.through, "through"),), named, carried, self.places[""])
         rejected(
-            "missing-key", f"the surface `{name}` is neither a plane nor a circle", self.places[""], SURFACE_SHAPES
+            "missing-key", f"the surface `{name}` is not a plane, a circle or a curve", self.places[""], SURFACE_SHAPES
         )
+
+    def _check_side(self, allowed: Collection[str]) -> None:
+        if self.side and self.side not in (*allowed, "both"):
+            if allowed:
+                message = f"this surface has no side `{self.side}`"
+                rejected("unused-key", message, self.places["side"], f"write {' or '.join([*allowed, 'both'])}")
+            message = f"a plane has no `{self.side}`; its free side follows from `along` or `normal`"
+            rejected("unused-key", message, self.places["side"], "leave it out")
+
+    def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
+        """Return the symbol x, the formula of a curve, the place from which x is measured, and whether the free side is
+        below."""
+        for name in ("along", "normal", "centre", "radius"):
+            if name in self.places:
+                message = f"`{name}` does not belong to a curve `y`"
+                rejected("unused-key", message, self.places[name], "leave one of them out")
+        if X in letters.letters and f"{X}_dot" not in letters.letters:
+            message = f"in the formula of a curve, `{X}` is the horizontal distance, but `{X}` is under `symbols` too"
+            rejected("letter-clash", message, self.places["y"], "give the symbol another name")
+        self._check_side(("above", "below"))
+        x = stand_in(X)
+        formula = letters.also({X: Declared(X, x, "length")}).of_kind(written, "y", "length")
+        through = places.at(self.through, "through") if self.through else None
+        return x, formula, through, self.side == "below"
 
     def _motion(self, places: Places, letters: InLetters) -> Any:
         if self.axes is not None and self.velocity:
@@ -98,13 +145,26 @@ class SurfaceKeys(Record):
         return None
 
 
+def _direction(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...] | str | None:
+    return RIGHT_OR_LEFT.read(node, name, faults) if isinstance(node, Scalar) else COMPONENTS.read(node, name, faults)
+
+
+DIRECTION: Reader[Any] = Reader({"anyOf": [COMPONENTS.schema, RIGHT_OR_LEFT.schema]}, _direction)
+
+
 @dataclass(frozen=True)
 class FrictionKeys(Record):
     """The keys of `friction:` of a contact."""
 
-    rolling: Word | None = key("the symbol of the friction that prevents slipping", TEXT)
+    rolling: Word | None = key(
+        "the symbol F of the friction that prevents slipping; in space its components are F_x and F_y", TEXT
+    )
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
-    direction: tuple[Tree, ...] = key("with `sliding`: the direction in which the body slips", COMPONENTS)
+    direction: Any = key(
+        "`[1, 0]`, `right` or `left`: with `sliding` the direction in which the body slips, otherwise the direction in "
+        "which the friction on the body is positive",
+        DIRECTION,
+    )
     static: Tree | None = key("the coefficient of static friction, if the body does not slip", SCALAR)
     force: Word | None = key("with `static`: the symbol of the friction", TEXT)
 
@@ -112,12 +172,6 @@ class FrictionKeys(Record):
     def symbol(self) -> Word | None:
         """Return the symbol of the friction that prevents slipping."""
         return self.rolling or self.force
-
-
-FRICTION_ALSO = (  # key, the key that it belongs to, and its meaning
-    ("direction", "sliding", "is the direction of slip"),
-    ("force", "static", "is the symbol of the static friction"),
-)
 
 
 def _friction(node: Tree, name: str, faults: Faults) -> FrictionKeys | str | None:
@@ -165,7 +219,16 @@ class ContactKeys(Record):
             named["rolling"] = True
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
-        return Deferred(contact, (), named, forces=tuple(map(str, self.symbols())), place=self.places[""])
+        forces = tuple(map(str, [*self.symbols(), *self._components(known)]))
+        return Deferred(contact, (), named, forces=forces, place=self.places[""])
+
+    def _components(self, known: Connected) -> list[Word]:
+        """Return the symbols of the components that the friction of rolling has in space."""
+        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
+        if rolling is None or not known.places.turns:  # only a body that moves in space has axes
+            return []
+        components = [Word.at(f"{rolling}_{axis}", rolling.place) for axis in "xyz"]
+        return [word for word in components if force_letter(word, known.letters)]
 
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
         given = [each for each in ("rolling", "sliding", "static") if each in own.values_at]
@@ -174,22 +237,23 @@ class ContactKeys(Record):
             help_line = "with `{static: mu_s, force: F}` a round body rolls" if "static" in given else None
             rejected("missing-key", message, own.places[""], help_line)
         (sort,) = given
-        for name, of, why in FRICTION_ALSO:
-            if name in own.values_at and sort != of:
-                rejected("unused-key", f"`{name}` {why}, so it needs `{of}`", own.places[name], "leave it out")
+        if own.force is not None and sort != "static":
+            message = "`force` is the symbol of the static friction, so it needs `static`"
+            rejected("unused-key", message, own.places["force"], "leave it out")
+        found: dict[str, Any] = {}
+        if own.direction:
+            written = own.direction
+            found["direction"] = written if isinstance(written, str) else direction_of(written, known.letters)
         if own.rolling is not None:
-            return {"rolling": force_letter(own.rolling, known.letters)}
+            return {**found, "rolling": force_letter(own.rolling, known.letters)}
         if own.static is not None:
             if own.force is None:
                 help_line = "give the symbol of the friction, `{static: mu_s, force: F}`"
                 rejected("missing-key", "static friction needs the symbol of its force", own.places[""], help_line)
             coefficient = known.letters.of_kind(own.static, "static", "number")
-            return {"static": coefficient, "force": force_letter(own.force, known.letters)}
+            return {**found, "static": coefficient, "force": force_letter(own.force, known.letters)}
         assert own.sliding is not None
-        found: dict[str, Any] = {"sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
-        if own.direction:
-            found["direction"] = direction_of(own.direction, known.letters)
-        return found
+        return {**found, "sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
 
     def _body(self, known: Connected) -> Any:
         """Return the body, particle or point of a body that touches the surface, or a fixed corner."""
