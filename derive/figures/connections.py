@@ -121,7 +121,7 @@ class Connections:
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
-        known = [letter for letter in rests if letter is not None]
+        known = [letter for letter in rests if letter is not None and letter != self.size]
         if known:
             falls = all(diff(place.components[0], q) == 0 for place in self.system.places) and self.system.weights
             return (Rational(2, 5) if falls or len(known) < len(rests) else Rational(1, 4 + before)) * known[0]
