@@ -42,7 +42,7 @@ from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.contacts import Contact, LandingSurface
 from derive.mechanics.model.joints import Dashpot, Pin
 from derive.mechanics.model.strings import Line
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, distance_between, dot
@@ -86,6 +86,7 @@ class ConnectedScene:
     def __init__(self, system: System):
         self.system = system
         self.contacts = [each for each in connections_of(system) if isinstance(each, Contact)]
+        self.landings = [each for each in connections_of(system) if isinstance(each, LandingSurface)]
         self.lines = [each for each in connections_of(system) if isinstance(each, Line)]
         self.pins = [each for each in connections_of(system) if isinstance(each, Pin)]
 
@@ -165,6 +166,8 @@ class ConnectedScene:
         found: list[Mark] = []
         for surface in dict.fromkeys(each.surface for each in self.contacts):
             found += self._surface(surface, [each for each in self.contacts if each.surface == surface])
+        for landing in self.landings:
+            found += self._landing(landing.surface)
         for placed in self.system.bodies:
             found += self._body(placed)
         for particle in self.system.particles:
@@ -208,6 +211,19 @@ class ConnectedScene:
         yield Edge(column_of(low), column_of(high), "edge")
         start = low + Rational(1, 10) * (high - low) - self._size * Rational(1, 5) * plane.unit_normal
         yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
+
+    def _landing(self, surface: Surface) -> Iterable[Mark]:
+        """Yield the plane on which a flight ends, below or beside the circle or the string from which it begins."""
+        if isinstance(surface, Plane):
+            n = surface.unit_normal
+            along = Location((n.components[1], -n.components[0]))
+            circles = [(each.surface.centre, each.surface.radius) for each in self.contacts if isinstance(each.surface, Circle)]
+            reach = circles or [(line.through[0], self._span) for line in self.lines]
+            for middle, far in reach[:1]:
+                way = dot(along, middle - surface.through)
+                low, high = (surface.through + (way + sign * PAST * far) * along for sign in (-1, 1))
+                yield from self._plane(surface, low, high)
+                yield from self._slope(surface, low, high)
 
     def _ends(self, plane: Plane, contacts: Sequence[Contact]) -> tuple[Location, Location]:
         """The ends of the drawn part of a plane, from the lower or left end to the other end."""

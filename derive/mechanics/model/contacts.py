@@ -24,7 +24,7 @@ from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, v
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.step import Quantity, is_zero
 
-__all__ = ["contact"]
+__all__ = ["contact", "landing_surface"]
 
 ZERO = Integer(0)
 Part: TypeAlias = Constraint | GivenForce | Quantity
@@ -79,6 +79,24 @@ class Contact(Connection):
             PointForce(size, direction.components, self.at, self.of),
             PointForce(size, (-direction).components, self.foot, self.surface.of),
         )
+
+
+@dataclass(frozen=True)
+class LandingSurface(Connection):
+    """A surface that a particle reaches only at the end of a free flight; no force acts on the particle before."""
+
+    surface: Surface
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), surface=self.surface.moved(known))
+
+
+def landing_surface(surface: Any) -> LandingSurface:
+    """A surface on which a free flight ends; it is a part of the drawing.
+
+    surface   a surface from `plane`
+    """
+    return LandingSurface((), surface)
 
 
 def contact(
