@@ -30,6 +30,8 @@ JUDGES: Mapping[str, Judge] = {
     "motion.energy_kept": along.kept,
     "motion.speed_from_energy": runs.speed,
     "motion.leaves_contact": runs.leaves,
+    "motion.free_flight": runs.flight,
+    "motion.landing_time": runs.landing,
     "vibrations.solution": runs.solution,
     "rest.equilibrium": small.rest,
     "rest.stability": small.stability,

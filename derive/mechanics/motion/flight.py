@@ -195,6 +195,23 @@ class Departure:
         return Integer(1) if not self.scale.has(self.q) else ZERO
 
 
+    def flight(self, path: Vector) -> InFlight:
+        """The fact of a flight along this path, for later steps."""
+        known = self.speed.needed(ByEnergy)
+        return InFlight(
+            path=path,
+            matter=self.matter,
+            lost=self.lost.value,
+            force=self.force,
+            squared=squared_by_energy(self.speed),
+            start=known.start,
+            kept=self.kept,
+            coordinate=(self.q, self.value),
+            letter=self.letter,
+            orbit=self.orbit,
+        )
+
+
 def _departure(lost: Quantity, letter: Any) -> Departure:
     if lost.step.rule != LEAVES_CONTACT.name:
         message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not one"
@@ -290,9 +307,8 @@ def _place_of(departure: Departure, key: str) -> Quantity:
         DEPARTURE,
         None,
         lambda *_: Relation(named, "=", place),
-        {"lost": departure.lost, "letter": departure.letter},
+        {"lost": departure.lost, "letter": departure.letter, "coordinate": departure.q},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        phrase_data=PhraseData(outcome_data={"coordinate": departure.q}),
         key=key,
     )
 
@@ -358,6 +374,7 @@ def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quant
         return ImmutableDenseMatrix([c.xreplace(known) for c in ends]), ImmutableDenseMatrix(wanted)
 
     energy = squared_by_energy(departure.speed).xreplace({departure.q: departure.value})
+    flight = departure.flight((path[0], path[1]))
     return establish(
         FREE_FLIGHT,
         scalar(free_letter("xy"[i])),
@@ -375,24 +392,11 @@ def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quant
         outcome="uniform" if pulled == 0 else "falls",
         phrase_data=PhraseData(
             words={"enforcer": departure.kept.enforcer},
-            outcome_data={"component": Integer(i), "other_force": departure.other_forces[i]},
+            outcome_data={"component": Integer(i), "other_force": departure.other_forces[i], "flight": flight},
         ),
         key=key,
         kind="length",
-        facts=[
-            InFlight(
-                (path[0], path[1]),
-                departure.matter,
-                departure.lost.value,
-                departure.force,
-                squared_by_energy(departure.speed),
-                departure.speed.needed(ByEnergy).start,
-                departure.kept,
-                (departure.q, departure.value),
-                departure.letter,
-                departure.orbit,
-            )
-        ],
+        facts=[flight],
     )
 
 
