@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, sqrt
 
 from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.arguments import checked
@@ -23,6 +24,7 @@ from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
 from derive.mechanics.motion.leaving import LEAVES_CONTACT, speed_behind
 from derive.mechanics.motion.turning_points import squared_by_energy
+from derive.solving.attainable import lies_within
 from derive.solving.presentation import presented, without_positive
 from derive.solving.relations import isolated, solved_for_letter
 from derive.solving.unknowns import letter_of, mark_for, meaning, with_unknown
@@ -287,10 +289,13 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     to Mechanics*, section 1.8.
     """
     departure = _departure(lost, at)
-    for role, condition in lost.step.roles:
-        if role in ("reached", "existing"):
-            more, less = condition.sides if condition.operator == ">" else reversed(condition.sides)
-            taken_positive(tidied(explicit(more - less)))
+    conditions = [condition for role, condition in lost.step.roles if role in ("reached", "existing")]
+    for condition in conditions:
+        taken_positive(tidied(condition.residual if condition.operator == ">" else -condition.residual))
+    for condition in conditions or [None]:
+        if departure.letter is not None and lies_within(departure.letter, departure.value, condition) is False:
+            message = f"`flight`: the flight begins at {departure.q} = {departure.value}, outside the range of {at}"
+            raise Rejected(Complaint("range", message, help=f"give `{at}` the range of {departure.q} at the departure"))
     parents = [lost]
     if departure.letter is not None:
         parents.append(_place_of(departure, f"{key}_start"))
@@ -683,8 +688,11 @@ def _where(known: InFlight, target: Plane | None, x: Symbol, y: Symbol) -> dict[
         told = Relation((x - cx) ** 2 + (y - cy) ** 2, "=", radius**2)
         return {"condition": (told, Relation(told.left.expand(), "=", told.right))}
     (px, py), (nx, ny) = target.through.components, target.unit_normal.components
-    told = Relation(y, "=", py) if nx == 0 else Relation(tidied(nx * (x - px) + ny * (y - py)), "=", ZERO)
-    return {"condition": (told, Relation(explicit(told.left), "=", tidied(told.right)))}
+    for letter, n, p in ((y, nx, py), (x, ny, px)):
+        if n == 0:
+            return {"condition": (Relation(letter, "=", p), Relation(letter, "=", tidied(p)))}
+    left = nx * (x - px) + ny * (y - py)
+    return {"condition": (Relation(without_positive(tidied(left)), "=", ZERO), Relation(left, "=", ZERO))}
 
 
 LANDING_PLACE = Rule("motion.landing_place", source=SOURCE, evidence={"orbit": ROUTE})
@@ -777,17 +785,18 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     first, second = _both(flight)
     known = first.needed(InFlight)
     X, Y = (tidied(explicit(c)) for c in through)
+    _check_before_circle(known, (X, Y))
     v = tidied(diff(known.path[0], TIME).xreplace({TIME: ZERO}))
     if diff(known.path[0], TIME, 2) != 0 or v == 0:
         message = "`passes` needs a flight with a constant horizontal velocity"
         raise Rejected(Complaint("wrong-argument", message))
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:
-        message = f"`passes`: it is not known that the place is ahead of the particle, {time} s after the departure"
+        message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
         help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     above = tidied(known.path[1].xreplace({TIME: time}) - Y)
-    core = without_positive(presented(above.as_numer_denom()[0], in_sums=False), in_equation=True)
+    core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)
     if sign_known(above) in (1, -1):
         message = f"`passes`: the particle never passes through this place; there it is at the height {above} above it"
         raise Rejected(Complaint("cannot-hold", message))
@@ -805,9 +814,25 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
         lines=Lines(put_in=None, arranged=explicit),
         routes={"at_its_time": at_its_time},
         outcome="always" if is_zero(core) else "generic",
-        phrase_data=PhraseData(outcome_data={"flight": known, "place": (X, Y)}),
+        phrase_data=PhraseData(
+            formulas={
+                "across": (Relation(first.symbol, "=", X), Relation(first.symbol, "=", through[0])),
+                "upwards": (Relation(second.symbol, "=", Y), Relation(second.symbol, "=", through[1])),
+            },
+            outcome_data={"flight": known, "place": (X, Y)},
+        ),
         key=key,
     )
+
+
+def _check_before_circle(known: InFlight, place: Vector) -> None:
+    """Require that a place is inside the circle, if the particle flies inside: the flight ends on the circle."""
+    if known.orbit is None or not known.orbit.inside:
+        return
+    apart = Add(*((c - m) ** 2 for c, m in zip(place, known.orbit.centre, strict=True)))
+    if sign_known(tidied(known.orbit.radius**2 - apart)) != 1:
+        message = "`passes`: it is not known whether the place is inside the circle, on which the flight ends"
+        raise Rejected(Complaint("not-decided", message, help="give a place that is inside the circle"))
 
 
 # --- for `results:` ---------------------------------------------------------------------------------------------------
