@@ -257,7 +257,9 @@ def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """
     q, end = fact.coordinate
     free = Blueprint(replace(claim.blueprint.of, conditions=()))
-    for trial in claim.trials(MANY):
+    for trial in claim.trials(MANY, also=fact.conditions):
+        if any(abs(trial.value(each.residual)) < CLEAR for each in fact.conditions):
+            continue
         try:
             way = trial.value(end) - trial.value(fact.start)
             near = fact.start + (end - fact.start) * BEGUN

@@ -34,6 +34,7 @@ from derive.steps.trial_numbers import (
     everywhere,
     just_where,
     sign_at,
+    signs,
     signs_of,
     trial_points,
 )
@@ -286,12 +287,12 @@ def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr
     rates = [diff(c, s) * rate(s) + diff(c, q) * rate(q) for c in place]
     squared = explicit(fact.squared).subs(q, angle)
     wanted = [c.subs({rate(s): 0}).subs(there) for c in rates]
-    sign = _sense(angle - fact.start)
+    sign = _sense(angle - fact.start, fact)
     for c, r, w in zip(path, place, wanted, strict=True):
         if not is_zero(tidied(c.subs(TIME, 0) - r.subs(there))):
             return False
         velocity, rated = diff(c, TIME).subs(TIME, 0), w.subs(rate(q), 1)
-        if not is_zero(tidied(velocity**2 - rated**2 * squared)) or _opposed(velocity, sign * rated):
+        if not is_zero(tidied(velocity**2 - rated**2 * squared)) or _opposed(velocity, sign * rated, fact):
             return False
     return not residual.has(q)
 
@@ -302,15 +303,21 @@ def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
     return [tidied(-residual.subs(s, 0) / slope)]
 
 
-def _sense(change: Expr) -> int:
-    found = signs_of(with_numbers(change), *assumptions_about(letters_of(change))) - {None, 0}
+def _trials(value: Expr, fact: InFlight) -> list[Point]:
+    """Trial numbers for which the constraint is lost."""
+    letters = letters_of(value)
+    return trial_points(letters, *assumptions_about(letters), *map(with_numbers, fact.conditions))
+
+
+def _sense(change: Expr, fact: InFlight) -> int:
+    found = signs(with_numbers(change), _trials(with_numbers(change), fact)) - {None, 0}
     return 1 if found == {1} else -1 if found == {-1} else 0
 
 
-def _opposed(velocity: Expr, expected: Expr) -> bool:
+def _opposed(velocity: Expr, expected: Expr, fact: InFlight) -> bool:
     """Whether, numerically, a component of the velocity is somewhere opposite to the expected direction."""
     product = with_numbers(velocity * expected)
-    return not signs_of(product, *assumptions_about(letters_of(product))) <= {1, 0, None}
+    return not signs(product, _trials(product, fact)) <= {1, 0, None}
 
 
 def _away(fact: InFlight, target: Any) -> Expr:
@@ -331,7 +338,6 @@ def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
     fact, target = facts.inputs["flight"], facts.inputs["target"]
     away = _away(fact, target)
     values = [with_numbers(away.subs(TIME, time)) for time in times]
-    letters = set().union(*map(letters_of, values))
     near = Rational(1, 10**9)
 
     def is_so(point: Point) -> bool | None:
@@ -346,7 +352,7 @@ def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
                 return None if sign is None else False
         return True
 
-    return everywhere(trial_points(letters, *assumptions_about(letters)), is_so)
+    return everywhere(_trials(Add(*values, evaluate=False), fact), is_so)
 
 
 def lands(outcome: str) -> Predicate:
@@ -356,7 +362,7 @@ def lands(outcome: str) -> Predicate:
         fact, target, time = facts.inputs["flight"], facts.inputs["target"], explicit(facts.result)
         is_string = fact.kept.enforcer == "string"
         fits = outcome == ("on_plane" if target is not None else "taut" if is_string else "back")
-        positive = _sense(time) == 1
+        positive = _sense(time, fact) == 1
         before = tuple(part * time for part in ON_THE_WAY)
         return bool(fits and positive) and _at_times(facts, before, 1) and _at_times(facts, (time,), 0)
 
@@ -387,7 +393,7 @@ def passes(facts: Judged) -> bool:
     (x, y), (X, Y) = facts.inputs["flight"].path, facts.inputs["place"]
     speed = diff(x, TIME)
     time = tidied((X - x.subs(TIME, 0)) / speed)
-    return _sense(time) == 1 and same_equation(tidied(y.subs(TIME, time) - Y), explicit(facts.result).residual)
+    return _sense(time, facts.inputs["flight"]) == 1 and same_equation(tidied(y.subs(TIME, time) - Y), explicit(facts.result).residual)
 
 
 handed_on_by(InFlight, in_flight)

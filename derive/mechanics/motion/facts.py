@@ -58,6 +58,7 @@ class InFlight(Fact):
     coordinate     the coordinate of the motion before, and its value at the start of the flight
     letter         the symbol that the author gave to this value, if there is one
     orbit          the circle on which the particle was; None if it was not on a circle
+    conditions     the conditions on the symbols under which the constraint is lost
     """
 
     missing = "is not a motion in free flight, as `flight` yields it"
@@ -71,6 +72,7 @@ class InFlight(Fact):
     coordinate: tuple[Symbol, Expr]
     letter: Symbol | None
     orbit: Orbit | None
+    conditions: tuple[Relation, ...] = ()
 
     def in_given_letters(self, value: Expr) -> Expr:
         """Replace the symbol of the value of the coordinate by this value."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,6 +12,8 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff
 
 from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
 from derive.algebra.lowest_terms import factored
+from derive.algebra.order import Contradiction, in_order, known_order
+from derive.algebra.ranges import sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.arguments import checked
@@ -63,6 +66,11 @@ class Departure:
     def force(self) -> Quantity:
         """The force that vanishes there."""
         return self.lost.parents[0]
+
+    @property
+    def conditions(self) -> tuple[Relation, ...]:
+        """The conditions under which the motion gets there, as the step `lost` states them."""
+        return tuple(value for role, value in self.lost.step.roles if role in ("reached", "existing"))
 
     @property
     def original(self) -> Quantity:
@@ -211,6 +219,7 @@ class Departure:
             coordinate=(self.q, self.value),
             letter=self.letter,
             orbit=self.orbit,
+            conditions=self.conditions,
         )
 
 
@@ -289,19 +298,32 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     to Mechanics*, section 1.8.
     """
     departure = _departure(lost, at)
-    conditions = [condition for role, condition in lost.step.roles if role in ("reached", "existing")]
-    for condition in conditions:
-        taken_positive(tidied(condition.residual if condition.operator == ">" else -condition.residual))
-    for condition in conditions or [None]:
+    for condition in departure.conditions or (None,):
         if departure.letter is not None and lies_within(departure.letter, departure.value, condition) is False:
             message = f"`flight`: the flight begins at {departure.q} = {departure.value}, outside the range of {at}"
             raise Rejected(Complaint("range", message, help=f"give `{at}` the range of {departure.q} at the departure"))
-    parents = [lost]
-    if departure.letter is not None:
-        parents.append(_place_of(departure, f"{key}_start"))
-    taken_positive(departure.square)
-    speed = _speed_of(departure, parents, f"{key}_speed")
-    return tuple(_component(departure, speed, i, f"{key}_{name}") for i, name in enumerate("xy"))
+    with where(departure.conditions):
+        parents = [lost]
+        if departure.letter is not None:
+            parents.append(_place_of(departure, f"{key}_start"))
+        taken_positive(departure.square)
+        speed = _speed_of(departure, parents, f"{key}_speed")
+        return tuple(_component(departure, speed, i, f"{key}_{name}") for i, name in enumerate("xy"))
+
+
+@contextmanager
+def where(conditions: Sequence[Relation]) -> Iterator[None]:
+    """Use, within the `with` block, the conditions under which contact is lost; the step `lost` states them."""
+    order = known_order()
+    for each in conditions:
+        difference = tidied(each.residual if each.operator == ">" else -each.residual)
+        try:
+            order = order.with_relation(difference, True, sign_within)
+        except Contradiction:
+            message = f"`flight`: contact is lost only for {each}, which contradicts the assumptions"
+            raise Rejected(Complaint("contradiction", message)) from None
+    with in_order(order):
+        yield
 
 
 def _place_of(departure: Departure, key: str) -> Quantity:
@@ -454,6 +476,11 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     to Mechanics*, section 1.8.
     """
     first, second = _both(flight)
+    with where(first.needed(InFlight).conditions):
+        return _ends(first, second, on, key)
+
+
+def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tuple[Quantity, ...]:
     known = first.needed(InFlight)
     if on is None:
         back = _time_back(known)
@@ -783,6 +810,16 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     to Mechanics*, section 1.8.
     """
     first, second = _both(flight)
+    with where(first.needed(InFlight).conditions):
+        return _passes_through(first, second, through, key)
+
+
+def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], key: str) -> Quantity:
+    """The condition for a free flight to pass through a place.
+
+    Outcomes: generic, always.
+    Source: the same as for `passes_through`.
+    """
     known = first.needed(InFlight)
     X, Y = (tidied(explicit(c)) for c in through)
     _check_before_circle(known, (X, Y))
