@@ -217,7 +217,9 @@ class ConnectedScene:
         if isinstance(surface, Plane):
             n = surface.unit_normal
             along = Location((n.components[1], -n.components[0]))
-            circles = [(each.surface.centre, each.surface.radius) for each in self.contacts if isinstance(each.surface, Circle)]
+            circles = [
+                (each.surface.centre, each.surface.radius) for each in self.contacts if isinstance(each.surface, Circle)
+            ]
             reach = circles or [(line.through[0], self._span) for line in self.lines]
             for middle, far in reach[:1]:
                 way = dot(along, middle - surface.through)

@@ -21,7 +21,7 @@ from derive.witness.dynamics import Blueprint, Dynamics, Singular
 from derive.witness.facts import Around
 from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
-from derive.witness.trial import Contradiction, Given, Trial
+from derive.witness.trial import Contradiction, Formulas, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
@@ -218,7 +218,7 @@ def flight(claim: Claim) -> Verdict | None:
             stated = float(formulas.at(replace(each, t=each.t - start.t))[0])
             found = float(formulas.at(each)[1])
             if not abs(stated - found) <= FLOWN * (1 + abs(found)):
-                return claim.refuted("after its constraint has ended, the described system moves otherwise", trial, each)
+                return claim.refuted("without its constraint, the described system moves differently", trial, each)
         count += 1
     return seen(count, "flights")
 
@@ -240,7 +240,7 @@ def landing(claim: Claim) -> Verdict | None:
         early = followed(trial, start, min(stated, LONG) / 20, free=free)
         if early is None or not 0 < stated < LONG:
             continue
-        run = followed(trial, early.states[-1], 2 * stated, lambda here: float(apart.at(here)[0]), free)
+        run = followed(trial, early.states[-1], 2 * stated, _first_of(apart), free)
         if run is None:
             continue
         found = np.inf if run.end is None else run.end.t - start.t
@@ -268,9 +268,14 @@ def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
         except (Contradiction, NotComputable):
             continue
         state = _towards(trial, q, state, way)
-        run = followed(trial, state, LONG, lambda here, of=pushing, t=trial: float(of.at(here, t.dynamics.response(here))[0]))  # type: ignore[misc]  # fmt: skip
+        run = followed(trial, state, LONG, _first_of(pushing, trial))
         if run is not None and run.end is not None:
             yield trial, run.end, free.with_numbers(trial.numbers)
+
+
+def _first_of(formulas: Formulas, trial: Trial | None = None) -> Event:
+    """An event at which the first formula vanishes; with a trial, the formula may contain multipliers."""
+    return lambda here: float(formulas.at(here, None if trial is None else trial.dynamics.response(here))[0])
 
 
 def _time_to_turn(trial: Trial, start: State) -> float:

@@ -126,7 +126,10 @@ def _is_reached(unknown: Expr, number: complex) -> bool:
     """Whether an angle in the range of its symbol has this sine or cosine."""
     if abs(number) > 1:
         return False
-    known, angle = range_of(unknown.args[0]), float(acos(number.real) if isinstance(unknown, cos) else asin(number.real))
+    known, angle = (
+        range_of(unknown.args[0]),
+        float(acos(number.real) if isinstance(unknown, cos) else asin(number.real)),
+    )
     same = (angle, -angle) if isinstance(unknown, cos) else (angle, float(pi) - angle)
     turns = (each + 2 * n * float(pi) for each in same for n in range(-2, 3))
     return known is None or any(known.least < each < known.greatest for each in turns)

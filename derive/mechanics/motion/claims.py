@@ -23,6 +23,7 @@ from sympy import (
 from derive.algebra.expressions import TIME, explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
+from derive.mechanics.model.dalembert import Load
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
@@ -267,15 +268,12 @@ def in_flight(facts: Judged, fact: InFlight) -> bool:
     q, angle = fact.coordinate
     before = [fact.in_given_letters(c) for c in fact.path]
     (point,) = fact.matter.points
-    loads = [*fact.matter.loads, *(each for each in fact.matter.others if not _is_of(each, fact.kept.force))]
+    others = (each for each in fact.matter.others if isinstance(each, Load) and each.multiplier != fact.kept.force)
+    loads = [*fact.matter.loads, *others]
     pulled = [Add(*(each.force[i] for each in loads)) for i in (0, 1)]
     falls = all(is_zero(point.mass * diff(c, TIME, 2) - F) for c, F in zip(fact.path, pulled, strict=True))
     shown = any(is_zero(facts.result - c) for c in fact.path)
     return bool(falls and shown) and _starts_on_its_curve(fact, q, angle, before)
-
-
-def _is_of(load: Any, force: Symbol) -> bool:
-    return bool(load.multiplier == force)
 
 
 def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr]) -> bool:
@@ -390,10 +388,11 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 def passes(facts: Judged) -> bool:
     """Whether the condition vanishes just if the height at the time above or below the place is that of the place, and
     whether this time is, numerically, positive."""
-    (x, y), (X, Y) = facts.inputs["flight"].path, facts.inputs["place"]
-    speed = diff(x, TIME)
-    time = tidied((X - x.subs(TIME, 0)) / speed)
-    return _sense(time, facts.inputs["flight"]) == 1 and same_equation(tidied(y.subs(TIME, time) - Y), explicit(facts.result).residual)
+    fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
+    x, y = fact.path
+    time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))
+    height = tidied(y.subs(TIME, time) - Y)
+    return _sense(time, fact) == 1 and same_equation(height, explicit(facts.result).residual)
 
 
 handed_on_by(InFlight, in_flight)

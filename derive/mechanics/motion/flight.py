@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, factorial, sqrt
 
 from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
 from derive.algebra.lowest_terms import factored
@@ -18,11 +18,12 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, PlaceIn, SurfaceNamed, in_results
+from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.described import Described
-from derive.mechanics.model.surfaces import Plane, Surface
+from derive.mechanics.model.surfaces import Plane, Surface, dot
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
 from derive.mechanics.motion.leaving import LEAVES_CONTACT, speed_behind
@@ -35,14 +36,16 @@ from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import changes, free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.signs import sign_known, taken_positive
-from derive.steps.step import Level, Quantity, is_zero
+from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import signs_of
 
 __all__ = ["free_flight", "landing", "passes_through"]
 
 ZERO = Integer(0)
 Vector = tuple[Expr, Expr]
-SOURCE = "Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction to "
+SOURCE = (
+    "Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction to "
+)
 SOURCE += "Mechanics*, section 1.8"
 
 
@@ -79,7 +82,8 @@ class Departure:
 
     @property
     def lagrangian(self) -> Quantity:
-        return self.original.needed(ForceOf).problem.lagrangian
+        found: Quantity = self.original.needed(ForceOf).problem.lagrangian
+        return found
 
     @property
     def gravity(self) -> Expr:
@@ -204,7 +208,6 @@ class Departure:
         length of the arc."""
         return Integer(1) if not self.scale.has(self.q) else ZERO
 
-
     def flight(self, path: Vector) -> InFlight:
         """The fact of a flight along this path, for later steps."""
         known = self.speed.needed(ByEnergy)
@@ -294,8 +297,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     system is followed until the force vanishes, and then without its constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
     Errors: contact is not lost; the system is not one particle in a plane under a constant force.
-    Source: Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction
-    to Mechanics*, section 1.8.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
     for condition in departure.conditions or (None,):
@@ -472,8 +474,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     Outcomes: of the time: on_plane, taut (of a string), back (on the surface that it left); clear (it does not meet the
     circle again); misses (it does not reach the plane).
     Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle meets the circle first.
-    Source: Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction
-    to Mechanics*, section 1.8.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
     with where(first.needed(InFlight).conditions):
@@ -488,18 +489,16 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
             return (_clear(first, second, key),)
         return _landed(first, second, back, None, key, [])
     target = _fixed_plane(on)
-    parents = []
-    if known.orbit is not None:
-        back = _time_back(known)
-        if back is None and not known.orbit.inside:
-            parents.append(_clear(first, second, f"{key}_clear"))
-    else:
-        back = None
+    back = _time_back(known) if known.orbit is not None else None
+    stays = known.orbit is not None and back is None
+    parents = [_clear(first, second, f"{key}_clear")] if stays else []
     time = _time_to(known, target)
     if time is None:
         return (_misses(first, second, target, key),)
     if back is not None and sign_known(back - time) != 1:
-        message = f"`lands`: it is not known whether the particle reaches the plane before it meets the circle at {back}"
+        message = (
+            f"`lands`: it is not known whether the particle reaches the plane before it is on its circle at {back}"
+        )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)
 
@@ -525,35 +524,47 @@ def _fixed_plane(on: Surface) -> Plane:
 
 def _time_back(known: InFlight) -> Expr | None:
     """Return the time at which the particle meets its circle again; None if it does not."""
-    if known.orbit is None:
-        message = "`lands`: the particle was not on a circle, so it is not known whether it comes back"
-        raise Rejected(Complaint("not-decided", message))
-    parts = [*reversed(_beyond(known).expand().as_poly(TIME).all_coeffs())]
+    orbit = _orbit_of(known)
+    parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
         raise Unverified(Complaint("unverified", "the flight does not begin on the circle, along it, with no force"))
     outwards, last = (tidied(c) for c in parts[3:])
     sign = sign_known(outwards)
-    if known.orbit.inside and sign == -1:
+    if orbit.inside and sign == -1:
         return presented(-outwards / last)
-    if not known.orbit.inside and sign in (0, 1):
+    if not orbit.inside and sign in (0, 1):
         return None
     message = "`lands`: it is not known on which side of the circle the particle flies"
     help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
     raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
-def _beyond(known: InFlight) -> Expr:
-    """The squared distance from the centre, minus the squared radius."""
-    assert known.orbit is not None
-    away = zip(known.path, known.orbit.centre, strict=True)
-    return Add(*((c - m) ** 2 for c, m in away)) - known.orbit.radius**2
+def _orbit_of(known: InFlight) -> Orbit:
+    if known.orbit is None:
+        message = "`lands`: the particle was not on a circle, so it is not known whether it comes back"
+        raise Rejected(Complaint("not-decided", message))
+    return known.orbit
+
+
+def _beyond(place: Sequence[Expr], orbit: Orbit) -> Expr:
+    """The squared distance of a place from the centre of a circle, minus the squared radius."""
+    return Add(*((c - m) ** 2 for c, m in zip(place, orbit.centre, strict=True))) - orbit.radius**2
+
+
+def _distance(place: Sequence[Expr], target: Plane) -> Expr:
+    """The distance of a place from a plane, positive on the free side."""
+    return dot(Location(tuple(place)) - target.through, target.unit_normal)
+
+
+def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
+    """The place of the particle at a time, or the derivatives of its components."""
+    return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
 
 
 def _above(known: InFlight, target: Plane) -> list[Expr]:
     """The coefficients of t^0, t and t^2 in the distance from the plane."""
-    away = zip(known.path, target.through.components, target.unit_normal.components, strict=True)
-    height = Add(*((c - p) * n for c, p, n in away))
-    return [tidied(diff(height, TIME, n).xreplace({TIME: ZERO}) / (1, 1, 2)[n]) for n in range(3)]
+    parts = _distance(known.path, target).expand().as_poly(TIME)
+    return [tidied(parts.coeff_monomial(TIME**n)) for n in range(3)]
 
 
 def _time_to(known: InFlight, target: Plane) -> Expr | None:
@@ -593,14 +604,14 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
     Source: the same as for `landing`.
     """
     known = first.needed(InFlight)
-    assert known.orbit is not None
-    (cx, cy), radius = known.orbit.centre, known.orbit.radius
+    orbit = _orbit_of(known)
+    (cx, cy), radius = orbit.centre, orbit.radius
 
     def distance(found: Relation) -> tuple[Any, Any]:
         """Check the distance by its derivatives at the departure."""
-        whole = _beyond(known)
-        series = [diff(whole, TIME, n).xreplace({TIME: ZERO}) * TIME**n for n in range(5)]
-        return found.residual, Add(*(each / (1, 1, 2, 6, 24)[n] for n, each in enumerate(series)))
+        whole = _beyond(known.path, orbit)
+        series = [diff(whole, TIME, n).xreplace({TIME: ZERO}) * TIME**n / factorial(n) for n in range(5)]
+        return found.residual, Add(*series)
 
     return establish(
         CLEAR,
@@ -634,10 +645,9 @@ def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quant
     least = presented(h - v**2 / (4 * a)) if sign_known(v) == -1 else presented(h)
 
     def distance(found: Relation) -> tuple[Any, Any]:
+        """Check the distance at the time at which it is least."""
         turned = -v / (2 * a) if sign_known(v) == -1 else ZERO
-        there = [c.xreplace({TIME: turned}) for c in known.path]
-        away = zip(there, target.through.components, target.unit_normal.components, strict=True)
-        return found.residual, Add(*((c - p) * n for c, p, n in away))
+        return found.residual, _distance(_at(turned, known), target)
 
     return establish(
         CLEAR,
@@ -676,12 +686,8 @@ def _landed(
     known = first.needed(InFlight)
 
     def put_back(found: Expr) -> tuple[Any, Any]:
-        there = [c.xreplace({TIME: found}) for c in known.path]
-        if target is not None:
-            away = zip(there, target.through.components, target.unit_normal.components, strict=True)
-            return Add(*((c - p) * n for c, p, n in away)), ZERO
-        assert known.orbit is not None
-        return Add(*((c - m) ** 2 for c, m in zip(there, known.orbit.centre, strict=True))), known.orbit.radius**2
+        there = _at(found, known)
+        return (_beyond(there, _orbit_of(known)) if target is None else _distance(there, target)), ZERO
 
     back = "taut" if known.kept.enforcer == "string" else "back"
     when = establish(
@@ -710,8 +716,8 @@ def _landed(
 def _where(known: InFlight, target: Plane | None, x: Symbol, y: Symbol) -> dict[str, tuple[Relation, Relation]]:
     """The condition that the landing satisfies, as a sentence states it."""
     if target is None:
-        assert known.orbit is not None
-        (cx, cy), radius = known.orbit.centre, known.orbit.radius
+        orbit = _orbit_of(known)
+        (cx, cy), radius = orbit.centre, orbit.radius
         told = Relation((x - cx) ** 2 + (y - cy) ** 2, "=", radius**2)
         return {"condition": (told, Relation(told.left.expand(), "=", told.right))}
     (px, py), (nx, ny) = target.through.components, target.unit_normal.components
@@ -732,10 +738,8 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     Source: the same as for `landing`.
     """
     known = path.needed(InFlight)
-    there = [c.xreplace({TIME: explicit(when.value)}) for c in known.path]
-    v = [diff(c, TIME).xreplace({TIME: ZERO}) for c in known.path]
-    a = [diff(c, TIME, 2) for c in known.path]
-    begin = [c.xreplace({TIME: ZERO}) for c in known.path]
+    there, begin = _at(explicit(when.value), known), _at(ZERO, known)
+    v, a = _at(ZERO, known, 1), _at(ZERO, known, 2)
 
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
@@ -766,14 +770,12 @@ def _speed_there(when: Quantity, path: Quantity, known: InFlight, key: str) -> Q
     Source: the same as for `landing`.
     """
     speed = next(each for each in path.ancestors() if each.step.rule == DEPARTURE_SPEED.name)
-    there = [c.xreplace({TIME: explicit(when.value)}) for c in known.path]
-    begin = [c.xreplace({TIME: ZERO}) for c in known.path]
-    work = Add(*(diff(c, TIME, 2) * (r - s) for c, r, s in zip(known.path, there, begin, strict=True)))
+    there, begin = _at(explicit(when.value), known), _at(ZERO, known)
+    work = Add(*(a * (r - s) for a, r, s in zip(_at(ZERO, known, 2), there, begin, strict=True)))
     gained = presented(2 * work)
 
     def velocity(found: Expr) -> tuple[Any, Any]:
-        squares = (diff(c, TIME).xreplace({TIME: explicit(when.value)}) ** 2 for c in known.path)
-        return found**2, Add(*squares)
+        return found**2, Add(*(c**2 for c in _at(explicit(when.value), known, 1)))
 
     return establish(
         LANDING_SPEED,
@@ -806,8 +808,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     Check: the height at this time. Numerically, this time is positive.
     Outcomes: generic, always (the particle passes through the place in any case).
     Errors: the particle never passes through the place, or this is not known; it moves vertically.
-    Source: Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction
-    to Mechanics*, section 1.8.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
     with where(first.needed(InFlight).conditions):
@@ -866,8 +867,7 @@ def _check_before_circle(known: InFlight, place: Vector) -> None:
     """Require that a place is inside the circle, if the particle flies inside: the flight ends on the circle."""
     if known.orbit is None or not known.orbit.inside:
         return
-    apart = Add(*((c - m) ** 2 for c, m in zip(place, known.orbit.centre, strict=True)))
-    if sign_known(tidied(known.orbit.radius**2 - apart)) != 1:
+    if sign_known(tidied(_beyond(place, known.orbit))) != -1:
         message = "`passes`: it is not known whether the place is inside the circle, on which the flight ends"
         raise Rejected(Complaint("not-decided", message, help="give a place that is inside the circle"))
 
