@@ -252,6 +252,18 @@ def test_a_wrong_question_is_refused(old: str, new: str, said: str, tmp_path: Pa
     assert all(each.place is not None for each in found)
 
 
+def test_a_flight_without_symbols_has_no_condition_to_pass_a_place(tmp_path: Path) -> None:
+    for place, said in (("5*R*(sqrt(5) + 4*sqrt(2))/27, -R", "in any case"), ("2*R, R", "never passes")):
+        text = edited(
+            SPHERE,
+            ("    landing: {lands: flight, on: floor}", f"    landing: {{passes: flight, through: [{place}]}}"),
+            ("    floor: {through: [0, -R], along: [1, 0]}\n", ""),
+            ("[flight, landing_x, landing_speed]", "landing"),
+        )
+        (found,) = complaints(tmp_path, text)
+        assert found.code == "no-condition" and said in found.message
+
+
 def test_a_plane_that_moves_or_is_on_the_wrong_side_is_refused(tmp_path: Path) -> None:
     (moving,) = complaints(tmp_path, edited(SPHERE, (FLOOR, "floor: {through: [0, -R - g*t**2], along: [1, 0]}")))
     assert "needs a plane at rest" in moving.message

@@ -43,10 +43,7 @@ __all__ = ["free_flight", "landing", "passes_through"]
 
 ZERO = Integer(0)
 Vector = tuple[Expr, Expr]
-SOURCE = (
-    "Morin, *Introduction to Classical Mechanics*, problems 5.20 and 3.25; Kleppner, Kolenkow, *An Introduction to "
-)
-SOURCE += "Mechanics*, section 1.8"
+SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 
 
 # --- the end of the motion on the surface or the string ---------------------------------------------------------------
@@ -793,7 +790,7 @@ def _speed_there(when: Quantity, path: Quantity, known: InFlight, key: str) -> Q
 PASSES = Rule(
     "motion.passes_through",
     source=SOURCE,
-    outcomes={"generic": claims.passes, "always": claims.passes},
+    outcomes={"generic": claims.passes},
     evidence={"at_its_time": CHECK},
 )
 
@@ -806,8 +803,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: the height at this time. Numerically, this time is positive.
-    Outcomes: generic, always (the particle passes through the place in any case).
-    Errors: the particle never passes through the place, or this is not known; it moves vertically.
+    Errors: the particle passes through the place in any case or never, or it is not known whether the place is ahead.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
@@ -818,7 +814,6 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], key: str) -> Quantity:
     """The condition for a free flight to pass through a place.
 
-    Outcomes: generic, always.
     Source: the same as for `passes_through`.
     """
     known = first.needed(InFlight)
@@ -835,9 +830,11 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         raise Rejected(Complaint("not-decided", message, help=help_line))
     above = tidied(known.path[1].xreplace({TIME: time}) - Y)
     core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)
-    if sign_known(above) in (1, -1):
-        message = f"`passes`: the particle never passes through this place; there it is at the height {above} above it"
-        raise Rejected(Complaint("cannot-hold", message))
+    sign = sign_known(above)
+    if sign is not None:
+        how = "passes through this place in any case" if sign == 0 else "never passes through this place"
+        message = f"`passes`: the particle {how}, so there is no condition"
+        raise Rejected(Complaint("no-condition", message, help="ask for the place and time of landing instead"))
 
     def at_its_time(found: Relation) -> tuple[Any, Any]:
         """Compare with the height at this time, up to a factor that does not vanish."""
@@ -851,7 +848,6 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         {"x": first, "y": second},
         lines=Lines(put_in=None, arranged=explicit),
         routes={"at_its_time": at_its_time},
-        outcome="always" if is_zero(core) else "generic",
         phrase_data=PhraseData(
             formulas={
                 "across": (Relation(first.symbol, "=", X), Relation(first.symbol, "=", through[0])),
