@@ -24,9 +24,8 @@ from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.described import Described
 from derive.mechanics.model.surfaces import Plane, Surface, dot
-from derive.mechanics.motion import claims
+from derive.mechanics.motion import claims, leaving
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
-from derive.mechanics.motion.leaving import LEAVES_CONTACT, speed_behind
 from derive.mechanics.motion.turning_points import squared_by_energy
 from derive.solving.attainable import lies_within
 from derive.solving.presentation import presented, without_positive
@@ -224,13 +223,13 @@ class Departure:
 
 
 def _departure(lost: Quantity, letter: Any) -> Departure:
-    if lost.step.rule != LEAVES_CONTACT.name:
+    if lost.step.rule != leaving.LEAVES_CONTACT.name:
         message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not one"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `leaves`"))
     if lost.step.outcome not in ("lost", "lost_later"):
         message = f"`{lost.key}` states that contact is never lost, so no flight follows"
         raise Rejected(Complaint("no-flight", message, help="ask for the flight only if the contact is lost"))
-    speed = speed_behind(lost.parents[0], lost.value.left)
+    speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed before is unknown, since `{lost.key}` was found without conservation of energy"
         raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
@@ -465,9 +464,9 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     t^3 (a t + b): the departure is a triple zero, because the speed, its direction and the force there are those of the
     circle. If a t + b has no zero at a positive time, the particle does not meet the circle again. Before a landing on
     a plane, the particle must not meet the circle.
-    Checks: the place at this time is on the plane or the circle, and on the orbit without the time; the speed is that
-    of the velocity and that of the energy. Numerically, the flight is on the free side until then. Witness: the free
-    flight of the described system is followed until it ends.
+    Second route: the place is on the orbit without the time; the speed by conservation of energy is that of the
+    derivatives of the components. Check: at this time the particle is on the plane or the circle. Numerically, it is on
+    the free side until then. Witness: the free flight of the described system is followed until it ends.
     Outcomes: of the time: on_plane, taut (of a string), back (on the surface that it left); clear (it does not meet the
     circle again); misses (it does not reach the plane).
     Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle meets the circle first.
@@ -586,7 +585,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     raise Rejected(Complaint("not-decided", message, help="state with `assume:` when it does, or give numbers"))
 
 
-CLEAR = Rule(
+STAYS_CLEAR = Rule(
     "motion.stays_clear",
     source=SOURCE,
     outcomes={"clear": claims.stays_clear, "misses": claims.misses},
@@ -611,7 +610,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
         return found.residual, Add(*series)
 
     return establish(
-        CLEAR,
+        STAYS_CLEAR,
         None,
         lambda x, y: Relation((x - cx) ** 2 + (y - cy) ** 2, ">", radius**2),
         {"x": first, "y": second},
@@ -647,7 +646,7 @@ def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quant
         return found.residual, _distance(_at(turned, known), target)
 
     return establish(
-        CLEAR,
+        STAYS_CLEAR,
         None,
         lambda *_: Relation(least, ">", 0),
         {"x": first, "y": second},
