@@ -786,7 +786,7 @@ def _speed_there(when: Quantity, path: Quantity, known: InFlight, key: str) -> Q
     )
 
 
-PASSES = Rule(
+PASSES_THROUGH = Rule(
     "motion.passes_through",
     source=SOURCE,
     outcomes={"generic": claims.passes},
@@ -841,7 +841,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         return found.residual * above, there * core
 
     return establish(
-        PASSES,
+        PASSES_THROUGH,
         None,
         lambda *_: Relation(core, "=", 0),
         {"x": first, "y": second},
