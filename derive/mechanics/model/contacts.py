@@ -22,6 +22,7 @@ from derive.mechanics.model.no_slip import no_slip, rolling_constraint, velocity
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import Circle, Plane, Surface, dot, unit, vector
 from derive.steps.record import assume, coordinates_in, require_constant
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact", "landing_surface"]
@@ -181,7 +182,17 @@ def _contact(of: Any, on: Any) -> Contact:
     place = at if radius == 0 else Location(tuple(tidied(c) for c in (at - radius * away).components))
     found = Contact((), body, place, surface, tidied(surface.distance(at) - radius), away)
     _check(found)
+    _check_reached(found)
     return found
+
+
+def _check_reached(touch: Contact) -> None:
+    """Reject a body that never touches the surface: it is always away from the surface, or partly inside it."""
+    sign = sign_known(touch.gap)
+    if sign in (1, -1):
+        where = "always away from the surface" if sign == 1 else "always partly inside the surface"
+        message = f"the body is {where}, since its distance from the surface is {touch.gap}"
+        raise Rejected(Complaint("no-contact", message, help="change the place of the body, its size or the surface"))
 
 
 def _check(touch: Contact) -> None:
