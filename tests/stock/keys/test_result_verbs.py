@@ -17,7 +17,8 @@ from tests.stock.described import PENDULUM, complaints, edited
 KEYS = [key for key in keys_of(ResultKeys) if key not in VERBS]
 HOLDS = {
     "results": "kinetic_energy", "values": "{l: l}", "within": "[0, pi]", "for": "theta", "symbol": "u", "order": "1",
-    "is": "'>'", "case": "overdamped", "direction": "x", "about": "tip", "origin": "tip", "root": "2", "through": "[l, l]",
+    "is": "'>'", "case": "overdamped", "direction": "x", "about": "tip", "origin": "tip", "root": "2",
+    "through": "[l, l]",
 }  # fmt: skip
 SPARE = [(verb, key) for verb in VERBS for key in KEYS if key not in VERBS[verb].keys]
 
