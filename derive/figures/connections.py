@@ -42,7 +42,7 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.contacts import Contact, LandingSurface
 from derive.mechanics.model.joints import Dashpot, Motor, Pin
 from derive.mechanics.model.strings import Line, Pulley, Wire
 from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, dot
@@ -230,6 +230,8 @@ class Connections:
         else:
             for plane in self._planes:
                 yield from self._table(plane)
+            for landing in connections_of(self.system, LandingSurface):
+                yield from self._landing(landing.surface)
         for pulley in connections_of(self.system, Pulley):
             yield from self._pulley(pulley.at, pulley.radius, Rational(9, 5) * pulley.radius)
         labels: set[Any] = set()  # each angle is drawn once
@@ -321,6 +323,20 @@ class Connections:
         starts = [each.foot for each in contacts] + [Location((ZERO, height))]
         margins = (0.0 if False in sides else ROOM, 0.0 if True in sides else ROOM)
         return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), UNDER[BlockMark], margins)
+
+    def _landing(self, plane: Surface) -> Iterable[Mark]:
+        """Yield the plane on which a flight ends, below or beside the circle or the string from which it begins."""
+        if not isinstance(plane, Plane):
+            return
+        along = Location((plane.unit_normal.components[1], -plane.unit_normal.components[0]))
+        circles = [
+            (each.surface.centre, each.surface.radius) for each in self.contacts if isinstance(each.surface, Circle)
+        ]
+        for middle, far in (circles or [(line.places[0], self._span) for line in self.lines])[:1]:
+            way = dot(along, middle - plane.through)
+            low, high = (plane.through + (way + sign * PAST * far) * along for sign in (-1, 1))
+            yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
+            yield from self._slope(plane, low, high)
 
     def _ends(self, plane: Plane, contacts: Sequence[Contact]) -> tuple[Location, Location]:
         """The ends of the drawn part of a plane, from the lower or left end to the other end."""

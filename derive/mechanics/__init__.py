@@ -53,6 +53,7 @@ from derive.mechanics.model.surfaces import *
 from derive.mechanics.model.system import *
 from derive.mechanics.motion.conservation import *
 from derive.mechanics.motion.energy_integral import *
+from derive.mechanics.motion.flight import *
 from derive.mechanics.motion.leaving import *
 from derive.mechanics.motion.slipping import *
 from derive.mechanics.motion.steady import *

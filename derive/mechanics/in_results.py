@@ -46,6 +46,8 @@ class Holds(Enum):
     FUNCTIONS = auto()  # two answers or expressions
     POINT = auto()  # the name of a point of a body
     AXIS = auto()  # a direction
+    PLACE = auto()  # the two components of a place in a plane
+    SURFACE = auto()  # the name of a surface
 
 
 Letter = Annotated[Any, Holds.LETTER]
@@ -58,6 +60,8 @@ Formula = Annotated[tuple[Expr, Mapping[Any, Quantity]], Holds.FORMULA]
 Name = Annotated[str, Holds.NAME]
 Point = Annotated[str | None, Holds.POINT]
 Axis = Annotated[Any, Holds.AXIS]
+PlaceIn = Annotated[Sequence[Any], Holds.PLACE]
+SurfaceNamed = Annotated[Any, Holds.SURFACE]
 Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
 Ask = Callable[[str], Quantity]  # an argument `ask` is not a key, but a function: name -> answer
 

@@ -153,6 +153,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return {**self.particles, **self.bodies}
 
     @cached_property
+    def surfaces(self) -> dict[str, Any]:
+        """Return the described surfaces, by name."""
+        return {name: surface.made(self.parts_by_name) for name, surface in self.described.surfaces.items()}
+
+    @cached_property
     def acting(self) -> list[Any]:
         """Return what acts on the particles and bodies, in the order of the description."""
         return [part.made(self.parts_by_name) for part in self.described.acting]

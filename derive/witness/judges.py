@@ -32,6 +32,8 @@ JUDGES: Mapping[str, Judge] = {
     "motion.speed_from_energy": runs.speed,
     "motion.leaves_contact": runs.leaves,
     "motion.slips": runs.slips,
+    "motion.free_flight": runs.flight,
+    "motion.landing_time": runs.landing,
     "vibrations.solution": runs.solution,
     "rest.equilibrium": small.rest,
     "rest.stability": small.stability,

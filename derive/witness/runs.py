@@ -6,7 +6,8 @@ Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections I
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,10 +17,11 @@ from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Relation, explicit, rate
 from derive.witness import small
 from derive.witness.claim import TRIALS, Claim, seen
-from derive.witness.dynamics import Singular
+from derive.witness.dynamics import Blueprint, Dynamics, Singular
 from derive.witness.facts import Around
 from derive.witness.geometry import Reals, State
-from derive.witness.trial import EXACT, HOLDS, Contradiction, Given, Trial
+from derive.witness.tape import NotComputable
+from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, Trial
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
@@ -38,17 +40,17 @@ class TooLong(Exception):
 class Run:
     """One motion of the described system: its states, and the state at the event that ended the motion, or None."""
 
-    def __init__(self, trial: Trial, start: State, length: float, event: Event | None, step: float):
+    def __init__(self, dynamics: Dynamics, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp
 
-        self.trial, self._calls = trial, 0
+        self._calls = 0
         n = len(start.q)
 
         def flow(t: float, y: Reals) -> Reals:
             self._calls += 1
             if self._calls > CALLS:
                 raise TooLong
-            return np.concatenate([y[n:], trial.dynamics.response(State(y[:n], y[n:], t)).a])
+            return np.concatenate([y[n:], dynamics.response(State(y[:n], y[n:], t)).a])
 
         def watched(t: float, y: Reals) -> float:
             assert event is not None
@@ -71,10 +73,15 @@ class Run:
         self.end = State(found.y_events[0][0][:n], found.y_events[0][0][n:], found.t_events[0][0]) if ended else None
 
 
-def followed(trial: Trial, start: State, length: float = LONG, event: Event | None = None) -> Run | None:
-    """The motion from a state; None if it reaches a singularity or takes too long."""
+def followed(
+    trial: Trial, start: State, length: float = LONG, event: Event | None = None, free: Dynamics | None = None
+) -> Run | None:
+    """The motion from a state; None if it reaches a singularity or takes too long.
+
+    free   the dynamics of the system without its constraints, in place of the dynamics of the trial
+    """
     try:
-        return Run(trial, start, length, event, length / (MOMENTS if event is None else WATCHED))
+        return Run(free or trial.dynamics, start, length, event, length / (MOMENTS if event is None else WATCHED))
     except (Singular, TooLong, np.linalg.LinAlgError, FloatingPointError):
         return None
 
@@ -221,11 +228,94 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
     """The given state; if the motion from it would move away from the stated position, all its rates are reversed."""
-    from dataclasses import replace
-
     response = trial.dynamics.response(state)
     changing = float(trial.formulas([unknown]).rate_at(state, response)[0])
     return replace(state, v=-state.v) if changing * sign < 0 else state
+
+
+# --- free flight after the constraint has ended ---
+
+BEGUN = 0.03  # the motion before a flight begins at this fraction of its way, because its start may be an equilibrium
+FLOWN = 1e-4  # accuracy to which a simulated flight and a formula agree; the flight begins at a simulated event
+
+
+def flight(claim: Claim) -> Verdict | None:
+    """Test a component of a free flight: the system is followed until its force vanishes, then without constraints."""
+    fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
+    count = 0
+    for trial, start, free in _begun(claim, fact):
+        length = 2 * _time_to_turn(trial, start)
+        run = followed(trial, start, length, free=free)
+        if run is None:
+            continue
+        formulas = trial.formulas([fact.in_given_letters(claim.value), claim.blueprint.of.particles[0].place[i]])
+        for each in run.states:
+            stated = float(formulas.at(replace(each, t=each.t - start.t))[0])
+            found = float(formulas.at(each)[1])
+            if not abs(stated - found) <= FLOWN * (1 + abs(found)):
+                return claim.refuted("without its constraint, the described system moves differently", trial, each)
+        count += 1
+    return seen(count, "flights")
+
+
+def landing(claim: Claim) -> Verdict | None:
+    """Test the time at which a free flight ends: the described system is followed without constraints until then."""
+    fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
+    x, y = claim.blueprint.of.particles[0].place
+    if target is not None:
+        (px, py), (nx, ny) = target.through.components, target.unit_normal.components
+        away = nx * (x - px) + ny * (y - py)
+    else:
+        (cx, cy), radius = fact.orbit.centre, fact.orbit.radius
+        away = radius**2 - (x - cx) ** 2 - (y - cy) ** 2
+    count = 0
+    for trial, start, free in _begun(claim, fact):
+        stated = trial.value(fact.in_given_letters(claim.value))
+        apart = trial.formulas([away])
+        early = followed(trial, start, min(stated, LONG) / 20, free=free)
+        if early is None or not 0 < stated < LONG:
+            continue
+        run = followed(trial, early.states[-1], 2 * stated, _first_of(apart), free)
+        if run is None:
+            continue
+        found = np.inf if run.end is None else run.end.t - start.t
+        if not abs(found - stated) <= FLOWN * 10 * (1 + stated):
+            return claim.refuted(f"the described flight ends after {found:.4g} instead of {stated:.4g}", trial, start)
+        count += 1
+    return seen(count, "flights")
+
+
+def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
+    """Yield states in which the force of the constraint vanishes, and the dynamics of the system without constraints.
+
+    fact   the flight: where it begins, and the motion before
+    """
+    q, end = fact.coordinate
+    free = Blueprint(replace(claim.blueprint.of, conditions=()))
+    for trial in claim.trials(MANY, also=fact.conditions):
+        if any(abs(trial.value(each.residual)) < CLEAR for each in fact.conditions):
+            continue
+        try:
+            way = trial.value(end) - trial.value(fact.start)
+            near = fact.start + (end - fact.start) * BEGUN
+            state = trial.state(_without_repeats([*claim.states_given, Given(q, near)]))
+            pushing = trial.formulas([explicit(fact.force.symbol)])
+        except (Contradiction, NotComputable):
+            continue
+        state = _towards(trial, q, state, way)
+        run = followed(trial, state, LONG, _first_of(pushing, trial))
+        if run is not None and run.end is not None:
+            yield trial, run.end, free.with_numbers(trial.numbers)
+
+
+def _first_of(formulas: Formulas, trial: Trial | None = None) -> Event:
+    """An event at which the first formula vanishes; with a trial, the formula may contain multipliers."""
+    return lambda here: float(formulas.at(here, None if trial is None else trial.dynamics.response(here))[0])
+
+
+def _time_to_turn(trial: Trial, start: State) -> float:
+    """A time of the size of the flight: the speed divided by the acceleration, or one unit of time."""
+    return float(min(1.0, np.max(np.abs(start.v)) + 0.3))
 
 
 def solution(claim: Claim) -> Verdict | None:

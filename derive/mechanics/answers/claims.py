@@ -15,11 +15,14 @@ from sympy import (
     Poly,
     Rational,
     Symbol,
+    acos,
+    asin,
     cos,
     diff,
     factor_list,
     gcd_list,
     oo,
+    pi,
     sign,
     sin,
 )
@@ -112,10 +115,24 @@ def _only_there(facts: Judged, point: Point) -> bool:
     unknown, size = facts.inputs["unknown"], max(map(abs, numbers)) or 1
     known, limited = range_of(unknown), isinstance(unknown, sin | cos)
     for other in numbers[1:]:
-        beside = limited and abs(other) > 1 or known is not None and not known.least < other.real < known.greatest
+        beside = limited and not _is_reached(unknown, other)
+        beside = beside or known is not None and not known.least < other.real < known.greatest
         if abs(other.imag) < LITTLE * size and (other.real > 0 or facts.inputs["positive"] == 0) and not beside:
             return abs(own.imag) > LITTLE * size
     return True
+
+
+def _is_reached(unknown: Expr, number: complex) -> bool:
+    """Whether an angle in the range of its symbol has this sine or cosine."""
+    if abs(number) > 1:
+        return False
+    known, angle = (
+        range_of(unknown.args[0]),
+        float(acos(number.real) if isinstance(unknown, cos) else asin(number.real)),
+    )
+    same = (angle, -angle) if isinstance(unknown, cos) else (angle, float(pi) - angle)
+    turns = (each + 2 * n * float(pi) for each in same for n in range(-2, 3))
+    return known is None or any(known.least < each < known.greatest for each in turns)
 
 
 def of_several(first: bool) -> Predicate:

@@ -359,7 +359,7 @@ class Hollow(Body):
 
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
     if sign_known(outer - inner) in (0, -1):
-        message = f"{body} with the inner radius {inner} and the outer radius {outer} has no volume or area"
+        message = f"{body} needs an outer radius that is greater than its inner radius"
         raise Rejected(Complaint("sizes", message, help="give the inner radius first, then the larger outer radius"))
 
 

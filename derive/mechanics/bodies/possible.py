@@ -1,5 +1,5 @@
-"""Checks for impossible bodies: a hole outside the body, parts that share a volume, a position map that covers places
-twice, a density that changes its sign, a negative mass or size.
+"""Checks for impossible bodies: a hole outside the body, parts that overlap, a position map that covers places twice, a
+density that changes its sign, a negative mass or size.
 
 The checks are numerical: Newton's method on the position map of one part looks for points of another part. A body is
 rejected only if it is impossible for every draw of its symbols, or for the numbers of the problem.
@@ -7,9 +7,8 @@ rejected only if it is impossible for every draw of its symbols, or for the numb
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
 from random import Random
 from typing import Any
 
@@ -66,22 +65,80 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
         yield Piece(str(part.body.called), sign * part.sign, part.body.filling, part.seen(position), limits)
 
 
+@dataclass(frozen=True)
+class Fault:
+    """Why no body consists of these parts: a word for the reason, and the names of the parts at one place."""
+
+    why: str
+    names: tuple[str, ...]
+
+    def complaint(self, filling: str) -> Complaint:
+        named = " and ".join(f"`{name}`" for name in self.names[:2])
+        if self.why == "shared":
+            message = f"{named} share {SHARED[filling]}"
+            return Complaint("no-such-body", message, help="cut one out of the other, or place them side by side")
+        if self.why == "empty":
+            return Complaint("no-such-body", "nothing is left of the body: the holes are as large as its parts")
+        if len(self.names) > 1:
+            message = f"{named} are cut out of the body, but they have a part in common"
+            return Complaint("no-such-body", message, help="cut out each part of the body once")
+        message = f"{named} is cut out of the body, but a part of it is outside the body"
+        return Complaint("no-such-body", message, help="a hole must be inside the rest of the body")
+
+
+SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what two parts have in common
+
+
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject a hole that is not inside the body, and two parts that share a volume."""
+    """Reject parts that no body has: a hole that is not inside the body, two holes or two parts that share a volume, an
+    area or a length, holes that leave nothing of the body, and a particle as a hole."""
+    for part in parts:
+        if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
+            message = "a particle cannot be cut out of a body"
+            raise Rejected(Complaint("no-such-body", message, help="cut out a part that has a size"))
     pieces = list(_pieces(parts))
-    filled = [piece for piece in pieces if piece.sign > 0]
-    for hole in (piece for piece in pieces if piece.sign < 0):
-        around = [piece for piece in filled if piece.filling == hole.filling]
-        if _always([hole, *around], lambda charts: _outside(charts[0], charts[1:])):
-            message = f"`{hole.called}` is cut out of the body, but a part of it is outside the body"
-            raise Rejected(Complaint("no-such-body", message, help="a hole must be inside the rest of the body"))
-    solid = [piece for piece in filled if piece.filling == "volume"]
-    for i, one in enumerate(solid):
-        for other in solid[:i]:
-            if _always([one, other], lambda charts: _inside(charts[0], charts[1])):
-                message = f"`{other.called}` and `{one.called}` share a volume"
-                help_line = "cut one out of the other, or place them side by side"
-                raise Rejected(Complaint("no-such-body", message, help=help_line))
+    for filling in dict.fromkeys(piece.filling for piece in pieces):
+        alike = [piece for piece in pieces if piece.filling == filling]
+        found = _always(alike) if len(alike) > 1 or alike[0].sign < 0 else None
+        if found is not None:
+            raise Rejected(found.complaint(filling))
+
+
+def _fault(pieces: Sequence[Piece], charts: Sequence[Chart]) -> Fault | None:
+    """Return what is wrong with the parts for one draw of the symbols: at each place at most one part is left.
+
+    At each sampled place the number of parts minus the number of holes must be 0 or 1. A fault needs two such places.
+    """
+    found: dict[Fault, int] = {}
+    left = False
+    for i, (one, chart) in enumerate(zip(pieces, charts, strict=True)):
+        source = Random(1 if one.sign < 0 else 2)
+        for at in chart.points(POINTS, source):
+            there = _there(chart.place(*at), i, charts)
+            if there is None:
+                continue
+            total = sum(pieces[k].sign for k in there)
+            left = left or total > 0
+            if total not in (0, 1):
+                fault = Fault(
+                    "shared" if total > 0 else "hole",
+                    tuple(pieces[k].called for k in there if pieces[k].sign == (1 if total > 0 else -1)),
+                )
+                found[fault] = found.get(fault, 0) + 1
+    worst = next((fault for fault, count in found.items() if count > 1), None)
+    return worst or (None if left else Fault("empty", ()))
+
+
+def _there(place: Sequence[float], own: int, charts: Sequence[Chart]) -> list[int] | None:
+    """Return the parts in whose interior a place of one part is; None if it is on the surface of another part."""
+    found = []
+    for k, chart in enumerate(charts):
+        values = [] if k == own else list(chart.sought(place))
+        if values and not any(_is_between(chart, at) for at in values):
+            return None
+        if k == own or values:
+            found.append(k)
+    return found
 
 
 def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
@@ -105,40 +162,20 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
         raise Rejected(Complaint("no-such-body", f"the density {density} of this `{name}` is negative"))
 
 
-def _always(pieces: Sequence[Piece], shown: Callable[[list[Chart]], bool]) -> bool:
-    """Whether a test can be evaluated for at least one draw of the symbols, and is true for every such draw."""
-    found = False
+def _always(pieces: Sequence[Piece]) -> Fault | None:
+    """Return the fault of the first draw of the symbols, if each draw that can be evaluated has a fault."""
+    found: Fault | None = None
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):
         charts = [Chart.of(piece.position, piece.limits, at) for piece in pieces]
         try:
-            if not shown(charts):
-                return False
+            fault = _fault(pieces, charts)
         except (TypeError, ValueError, OverflowError, ZeroDivisionError):  # no such body exists for these numbers
             continue
-        found = True
+        if fault is None:
+            return None
+        found = found or fault
     return found
-
-
-def _outside(hole: Chart, around: Sequence[Chart]) -> bool:
-    """Whether at least two sampled points of the hole are in none of the parts."""
-    points = [hole.place(*at) for at in hole.points(POINTS, Random(1))]
-    outside = (point for point in points if all(next(chart.sought(point), None) is None for chart in around))
-    return len(list(islice(outside, 2))) == 2
-
-
-def _inside(one: Chart, other: Chart) -> bool:
-    """Whether a sampled point of one part is inside the other part."""
-    source = Random(2)
-    for own, chart in ((one, other), (other, one)):
-        if any(_strictly(chart, own.place(*at)) for at in own.points(POINTS, source)):
-            return True
-    return False
-
-
-def _strictly(chart: Chart, point: Sequence[float]) -> bool:
-    """Whether a point is in the interior of a body, not on its surface."""
-    return any(_is_between(chart, at) for at in chart.sought(point))
 
 
 def _is_between(chart: Chart, at: Place) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diag, diff, pi, sin
 
 from derive.algebra.expressions import Factors, Terms, column, explicit
+from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.body import (
     ORIGIN,
@@ -21,7 +22,6 @@ from derive.mechanics.bodies.body import (
     OfHeight,
     RoundBody,
     Spherical,
-    require_order,
 )
 from derive.mechanics.bodies.boundary import Ellipsoidal, Extruded, Toroidal
 from derive.mechanics.bodies.equimomental import (
@@ -42,6 +42,7 @@ from derive.mechanics.bodies.thin_bodies import HalfDisc
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
+from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 from derive.steps.subject import Subject, with_name
 
@@ -334,7 +335,9 @@ class Torus(Body):
 
     def check_sizes(self) -> None:
         super().check_sizes()
-        require_order(self.name, self.section, self.radius)
+        if sign_known(self.radius - self.section) == -1:
+            message = f"{self.name} needs a cross-section whose radius is not greater than that of the ring"
+            raise Rejected(Complaint("sizes", message, help="`section` is the radius of the cross-section"))
 
     @property
     def extent(self) -> Expr:

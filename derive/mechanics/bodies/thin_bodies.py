@@ -33,6 +33,7 @@ from derive.mechanics.bodies.equimomental import (
 )
 from derive.mechanics.bodies.mapping import Map, cylindrical, spherical
 from derive.mechanics.bodies.regions import Point
+from derive.steps.signs import sign_known
 
 __all__ = [
     "Annulus",
@@ -132,10 +133,10 @@ class Arc(Body):
     other_centre = "circle_centre"
     is_lopsided = True
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if (self.half_angle - pi).is_nonnegative or self.half_angle.is_nonpositive:
-            message = f"an arc with the half angle {self.half_angle} is not a part of a circle"
+    def check_sizes(self) -> None:
+        super().check_sizes()
+        if sign_known(self.half_angle - pi) in (0, 1) or sign_known(self.half_angle) in (0, -1):
+            message = "the half angle of an arc must be between zero and pi"
             raise Rejected(Complaint("sizes", message, help="a whole circle is a `Hoop`"))
 
     @property

@@ -25,7 +25,7 @@ from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
-__all__ = ["contact"]
+__all__ = ["contact", "landing_surface"]
 
 ZERO = Integer(0)
 Part: TypeAlias = Constraint | GivenForce | Quantity
@@ -80,6 +80,24 @@ class Contact(Connection):
             PointForce(size, direction.components, self.at, self.of),
             PointForce(size, (-direction).components, self.foot, self.surface.of),
         )
+
+
+@dataclass(frozen=True)
+class LandingSurface(Connection):
+    """A surface that a particle reaches only at the end of a free flight; no force acts on the particle before."""
+
+    surface: Surface
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> Self:
+        return replace(super().moved(known), surface=self.surface.moved(known))
+
+
+def landing_surface(surface: Any) -> LandingSurface:
+    """A surface on which a free flight ends; it is a part of the drawing.
+
+    surface   a surface from `plane`
+    """
+    return LandingSurface((), surface)
 
 
 def contact(
@@ -195,6 +213,7 @@ def _contact(of: Any, on: Any) -> Contact:
         gap = tidied(surface.distance(at) - reach)
     found = Contact((), body, place, surface, gap, away)
     _check(found)
+    _check_reached(found)
     return found
 
 
@@ -229,6 +248,15 @@ def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     assert outline is not None
     radius = outline.radius_at(outline.ends[0])
     return -radius * way, radius * dot(n, way)
+
+
+def _check_reached(touch: Contact) -> None:
+    """Reject a body that never touches the surface: it is always away from the surface, or partly inside it."""
+    sign = sign_known(touch.gap)
+    if sign in (1, -1):
+        where = "always away from the surface" if sign == 1 else "always partly inside the surface"
+        message = f"the body is {where}, since its distance from the surface is {touch.gap}"
+        raise Rejected(Complaint("no-contact", message, help="change the place of the body, its size or the surface"))
 
 
 def _check(touch: Contact) -> None:

@@ -16,14 +16,16 @@ from sympy import (
     cos,
     diff,
     sin,
+    sqrt,
     tan,
 )
 
-from derive.algebra.expressions import explicit, rate
+from derive.algebra.expressions import TIME, explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
-from derive.mechanics.motion.facts import ByEnergy, Steady
+from derive.mechanics.model.dalembert import Load
+from derive.mechanics.motion.facts import ByEnergy, InFlight, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
@@ -38,6 +40,7 @@ from derive.steps.trial_numbers import (
     real_at,
     sign_at,
     sign_found,
+    signs,
     signs_of,
     trial_points,
 )
@@ -381,3 +384,166 @@ steady_motion_generic: Predicate = negated(steady_motion_always)
 
 handed_on_by(ByEnergy, by_energy)
 handed_on_by(Steady, steady)
+
+
+# --- free flight ---
+
+ON_THE_WAY = tuple(Rational(n, 12) for n in range(1, 12))  # fractions of the time of a flight
+LATER = (Rational(1, 50), Rational(1, 3), Integer(1), Integer(4), Integer(50))  # times, as far as a flight is followed
+
+
+def is_the_place_of_departure(facts: Judged) -> bool:
+    """Whether the relation is the place at which contact is lost, with the symbol in place of the coordinate."""
+    lost, q, letter = facts.inputs["lost"], facts.inputs["coordinate"], facts.inputs["letter"]
+    back = facts.result.left.xreplace({letter: q})
+    return bool(q not in facts.result.free_symbols and back == lost.left) and is_zero(facts.result.right - lost.right)
+
+
+def speeds_up(wanted: bool) -> Predicate:
+    """Whether a force acts along the axis of this component of the flight."""
+
+    def is_so(facts: Judged) -> bool:
+        bend = diff(facts.result, TIME, 2)
+        return not bend.has(TIME) and is_zero(bend) != wanted and is_zero(facts.inputs["other_force"]) != wanted
+
+    return is_so
+
+
+def in_flight(facts: Judged, fact: InFlight) -> bool:
+    """Whether the fact describes a free flight from the curve on which the particle was.
+
+    At t = 0 the particle is at the place that the coordinates have at the departure, its velocity does not change the
+    constraint, its speed is that of the energy, and it moves away from the start. Afterwards the mass times the
+    acceleration is the sum of all forces except the one of the constraint.
+    """
+    q, angle = fact.coordinate
+    before = [fact.in_given_letters(c) for c in fact.path]
+    (point,) = fact.matter.points
+    others = (each for each in fact.matter.others if isinstance(each, Load) and each.multiplier != fact.kept.force)
+    loads = [*fact.matter.loads, *others]
+    pulled = [Add(*(each.force[i] for each in loads)) for i in (0, 1)]
+    falls = all(is_zero(point.mass * diff(c, TIME, 2) - F) for c, F in zip(fact.path, pulled, strict=True))
+    shown = any(is_zero(facts.result - c) for c in fact.path)
+    return bool(falls and shown) and _starts_on_its_curve(fact, q, angle, before)
+
+
+def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr]) -> bool:
+    (point,) = fact.matter.points
+    (s,) = (each for each in fact.matter.coordinates if each != q)
+    place, residual = [explicit(c) for c in point.place], explicit(fact.kept.residual)
+    held = next(iter(_where_zero(residual, s)))
+    there = {s: held, q: angle}
+    rates = [diff(c, s) * rate(s) + diff(c, q) * rate(q) for c in place]
+    squared = explicit(fact.squared).subs(q, angle)
+    wanted = [c.subs({rate(s): 0}).subs(there) for c in rates]
+    sign = _sense(angle - fact.start, fact)
+    for c, r, w in zip(path, place, wanted, strict=True):
+        if not is_zero(tidied(c.subs(TIME, 0) - r.subs(there))):
+            return False
+        velocity, rated = diff(c, TIME).subs(TIME, 0), w.subs(rate(q), 1)
+        if not is_zero(tidied(velocity**2 - rated**2 * squared)) or _opposed(velocity, sign * rated, fact):
+            return False
+    return not residual.has(q)
+
+
+def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
+    """The value of a coordinate at which a constraint that is linear in this coordinate is satisfied."""
+    slope = diff(residual, s)
+    return [tidied(-residual.subs(s, 0) / slope)]
+
+
+def _trials(value: Expr, fact: InFlight) -> list[Point]:
+    """Trial numbers for which the constraint is lost."""
+    letters = letters_of(value)
+    return trial_points(letters, *assumptions_about(letters), *map(with_numbers, fact.conditions))
+
+
+def _sense(change: Expr, fact: InFlight) -> int:
+    found = signs(with_numbers(change), _trials(with_numbers(change), fact)) - {None, 0}
+    return 1 if found == {1} else -1 if found == {-1} else 0
+
+
+def _opposed(velocity: Expr, expected: Expr, fact: InFlight) -> bool:
+    """Whether, numerically, a component of the velocity is somewhere opposite to the expected direction."""
+    product = with_numbers(velocity * expected)
+    return not signs(product, _trials(product, fact)) <= {1, 0, None}
+
+
+def _away(fact: InFlight, target: Any) -> Expr:
+    """The distance from the plane as a function of the time; without a plane, how far the particle is on the free side
+    of the circle that it left."""
+    x, y = fact.path
+    if target is not None:
+        (px, py), (nx, ny) = target.through.components, target.unit_normal.components
+        return nx * (x - px) + ny * (y - py)
+    assert fact.orbit is not None
+    (cx, cy), radius = fact.orbit.centre, fact.orbit.radius
+    beyond = sqrt((x - cx) ** 2 + (y - cy) ** 2) - radius
+    return -beyond if fact.orbit.inside else beyond
+
+
+def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
+    """Whether, numerically, the particle is on the free side at these times, or on the surface if `wanted` is 0."""
+    fact, target = facts.inputs["flight"], facts.inputs["target"]
+    away = _away(fact, target)
+    values = [with_numbers(away.subs(TIME, time)) for time in times]
+    near = Rational(1, 10**9)
+
+    def is_so(point: Point) -> bool | None:
+        for value in values:
+            if wanted == 0:
+                ends = sign_at(value - near, point), sign_at(value + near, point)
+                if None in ends:
+                    return None
+                if ends != (-1, 1):
+                    return False
+            elif (sign := sign_at(value, point)) != wanted:
+                return None if sign is None else False
+        return True
+
+    return everywhere(_trials(Add(*values, evaluate=False), fact), is_so)
+
+
+def lands(outcome: str) -> Predicate:
+    """Whether, numerically, the particle is on the free side before this time, and on the plane or the circle then."""
+
+    def is_so(facts: Judged) -> bool:
+        fact, target, time = facts.inputs["flight"], facts.inputs["target"], explicit(facts.result)
+        is_string = fact.kept.enforcer == "string"
+        fits = outcome == ("on_plane" if target is not None else "taut" if is_string else "back")
+        positive = _sense(time, fact) == 1
+        before = tuple(part * time for part in ON_THE_WAY)
+        return bool(fits and positive) and _at_times(facts, before, 1) and _at_times(facts, (time,), 0)
+
+    return is_so
+
+
+def stays_clear(facts: Judged) -> bool:
+    """Whether, numerically, the particle is outside the circle at all later times that are tried."""
+    fact = facts.inputs["flight"]
+    return facts.inputs["target"] is None and not fact.orbit.inside and _at_times(facts, _later(fact), 1)
+
+
+def misses(facts: Judged) -> bool:
+    """Whether, numerically, the particle is on the free side of the plane at all later times that are tried."""
+    return facts.inputs["target"] is not None and _at_times(facts, _later(facts.inputs["flight"]), 1)
+
+
+def _later(fact: InFlight) -> tuple[Expr, ...]:
+    """Times after the departure, on the scale of the speed at the departure divided by the acceleration."""
+    speed = sqrt(Add(*(diff(c, TIME).subs(TIME, 0) ** 2 for c in fact.path)))
+    pull = sqrt(Add(*(diff(c, TIME, 2) ** 2 for c in fact.path)))
+    return tuple(n * speed / pull for n in LATER)
+
+
+def passes(facts: Judged) -> bool:
+    """Whether the condition vanishes just if the height at the time above or below the place is that of the place, and
+    whether this time is, numerically, positive."""
+    fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
+    x, y = fact.path
+    time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))
+    height = tidied(y.subs(TIME, time) - Y)
+    return _sense(time, fact) == 1 and same_equation(height, explicit(facts.result).residual)
+
+
+handed_on_by(InFlight, in_flight)

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from sympy import Expr, Symbol
 
+from derive.algebra.expressions import Relation
+from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.dalembert import Matter
 from derive.steps.step import Fact, Quantity
 
 
@@ -30,3 +33,53 @@ class ByEnergy(Fact):
     start: Expr
     start_rate: Expr
     acceleration: Expr
+
+    @staticmethod
+    def behind(force: Quantity, q: Symbol) -> Quantity | None:
+        """The step q_dot^2 = f(q), by conservation of energy, from which a force was derived; None if there is none."""
+        of_energy = ((each, each.fact(ByEnergy)) for each in force.ancestors())
+        return next((each for each, known in of_energy if known is not None and known.coordinate == q), None)
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """The circle of a particle before its flight, and whether the particle flies inside it."""
+
+    centre: tuple[Expr, Expr]
+    radius: Expr
+    inside: bool
+
+
+@dataclass(frozen=True)
+class InFlight(Fact):
+    """The free motion of a particle after it left a surface, or after its string went slack.
+
+    path           the components of its place as functions of the time since then, m
+    matter         the particle and the forces on it; the force of the lost constraint is still among them
+    lost           the relation `unknown = place` at which the constraint is lost
+    force          the force that vanishes there
+    squared        the squared rate of the coordinate before, by conservation of energy
+    start          the value of the coordinate at the start of the motion before
+    kept           the constraint that held before, a formula that was zero
+    coordinate     the coordinate of the motion before, and its value at the start of the flight
+    letter         the symbol that the author gave to this value, if there is one
+    orbit          the circle on which the particle was; None if it was not on a circle
+    conditions     the conditions on the symbols under which the constraint is lost
+    """
+
+    missing = "is not a motion in free flight, as `flight` yields it"
+    path: tuple[Expr, Expr]
+    matter: Matter
+    lost: Relation
+    force: Quantity
+    squared: Expr
+    start: Expr
+    kept: Constraint
+    coordinate: tuple[Symbol, Expr]
+    letter: Symbol | None
+    orbit: Orbit | None
+    conditions: tuple[Relation, ...] = ()
+
+    def in_given_letters(self, value: Expr) -> Expr:
+        """Replace the symbol of the value of the coordinate by this value."""
+        return value if self.letter is None else value.xreplace({self.letter: self.coordinate[1]})

@@ -109,7 +109,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     if result.left != unknown:
         raise unsolvable(force, unknown)
     solved = result.right
-    speed = _speed_behind(force, unknown)
+    speed = ByEnergy.behind(force, letter_of(unknown))
     if speed is not None:
         _check_starts_there(force, speed, unknown, begin)
     squared = None if speed is None else squared_by_energy(speed)
@@ -168,12 +168,6 @@ def _enforcer(force: Quantity) -> str:
 def _as_positive(condition: Relation) -> Relation:
     """Write an inequality without positive factors: v^2 < 5 g l."""
     return positive(condition.residual if condition.operator in (">", ">=") else -condition.residual)
-
-
-def _speed_behind(force: Quantity, unknown: Expr) -> Quantity | None:
-    """Return the step q_dot^2 = f(q), by conservation of energy, from which the force was derived; or None."""
-    q = letter_of(unknown)
-    return next((a for a in force.ancestors() if (known := a.fact(ByEnergy)) and known.coordinate == q), None)
 
 
 def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:

@@ -121,12 +121,12 @@ class Composite(Body):
         self.shares: tuple[Quantity, ...] = ()
         self._places = {name: Point(name, place_of(*place)) for name, place in (points or {}).items()}
         self.names_given = tuple(self._places)
+        check_parts(self.parts)
         if mass is not None:
             self.shares, self.parts = _shared(self, mass)
         self.given_mass = mass
         if is_zero(self.mass):
             raise Rejected(Complaint("no-mass", "the cavities of this body have as much mass as its parts"))
-        check_parts(self.parts)
         require_positive(self.name, "mass", self.mass)
 
     @cached_property

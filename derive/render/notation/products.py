@@ -215,7 +215,7 @@ def roots_together(expr: Expr) -> Expr:
         return expr
     sign = -1 if all(root.exp < 0 for root in roots) else 1
     squares = (Mul.make_args(Pow(root.base, 2 * sign * root.exp)) for root in roots)
-    inside = Mul(*(f for square in squares for f in square), evaluate=False)
+    inside = Mul(*sorted((f for square in squares for f in square), key=lambda f: f != -1), evaluate=False)
     others = Mul(*(f for f in factors if f not in roots))
     if sign < 0:
         return Mul(others, Pow(ex.Root(inside), -1))

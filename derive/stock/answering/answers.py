@@ -103,7 +103,13 @@ class StockAnswers(Answers[W]):
     @cached_property
     def by_name(self) -> ByName:
         again = lambda: type(self)(self.described).by_name  # noqa: E731
-        return ByName(self.asks(), self.what, self.described.results, self.coordinates, again, self.elsewhere)
+        given = self.described.results, self.coordinates, again, self.elsewhere, self.surfaces
+        return ByName(self.asks(), self.what, *given)
+
+    @property
+    def surfaces(self) -> Mapping[str, Any]:
+        """Return the surfaces on which a flight may end, by name."""
+        return {}
 
     @property
     def elsewhere(self) -> Callable[..., Quantity] | None:

@@ -43,6 +43,7 @@ class ByName:
     coordinates   the coordinates that results may use
     again         makes a second object for the same answers, in which nothing is derived yet
     elsewhere     derives an answer of a body about a point or axis other than the given one
+    surfaces      the surfaces of a system, by name
     """
 
     def __init__(
@@ -53,6 +54,7 @@ class ByName:
         coordinates: Mapping[str, Coordinate] | None = None,
         again: Callable[[], ByName] | None = None,
         elsewhere: Callable[[Result], Quantity] | None = None,
+        surfaces: Mapping[str, Any] | None = None,
     ):
         self.asks, self.what, self.again = dict(asks), what, again
         self.results = {str(result.name): result for result in results}
@@ -60,7 +62,7 @@ class ByName:
         self._in_progress: list[str] = []
         self._sought: frozenset[str] = frozenset()
         each([partial(self._check_free, result.name) for result in results])
-        given = (self.named, coordinates or {}, elsewhere)
+        given = (self.named, coordinates or {}, elsewhere, surfaces)
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:

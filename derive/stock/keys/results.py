@@ -35,7 +35,7 @@ from derive.stock.keys.formulas import Formula, FoundLetter, formula
 NAMES = as_written(one_or_more(TEXT.schema), "the name of an answer, or a list of names")
 EXPRESSIONS = as_written(one_or_more(SCALAR.schema), "an expression, or a list of them")
 WORD = Reader(SCALAR.schema, TEXT.read)
-PAIR = as_written({"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}, "a list of two functions")
+PAIR = as_written({"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}, "a list of two entries")
 Answers = Callable[[Word], tuple[Quantity, ...]]
 
 
@@ -86,11 +86,12 @@ class Sort:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The context of a result: answers by name, coordinates, and the function for other points of a body."""
+    """The context of a result: answers by name, coordinates, the function for other points of a body, and surfaces."""
 
     answers: Answers
     coordinates: Mapping[str, Coordinate]
     elsewhere: Callable[..., Quantity] | None = None
+    surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
         """Return the answer of a name; if the name has several answers, return the one whose key is this name."""
@@ -213,6 +214,19 @@ def _functions_made(
     return tuple(around.one(each) if isinstance(each, Word) else each for each in found)
 
 
+def _place(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> tuple[Expr, ...]:
+    if len(_nodes(node)) != 2:
+        rejected("wrong-type", f"`{key.name}` needs the two components of a place", node.place)
+    return tuple(letters.of_kind(item, key.name, "length") for item in _nodes(node))
+
+
+def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -> Any:
+    if name not in around.surfaces:
+        help_line = did_you_mean(name, around.surfaces) or "describe it under `surfaces`"
+        rejected("no-such-surface", f"`{name}` is not a surface of this system", name.place, help_line)
+    return around.surfaces[name]
+
+
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
     """Return name -> value with names that are plain texts: a call with names that carry a position in the file cannot
     be stored."""
@@ -246,6 +260,8 @@ SORTS: Mapping[Holds, Sort] = {
         lambda made: made.answers,
     ),
     Holds.FUNCTIONS: Sort(PAIR, _functions, _functions_made, lambda found: (f for f in found if isinstance(f, Word))),
+    Holds.PLACE: Sort(PAIR, _place),
+    Holds.SURFACE: Sort(TEXT, lambda verb, key, word, letters: word, _surface),
     Holds.AXIS: Sort(DIRECTION, lambda verb, key, node, letters: Directions(letters).axis(node, key.name)),
 }
 
@@ -382,9 +398,10 @@ class Result:
         answers: Answers,
         coordinates: Mapping[str, Coordinate],
         elsewhere: Callable[..., Quantity] | None = None,
+        surfaces: Mapping[str, Any] | None = None,
     ) -> Any:
         """Compute the result with its verb; an error about an argument is reported at the key of this argument."""
-        around = Surroundings(answers, coordinates, elsewhere)
+        around = Surroundings(answers, coordinates, elsewhere, surfaces or {})
         keys = self.verb.arguments
         given = {
             argument: SORTS[keys[argument].holds].made(self, keys[argument], value, around)

@@ -21,7 +21,7 @@ from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import Faults, Place, rejected
-from derive.mechanics import potential
+from derive.mechanics import landing_surface, potential
 from derive.mechanics.kinematics.coordinates import kind_of_rate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import kind_of_momentum
@@ -168,6 +168,7 @@ class DescribedSystem(Described):
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
     particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has all other parts
+    surfaces      the surfaces by name
     conserved     each coordinate with the symbol of its constant momentum; `kept`: with a given value of this momentum
     at, at_rest   the state about which motions are linearised, by values or by the name of an equilibrium
     impact        impulses and collisions at one instant
@@ -181,6 +182,7 @@ class DescribedSystem(Described):
     bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     rolling: tuple[Deferred[tuple[Any, ...]], ...] = ()
     acting: tuple[Deferred[Any], ...] = ()
+    surfaces: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     gravity: Expr | None = None
     conserved: tuple[tuple[str, Symbol], ...] = ()
     kept: tuple[tuple[str, Expr], ...] = ()
@@ -275,18 +277,26 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
         acting += of_each(_connections(written), connected)
     acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
+    acting += [Deferred(landing_surface, (one,)) for name, one in surfaces.items() if name in _landed_on(written)]
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
-    return {"particles": particles, "bodies": bodies, "rolling": tuple(rolling), "acting": tuple(acting)}
+    own = {"particles": particles, "bodies": bodies, "surfaces": surfaces}
+    return {**own, "rolling": tuple(rolling), "acting": tuple(acting)}
+
+
+def _landed_on(written: SystemKeys) -> set[str]:
+    """Return the names of surfaces on which a flight ends and with which no body is in contact."""
+    named = {str(held["on"]) for result in written.results.values() if "on" in (held := written_in(result))}
+    return named - {str(each.on) for each in written.contacts}
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
     """Report a surface that no contact names, unless a contact names something that is not described."""
-    used = {str(each.on) for each in written.contacts}
+    used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
             if name not in used:
-                help_line = "describe the contact under `contacts`, or leave the surface out"
+                help_line = "describe the contact under `contacts`, let a flight end `on` it, or leave the surface out"
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
 

@@ -137,7 +137,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{shape: tube, inner: R, outer: R, height: h, mass: M}",
-            "5: a tube with the inner radius R and the outer radius R has no volume or area",
+            "5: a tube needs an outer radius that is greater than its inner radius",
         ),
         ("{mass: M}", "5: a body needs `shape` or `position` or `parts`"),
         ("{mass: M, parts: {}}", "5: a body needs `shape` or `position` or `parts`"),

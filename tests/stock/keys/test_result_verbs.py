@@ -18,6 +18,7 @@ KEYS = [key for key in keys_of(ResultKeys) if key not in VERBS]
 HOLDS = {
     "results": "kinetic_energy", "values": "{l: l}", "within": "[0, pi]", "for": "theta", "symbol": "u", "order": "1",
     "is": "'>'", "case": "overdamped", "direction": "x", "about": "tip", "origin": "tip", "root": "2",
+    "through": "[l, l]",
 }  # fmt: skip
 SPARE = [(verb, key) for verb in VERBS for key in KEYS if key not in VERBS[verb].keys]
 
@@ -75,7 +76,7 @@ def test_the_schema_allows_what_the_reader_allows(verb: str) -> None:
     )
     validator = Draft7Validator(given["properties"]["results"]["additionalProperties"])
     holds: dict[str, object] = dict.fromkeys(KEYS, "l")
-    holds |= {"within": [0, 1], "values": {"l": "l"}, "direction": "x"}
+    holds |= {"within": [0, 1], "through": [0, 1], "values": {"l": "l"}, "direction": "x"}
     of = ["l", "l"] if verb == "bracket" else "lagrangian"
 
     def fits(keys: list[str]) -> bool:

@@ -1,0 +1,900 @@
+"""Free flight of a particle that leaves a surface, or whose string goes slack: its motion, and where it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, factorial, sqrt
+
+from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.lowest_terms import factored
+from derive.algebra.order import Contradiction, in_order, known_order
+from derive.algebra.ranges import sign_within
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Unverified
+from derive.mechanics.arguments import checked
+from derive.mechanics.in_results import Letter, PlaceIn, SurfaceNamed, in_results
+from derive.mechanics.kinematics.places import Location
+from derive.mechanics.lagrange.facts import ForceOf
+from derive.mechanics.model.constraint import Constrained
+from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.model.described import Described
+from derive.mechanics.model.surfaces import Plane, Surface, dot
+from derive.mechanics.motion import claims, leaving
+from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
+from derive.mechanics.motion.turning_points import squared_by_energy
+from derive.solving.attainable import lies_within
+from derive.solving.presentation import presented, without_positive
+from derive.solving.relations import isolated, solved_for_letter
+from derive.solving.unknowns import letter_of, mark_for, meaning, with_unknown
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.record import changes, free_letter
+from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_known, taken_positive
+from derive.steps.step import Quantity, is_zero
+from derive.steps.trial_numbers import signs_of
+
+__all__ = ["free_flight", "landing", "passes_through"]
+
+ZERO = Integer(0)
+Vector = tuple[Expr, Expr]
+SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
+
+
+# --- the end of the motion on the surface or the string ---------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Departure:
+    """The state in which a particle leaves a surface, or its string goes slack.
+
+    lost    the relation for the place, from `leaves`
+    speed   the squared rate of the coordinate before, by conservation of energy
+    letter  the symbol for the value of the coordinate there; None if its value is used
+    """
+
+    lost: Quantity
+    speed: Quantity
+    letter: Symbol | None
+
+    @property
+    def force(self) -> Quantity:
+        """The force that vanishes there."""
+        return self.lost.parents[0]
+
+    @property
+    def conditions(self) -> tuple[Relation, ...]:
+        """The conditions under which the motion gets there, as the step `lost` states them."""
+        return tuple(value for role, value in self.lost.step.roles if role in ("reached", "existing"))
+
+    @property
+    def original(self) -> Quantity:
+        """This force as a function of the place and of the rate, before the rate was eliminated."""
+        return next(each for each in self.force.ancestors() if each.fact(ForceOf) is not None)
+
+    @property
+    def lagrangian(self) -> Quantity:
+        found: Quantity = self.original.needed(ForceOf).problem.lagrangian
+        return found
+
+    @property
+    def gravity(self) -> Expr:
+        """The acceleration of free fall in the description; 0 if the system has no weight."""
+        known = next((fact for each in self.lagrangian.ancestors() if (fact := each.fact(Described))), None)
+        return ZERO if known is None or known.description.gravity is None else known.description.gravity
+
+    @property
+    def kept(self) -> Any:
+        return self.original.needed(ForceOf).constraint
+
+    @property
+    def equations(self) -> tuple[Quantity, ...]:
+        return tuple(self.original.needed(ForceOf).problem.equations)
+
+    @cached_property
+    def matter(self) -> Matter:
+        return self.lagrangian.needed(Matter)
+
+    @property
+    def q(self) -> Symbol:
+        return self.speed.needed(ByEnergy).coordinate
+
+    @cached_property
+    def value(self) -> Expr:
+        """The value of the coordinate there, in the symbols of the problem."""
+        (found,) = meaning(*self.lost.value.sides).values()
+        return explicit(found)
+
+    @property
+    def at(self) -> Expr:
+        return self.value if self.letter is None else self.letter
+
+    @cached_property
+    def held(self) -> dict[Symbol, Expr]:
+        """The other coordinate and its value during the motion before."""
+        others = [each for each in self.matter.coordinates if each != self.q]
+        found = solved_for_letter(explicit(self.kept.residual), others[0]) if len(others) == 1 else None
+        if found is None or found.has(self.q):
+            message = f"`flight` needs a motion in which the constraint fixes all coordinates except {self.q}"
+            help_line = "use polar coordinates: the distance from the centre, and the angle"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
+        return {others[0]: found}
+
+    @cached_property
+    def curve(self) -> Vector:
+        """The place of the particle as a function of the coordinate, during the motion before."""
+        x, y = (explicit(c).xreplace(self.held) for c in self.matter.points[0].place)
+        return x, y
+
+    @cached_property
+    def scale(self) -> Expr:
+        """The speed divided by the rate of the coordinate."""
+        return tidied(sqrt(tidied(Add(*(diff(c, self.q) ** 2 for c in self.curve)))))
+
+    @cached_property
+    def place(self) -> Vector:
+        x, y = (tidied(c.xreplace({self.q: self.at})) for c in self.curve)
+        return x, y
+
+    @cached_property
+    def direction(self) -> Vector:
+        """The unit vector along the curve, in the direction of the motion."""
+        sign = self._sense()
+        x, y = (tidied((sign * diff(c, self.q) / self.scale).xreplace({self.q: self.at})) for c in self.curve)
+        return x, y
+
+    def _sense(self) -> int:
+        """Whether the coordinate increases or decreases on the way to this place."""
+        known = self.speed.needed(ByEnergy)
+        own = sign_known(known.start_rate)
+        found = signs_of(self.value - known.start) - {None}
+        if own == -1 or len(found) != 1 or found == {0}:
+            message = f"`flight`: it is not known whether {self.q} increases on the way to the place of departure"
+            help_line = f"choose the direction in which {self.q} increases as the direction of the motion"
+            raise Rejected(Complaint("sign", message, help=help_line))
+        return 1 if found == {1} else -1
+
+    @cached_property
+    def square(self) -> Expr:
+        """The squared speed: the force vanishes at this place and speed."""
+        mark = mark_for(rate(self.q) ** 2)
+        still = {rate(s): ZERO for s in self.held}
+        force = with_unknown(explicit(self.original.value), rate(self.q) ** 2, mark).xreplace({**self.held, **still})
+        found = isolated(tidied(force), mark)
+        if found is None or found.power != 1 or found.value.has(mark, rate(self.q)):
+            message = f"`flight`: `{self.original.key}` does not determine {rate(self.q)}**2 where it vanishes"
+            raise Rejected(Complaint("wrong-argument", message))
+        return tidied((found.value * self.scale**2).xreplace({self.q: self.at}))
+
+    @cached_property
+    def square_by_energy(self) -> Expr:
+        """The squared speed by conservation of energy, in the symbols of the problem."""
+        return (squared_by_energy(self.speed) * self.scale**2).xreplace({self.q: self.value})
+
+    @cached_property
+    def acceleration(self) -> Vector:
+        """The acceleration of the particle under all forces except the one that has vanished."""
+        x, y = (tidied(c / self.matter.points[0].mass) for c in self.other_forces)
+        return x, y
+
+    @property
+    def other_forces(self) -> Vector:
+        acting = [each.force for each in self.matter.loads]
+        return Add(*(force[0] for force in acting)), Add(*(force[1] for force in acting))
+
+    @cached_property
+    def orbit(self) -> Orbit | None:
+        """The circle on which the particle was: its centre is at rest at P + R^2 P''/|P'|^2."""
+        centre = [tidied(c + diff(c, self.q, 2) * self._bend) for c in self.curve]
+        radius = tidied(sqrt(tidied(Add(*((c - m) ** 2 for c, m in zip(self.curve, centre, strict=True))))))
+        if any(c.has(self.q) for c in [*centre, radius]):
+            return None
+        pull = next(each for each in self.kept.forces if each.of is not None)
+        outwards = zip(self.curve, centre, pull.direction, strict=True)
+        push = tidied(Add(*((c - m) * explicit(n).xreplace(self.held) for c, m, n in outwards)))
+        return Orbit((centre[0], centre[1]), radius, sign_known(push) == -1)
+
+    @property
+    def _bend(self) -> Expr:
+        """The factor of P'' in the vector from the place to the centre, if the coordinate is proportional to the
+        length of the arc."""
+        return Integer(1) if not self.scale.has(self.q) else ZERO
+
+    def flight(self, path: Vector) -> InFlight:
+        """The fact of a flight along this path, for later steps."""
+        known = self.speed.needed(ByEnergy)
+        return InFlight(
+            path=path,
+            matter=self.matter,
+            lost=self.lost.value,
+            force=self.force,
+            squared=squared_by_energy(self.speed),
+            start=known.start,
+            kept=self.kept,
+            coordinate=(self.q, self.value),
+            letter=self.letter,
+            orbit=self.orbit,
+            conditions=self.conditions,
+        )
+
+
+def _departure(lost: Quantity, letter: Any) -> Departure:
+    if lost.step.rule != leaving.LEAVES_CONTACT.name:
+        message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not one"
+        raise Rejected(Complaint("wrong-argument", message, help="name a result of `leaves`"))
+    if lost.step.outcome not in ("lost", "lost_later"):
+        message = f"`{lost.key}` states that contact is never lost, so no flight follows"
+        raise Rejected(Complaint("no-flight", message, help="ask for the flight only if the contact is lost"))
+    speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
+    if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
+        message = f"`flight`: the speed before is unknown, since `{lost.key}` was found without conservation of energy"
+        raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
+    found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
+    _check_alone(found)
+    return found
+
+
+def _checked_letter(letter: Any, q: Symbol) -> Symbol:
+    if not isinstance(letter, Symbol) or changes(letter, [q]) is not None:
+        message = f"`flight` needs as `at` a symbol for the value of {q} at the departure, but it is {letter}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for it, such as `{q}_1`"))
+    return letter
+
+
+def _check_alone(departure: Departure) -> None:
+    """Require one particle in a plane, a constant force on it, and no other constraint."""
+    matter = departure.matter
+    why = ""
+    if len(matter.points) != 1 or len(matter.points[0].place) != 2:
+        why = "the system is not one particle in a plane"
+    elif matter.is_driven or len(_constraints(departure)) != 1:
+        why = "the particle has another constraint, or a support that moves"
+    elif not _only_weight(departure):
+        why = "a force other than its weight acts on the particle"
+    if why:
+        message = f"`flight` finds the motion of one particle under its weight, but {why}"
+        raise Rejected(Complaint("no-flight", message))
+
+
+def _only_weight(departure: Departure) -> bool:
+    """Whether the weight is the only force on the particle except the force of constraint."""
+    matter, g = departure.matter, departure.gravity
+    others = [each for each in matter.others if not isinstance(each, Load) or each.multiplier != departure.kept.force]
+    weight = (ZERO, -matter.points[0].mass * g)
+    return not matter.fields and not others and [load.force for load in matter.loads] == [weight] and g != 0
+
+
+def _constraints(departure: Departure) -> Sequence[Any]:
+    known = departure.lagrangian.fact(Constrained)
+    return known.constraints if known is not None else ()
+
+
+# --- the flight -------------------------------------------------------------------------------------------------------
+
+
+DEPARTURE = Rule("motion.departure", source=SOURCE, outcomes={"generic": claims.is_the_place_of_departure})
+
+
+def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Quantity, ...]:
+    """Free flight of a particle after it leaves a surface, or after its string goes slack:
+    r(t) = r_1 + v_1 t + F t^2/(2 m), where F is the sum of all other forces, such as the weight.
+
+    lost   the place where contact is lost, from `leaves_contact`
+    at     a symbol for the value of the coordinate at this place, such as theta_1; by default its value is used
+    The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
+    since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
+    the particle was. The conditions under which contact is lost are assumed.
+    Second route: Lagrange's equations for the coordinates of the system, with the force of constraint zero. Checks:
+    Newton's second law, and the place and velocity at the start, by conservation of energy. Witness: the described
+    system is followed until the force vanishes, and then without its constraint.
+    Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
+    Errors: contact is not lost; the system is not one particle in a plane under a constant force.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
+    """
+    departure = _departure(lost, at)
+    for condition in departure.conditions or (None,):
+        if departure.letter is not None and lies_within(departure.letter, departure.value, condition) is False:
+            message = f"`flight`: the flight begins at {departure.q} = {departure.value}, outside the range of {at}"
+            raise Rejected(Complaint("range", message, help=f"give `{at}` the range of {departure.q} at the departure"))
+    with where(departure.conditions):
+        parents = [lost]
+        if departure.letter is not None:
+            parents.append(_place_of(departure, f"{key}_start"))
+        taken_positive(departure.square)
+        speed = _speed_of(departure, parents, f"{key}_speed")
+        return tuple(_component(departure, speed, i, f"{key}_{name}") for i, name in enumerate("xy"))
+
+
+@contextmanager
+def where(conditions: Sequence[Relation]) -> Iterator[None]:
+    """Use, within the `with` block, the conditions under which contact is lost; the step `lost` states them."""
+    order = known_order()
+    for each in conditions:
+        difference = tidied(each.residual if each.operator == ">" else -each.residual)
+        try:
+            order = order.with_relation(difference, True, sign_within)
+        except Contradiction:
+            message = f"`flight`: contact is lost only for {each}, which contradicts the assumptions"
+            raise Rejected(Complaint("contradiction", message)) from None
+    with in_order(order):
+        yield
+
+
+def _place_of(departure: Departure, key: str) -> Quantity:
+    """The symbol for the value of the coordinate at the departure."""
+    unknown, place = departure.lost.value.sides
+    named = unknown.xreplace({departure.q: departure.letter})
+    return establish(
+        DEPARTURE,
+        None,
+        lambda *_: Relation(named, "=", place),
+        {"lost": departure.lost, "letter": departure.letter, "coordinate": departure.q},
+        lines=Lines(put_in=None, result=False, arranged=explicit),
+        key=key,
+    )
+
+
+DEPARTURE_SPEED = Rule("motion.departure_speed", source=SOURCE, evidence={"energy": ROUTE})
+
+
+def _speed_of(departure: Departure, parents: Sequence[Quantity], key: str) -> Quantity:
+    """Speed at which a particle leaves a surface, or its string goes slack.
+
+    Second route: conservation of energy.
+    Source: the same as for `free_flight`.
+    """
+    known = {} if departure.letter is None else {departure.letter: departure.value}
+
+    def energy(found: Expr) -> tuple[Expr, Expr]:
+        return found.xreplace(known) ** 2, departure.square_by_energy
+
+    return establish(
+        DEPARTURE_SPEED,
+        scalar(free_letter("v_1"), positive=True),
+        lambda *_: sqrt(departure.square),
+        {"force": departure.original},
+        lines=Lines(put_in=None, arranged=lambda v: presented(v, in_sums=False)),
+        routes={"energy": energy},
+        key=key,
+        kind="speed",
+        parents=parents,
+    )
+
+
+FREE_FLIGHT = Rule(
+    "motion.free_flight",
+    source=SOURCE,
+    outcomes={"uniform": claims.speeds_up(False), "falls": claims.speeds_up(True)},
+    evidence={"lagrange": ROUTE, "newton": CHECK, "start": CHECK},
+)
+
+
+def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quantity:
+    """One component of the place of a particle in free flight.
+
+    Outcomes: uniform, falls.
+    Source: the same as for `free_flight`.
+    """
+    v = explicit(speed.value)
+    place, along, pulled = departure.place[i], departure.direction[i], departure.acceleration[i]
+    path = tuple(
+        r + u * v * TIME + a * TIME**2 / 2
+        for r, u, a in zip(departure.place, departure.direction, departure.acceleration, strict=True)
+    )
+    known = {} if departure.letter is None else {departure.letter: departure.value}
+
+    def with_found(found: Expr) -> list[Expr]:
+        return [found if k == i else c for k, c in enumerate(path)]
+
+    def start(found: Expr) -> tuple[Any, Any]:
+        """Check the place at t = 0, and the velocity there, by conservation of energy."""
+        before = departure.curve[i]
+        there = {departure.q: departure.value}
+        ends = found.xreplace({TIME: ZERO}), diff(found, TIME).xreplace({TIME: ZERO}) ** 2
+        wanted = before.xreplace(there), (diff(before, departure.q) ** 2).xreplace(there) * energy
+        return ImmutableDenseMatrix([c.xreplace(known) for c in ends]), ImmutableDenseMatrix(wanted)
+
+    energy = squared_by_energy(departure.speed).xreplace({departure.q: departure.value})
+    flight = departure.flight((path[0], path[1]))
+    return establish(
+        FREE_FLIGHT,
+        scalar(free_letter("xy"[i])),
+        lambda V: Terms(*_terms(place, along * V, pulled)),
+        {"speed": speed},
+        lines=Lines(result=False, arranged=explicit),
+        routes={
+            "lagrange": lambda found: (ImmutableDenseMatrix(_residuals(departure, with_found(found))), _noughts(2)),
+            "newton": lambda found: (
+                departure.matter.points[0].mass * diff(found, TIME, 2),
+                departure.other_forces[i],
+            ),
+            "start": start,
+        },
+        outcome="uniform" if pulled == 0 else "falls",
+        phrase_data=PhraseData(
+            words={"enforcer": departure.kept.enforcer},
+            outcome_data={"component": Integer(i), "other_force": departure.other_forces[i], "flight": flight},
+        ),
+        key=key,
+        kind="length",
+        facts=[flight],
+    )
+
+
+def _terms(place: Expr, velocity: Expr, acceleration: Expr) -> Iterator[Expr]:
+    yield from (each for each in (place, velocity * TIME, acceleration * TIME**2 / 2) if each != 0)
+
+
+def _noughts(count: int) -> ImmutableDenseMatrix:
+    return ImmutableDenseMatrix([ZERO] * count)
+
+
+def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
+    """Return the residuals of Lagrange's equations without the force of constraint, for a motion along a path.
+
+    The rates and accelerations of the coordinates follow from the velocity and the acceleration along the path.
+    """
+    q = departure.matter.coordinates
+    place = Matrix([explicit(c) for c in departure.matter.points[0].place])
+    slopes = place.jacobian(list(q))
+    velocity, acceleration = (Matrix([diff(c, TIME, n) for c in path]) for n in (1, 2))
+    rates = slopes.inv() * velocity
+    turning = sum((slopes.diff(s) * r for s, r in zip(q, rates, strict=True)), Matrix.zeros(2, 2))
+    second = slopes.inv() * (acceleration - turning * rates)
+    motion = dict(zip([*(rate(s) for s in q), *(rate(s, 2) for s in q)], [*rates, *second], strict=True))
+    none = {departure.kept.force: ZERO}
+    return [tidied(explicit(each.value).residual.xreplace(none).xreplace(motion)) for each in departure.equations]
+
+
+# --- where it ends ----------------------------------------------------------------------------------------------------
+
+
+def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "landing") -> tuple[Quantity, ...]:
+    """Time, place and speed at which a free flight ends: on a plane, or where the particle meets the circle that it
+    left, and its string becomes taut again.
+
+    flight   the two components of the flight, from `free_flight`
+    on       a fixed plane; by default the circle of the motion before the flight
+    The distance from the plane is a polynomial of second order in the time; the flight ends at the first time after the
+    departure at which it vanishes. For the circle, the squared distance from the centre minus the squared radius is
+    t^3 (a t + b): the departure is a triple zero, because the speed, its direction and the force there are those of the
+    circle. If a t + b has no zero at a positive time, the particle does not meet the circle again. Before a landing on
+    a plane, the particle must not meet the circle.
+    Second route: the place is on the orbit without the time; the speed by conservation of energy is that of the
+    derivatives of the components. Check: at this time the particle is on the plane or the circle. Numerically, it is on
+    the free side until then. Witness: the free flight of the described system is followed until it ends.
+    Outcomes: of the time: on_plane, taut (of a string), back (on the surface that it left); clear (it does not meet the
+    circle again); misses (it does not reach the plane).
+    Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle meets the circle first.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
+    """
+    first, second = _both(flight)
+    with where(first.needed(InFlight).conditions):
+        return _ends(first, second, on, key)
+
+
+def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tuple[Quantity, ...]:
+    known = first.needed(InFlight)
+    if on is None:
+        back = _time_back(known)
+        if back is None:
+            return (_clear(first, second, key),)
+        return _landed(first, second, back, None, key, [])
+    target = _fixed_plane(on)
+    back = _time_back(known) if known.orbit is not None else None
+    stays = known.orbit is not None and back is None
+    parents = [_clear(first, second, f"{key}_clear")] if stays else []
+    time = _time_to(known, target)
+    if time is None:
+        return (_misses(first, second, target, key),)
+    if back is not None and sign_known(back - time) != 1:
+        message = (
+            f"`lands`: it is not known whether the particle reaches the plane before it is on its circle at {back}"
+        )
+        raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
+    return _landed(first, second, time, target, key, parents)
+
+
+def _both(flight: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
+    found = [each for each in flight if each.fact(InFlight) is not None]
+    if len(found) != 2 or len(flight) != 2:
+        names = ", ".join(f"`{each.key}`" for each in flight)
+        message = f"this needs both components of a flight, but it is {names}"
+        raise Rejected(Complaint("wrong-argument", message, help="name a result of `flight`"))
+    return found[0], found[1]
+
+
+def _fixed_plane(on: Surface) -> Plane:
+    if not isinstance(on, Plane) or len(on.through.components) != 2:
+        message = "`lands` needs a plane as `on`; for the circle that the particle left, leave `on` out"
+        raise Rejected(Complaint("wrong-argument", message))
+    moving = changes(ImmutableDenseMatrix([*on.through.components, *on.unit_normal.components]))
+    if on.of is not None or on.moves is not None or moving is not None:
+        raise Rejected(Complaint("changes", "`lands` needs a plane at rest", help="give the plane a fixed place"))
+    return on
+
+
+def _time_back(known: InFlight) -> Expr | None:
+    """Return the time at which the particle meets its circle again; None if it does not."""
+    orbit = _orbit_of(known)
+    parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
+    if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
+        raise Unverified(Complaint("unverified", "the flight does not begin on the circle, along it, with no force"))
+    outwards, last = (tidied(c) for c in parts[3:])
+    sign = sign_known(outwards)
+    if orbit.inside and sign == -1:
+        return presented(-outwards / last)
+    if not orbit.inside and sign in (0, 1):
+        return None
+    message = "`lands`: it is not known on which side of the circle the particle flies"
+    help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
+    raise Rejected(Complaint("not-decided", message, help=help_line))
+
+
+def _orbit_of(known: InFlight) -> Orbit:
+    if known.orbit is None:
+        message = "`lands`: the particle was not on a circle, so it is not known whether it comes back"
+        raise Rejected(Complaint("not-decided", message))
+    return known.orbit
+
+
+def _beyond(place: Sequence[Expr], orbit: Orbit) -> Expr:
+    """The squared distance of a place from the centre of a circle, minus the squared radius."""
+    return Add(*((c - m) ** 2 for c, m in zip(place, orbit.centre, strict=True))) - orbit.radius**2
+
+
+def _distance(place: Sequence[Expr], target: Plane) -> Expr:
+    """The distance of a place from a plane, positive on the free side."""
+    return dot(Location(tuple(place)) - target.through, target.unit_normal)
+
+
+def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
+    """The place of the particle at a time, or the derivatives of its components."""
+    return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
+
+
+def _above(known: InFlight, target: Plane) -> list[Expr]:
+    """The coefficients of t^0, t and t^2 in the distance from the plane."""
+    parts = _distance(known.path, target).expand().as_poly(TIME)
+    return [tidied(parts.coeff_monomial(TIME**n)) for n in range(3)]
+
+
+def _time_to(known: InFlight, target: Plane) -> Expr | None:
+    """Return the first time after the departure at which the distance from the plane vanishes; None if it does not."""
+    h, v, a = _above(known, target)
+    side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
+    if side not in (0, 1):
+        where = "below" if side == -1 else "perhaps not above"
+        message = f"`lands`: the particle departs {where} the plane, at the distance {h} from it"
+        help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
+        raise Rejected(Complaint("not-decided", message, help=help_line))
+    inside = tidied(v**2 - 4 * a * h)
+    if bend == -1:
+        return presented(tidied((-v - sqrt(inside)) / (2 * a)))
+    if towards in (0, 1) or bend == 1 and sign_known(inside) == -1:
+        return None
+    if towards == -1 and bend == 0:
+        return presented(tidied(-h / v))
+    if towards == -1 and bend == 1 and sign_known(inside) == 1:
+        return presented(tidied((-v - sqrt(inside)) / (2 * a)))
+    message = "`lands`: it is not known whether the particle reaches the plane"
+    raise Rejected(Complaint("not-decided", message, help="state with `assume:` when it does, or give numbers"))
+
+
+STAYS_CLEAR = Rule(
+    "motion.stays_clear",
+    source=SOURCE,
+    outcomes={"clear": claims.stays_clear, "misses": claims.misses},
+    evidence={"distance": CHECK},
+)
+
+
+def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
+    """The particle does not meet the circle again: its distance from the centre stays greater than the radius.
+
+    Outcomes: clear.
+    Source: the same as for `landing`.
+    """
+    known = first.needed(InFlight)
+    orbit = _orbit_of(known)
+    (cx, cy), radius = orbit.centre, orbit.radius
+
+    def distance(found: Relation) -> tuple[Any, Any]:
+        """Check the distance by its derivatives at the departure."""
+        whole = _beyond(known.path, orbit)
+        series = [diff(whole, TIME, n).xreplace({TIME: ZERO}) * TIME**n / factorial(n) for n in range(5)]
+        return found.residual, Add(*series)
+
+    return establish(
+        STAYS_CLEAR,
+        None,
+        lambda x, y: Relation((x - cx) ** 2 + (y - cy) ** 2, ">", radius**2),
+        {"x": first, "y": second},
+        lines=Lines(put_in=None, arranged=lambda found: Relation(_in_time(explicit(found.residual)), ">", 0)),
+        routes={"distance": distance},
+        outcome="clear",
+        phrase_data=PhraseData(outcome_data={"flight": known, "target": None}),
+        key=key,
+    )
+
+
+def _in_time(value: Expr) -> Expr:
+    """Write a polynomial in the time as a power of the time and a factor."""
+    terms = [(n, tidied(c)) for n, c in enumerate(reversed(value.expand().as_poly(TIME).all_coeffs()))]
+    kept = [(n, presented(c, in_sums=False)) for n, c in terms if not is_zero(c)]
+    least = min(n for n, _ in kept)
+    return TIME**least * Add(*(c * TIME ** (n - least) for n, c in kept))
+
+
+def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quantity:
+    """The particle does not reach the plane: its least distance from the plane is positive.
+
+    Outcomes: misses.
+    Source: the same as for `landing`.
+    """
+    known = first.needed(InFlight)
+    h, v, a = _above(known, target)
+    least = presented(h - v**2 / (4 * a)) if sign_known(v) == -1 else presented(h)
+
+    def distance(found: Relation) -> tuple[Any, Any]:
+        """Check the distance at the time at which it is least."""
+        turned = -v / (2 * a) if sign_known(v) == -1 else ZERO
+        return found.residual, _distance(_at(turned, known), target)
+
+    return establish(
+        STAYS_CLEAR,
+        None,
+        lambda *_: Relation(least, ">", 0),
+        {"x": first, "y": second},
+        lines=Lines(put_in=None),
+        routes={"distance": distance},
+        outcome="misses",
+        phrase_data=PhraseData(outcome_data={"flight": known, "target": target}),
+        key=key,
+    )
+
+
+LANDING_TIME = Rule(
+    "motion.landing_time",
+    source=SOURCE,
+    outcomes={word: claims.lands(word) for word in ("on_plane", "taut", "back")},
+    evidence={"put_back": CHECK},
+)
+
+
+def _landed(
+    first: Quantity,
+    second: Quantity,
+    time: Expr,
+    target: Plane | None,
+    key: str,
+    parents: Sequence[Quantity],
+) -> tuple[Quantity, ...]:
+    """The time at which the flight ends, then the place and the speed there.
+
+    Outcomes: on_plane, taut, back.
+    Source: the same as for `landing`.
+    """
+    known = first.needed(InFlight)
+
+    def put_back(found: Expr) -> tuple[Any, Any]:
+        there = _at(found, known)
+        return (_beyond(there, _orbit_of(known)) if target is None else _distance(there, target)), ZERO
+
+    back = "taut" if known.kept.enforcer == "string" else "back"
+    when = establish(
+        LANDING_TIME,
+        scalar(free_letter("t_2"), positive=True),
+        lambda *_: time,
+        {"x": first, "y": second},
+        lines=Lines(put_in=None, arranged=lambda v: v),
+        routes={"put_back": put_back},
+        outcome="on_plane" if target is not None else back,
+        phrase_data=PhraseData(
+            formulas=_where(known, target, first.symbol, second.symbol),
+            words={"enforcer": known.kept.enforcer},
+            outcome_data={"flight": known, "target": target},
+        ),
+        key=f"{key}_time",
+        kind="time",
+        parents=parents,
+    )
+    level = target is not None and tidied(target.unit_normal.components[0]) == 0
+    components = (first,) if level else (first, second)
+    places = [_component_there(when, each, i, f"{key}_{'xy'[i]}") for i, each in enumerate(components)]
+    return when, *places, _speed_there(when, first, known, f"{key}_speed")
+
+
+def _where(known: InFlight, target: Plane | None, x: Symbol, y: Symbol) -> dict[str, tuple[Relation, Relation]]:
+    """The condition that the landing satisfies, as a sentence states it."""
+    if target is None:
+        orbit = _orbit_of(known)
+        (cx, cy), radius = orbit.centre, orbit.radius
+        told = Relation((x - cx) ** 2 + (y - cy) ** 2, "=", radius**2)
+        return {"condition": (told, Relation(told.left.expand(), "=", told.right))}
+    (px, py), (nx, ny) = target.through.components, target.unit_normal.components
+    for letter, n, p in ((y, nx, py), (x, ny, px)):
+        if n == 0:
+            return {"condition": (Relation(letter, "=", p), Relation(letter, "=", tidied(p)))}
+    left = nx * (x - px) + ny * (y - py)
+    return {"condition": (Relation(without_positive(tidied(left)), "=", ZERO), Relation(left, "=", ZERO))}
+
+
+LANDING_PLACE = Rule("motion.landing_place", source=SOURCE, evidence={"orbit": ROUTE})
+
+
+def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quantity:
+    """A component of the place where the flight ends.
+
+    Second route: the orbit without the time, v_x^2 (y_2 - y_1) = v_x v_y (x_2 - x_1) + a (x_2 - x_1)^2/2.
+    Source: the same as for `landing`.
+    """
+    known = path.needed(InFlight)
+    there, begin = _at(explicit(when.value), known), _at(ZERO, known)
+    v, a = _at(ZERO, known, 1), _at(ZERO, known, 2)
+
+    def orbit(found: Expr) -> tuple[Any, Any]:
+        ends = [found if k == i else c for k, c in enumerate(there)]
+        dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
+        across = v[0] * dy - v[1] * dx  # perpendicular to the first velocity
+        return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
+
+    return establish(
+        LANDING_PLACE,
+        scalar(free_letter(f"{path.symbol}_2")),
+        lambda t: explicit(path.value).xreplace({TIME: t}),
+        {"time": when},
+        lines=Lines(put_in=None, arranged=presented),
+        routes={"orbit": orbit},
+        key=key,
+        kind="length",
+        parents=[path],
+    )
+
+
+LANDING_SPEED = Rule("motion.landing_speed", source=SOURCE, evidence={"velocity": ROUTE})
+
+
+def _speed_there(when: Quantity, path: Quantity, known: InFlight, key: str) -> Quantity:
+    """Speed at which the flight ends, by conservation of energy: v_2^2 = v_1^2 + 2 a . (r_2 - r_1).
+
+    Second route: the derivatives of the components of the place with respect to time.
+    Source: the same as for `landing`.
+    """
+    speed = next(each for each in path.ancestors() if each.step.rule == DEPARTURE_SPEED.name)
+    there, begin = _at(explicit(when.value), known), _at(ZERO, known)
+    work = Add(*(a * (r - s) for a, r, s in zip(_at(ZERO, known, 2), there, begin, strict=True)))
+    gained = presented(2 * work)
+
+    def velocity(found: Expr) -> tuple[Any, Any]:
+        return found**2, Add(*(c**2 for c in _at(explicit(when.value), known, 1)))
+
+    return establish(
+        LANDING_SPEED,
+        scalar(free_letter("v_2"), nonnegative=True),
+        lambda V: Root(Terms(V**2, gained)),
+        {"speed": speed},
+        lines=Lines(arranged=lambda v: presented(tidied(v), in_sums=False)),
+        routes={"velocity": velocity},
+        key=key,
+        kind="speed",
+        parents=[when],
+    )
+
+
+PASSES_THROUGH = Rule(
+    "motion.passes_through",
+    source=SOURCE,
+    outcomes={"generic": claims.passes},
+    evidence={"at_its_time": CHECK},
+)
+
+
+def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str = "passes") -> Quantity:
+    """Condition for a free flight to pass through a place: the height at the time at which the particle is above or
+    below the place, minus the height of the place, is zero.
+
+    flight    the two components of the flight, from `free_flight`
+    through   the place: its horizontal component and its height, m
+    Positive factors of the condition are omitted. The place must be ahead of the particle.
+    Check: the height at this time. Numerically, this time is positive.
+    Errors: the particle passes through the place in any case or never, or it is not known whether the place is ahead.
+    Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
+    """
+    first, second = _both(flight)
+    with where(first.needed(InFlight).conditions):
+        return _passes_through(first, second, through, key)
+
+
+def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], key: str) -> Quantity:
+    """The condition for a free flight to pass through a place.
+
+    Source: the same as for `passes_through`.
+    """
+    known = first.needed(InFlight)
+    X, Y = (tidied(explicit(c)) for c in through)
+    _check_before_circle(known, (X, Y))
+    v = tidied(diff(known.path[0], TIME).xreplace({TIME: ZERO}))
+    if diff(known.path[0], TIME, 2) != 0 or v == 0:
+        message = "`passes` needs a flight with a constant horizontal velocity"
+        raise Rejected(Complaint("wrong-argument", message))
+    time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
+    if sign_known(time) != 1:
+        message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
+        help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
+        raise Rejected(Complaint("not-decided", message, help=help_line))
+    above = tidied(known.path[1].xreplace({TIME: time}) - Y)
+    core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)
+    sign = sign_known(above)
+    if sign is not None:
+        how = "passes through this place in any case" if sign == 0 else "never passes through this place"
+        message = f"`passes`: the particle {how}, so there is no condition"
+        raise Rejected(Complaint("no-condition", message, help="ask for the place and time of landing instead"))
+
+    def at_its_time(found: Relation) -> tuple[Any, Any]:
+        """Compare with the height at this time, up to a factor that does not vanish."""
+        there = known.path[1].xreplace({TIME: time}) - Y
+        return found.residual * above, there * core
+
+    return establish(
+        PASSES_THROUGH,
+        None,
+        lambda *_: Relation(core, "=", 0),
+        {"x": first, "y": second},
+        lines=Lines(put_in=None, arranged=explicit),
+        routes={"at_its_time": at_its_time},
+        phrase_data=PhraseData(
+            formulas={
+                "across": (Relation(first.symbol, "=", X), Relation(first.symbol, "=", through[0])),
+                "upwards": (Relation(second.symbol, "=", Y), Relation(second.symbol, "=", through[1])),
+            },
+            outcome_data={"flight": known, "place": (X, Y)},
+        ),
+        key=key,
+    )
+
+
+def _check_before_circle(known: InFlight, place: Vector) -> None:
+    """Require that a place is inside the circle, if the particle flies inside: the flight ends on the circle."""
+    if known.orbit is None or not known.orbit.inside:
+        return
+    if sign_known(tidied(_beyond(place, known.orbit))) != -1:
+        message = "`passes`: it is not known whether the place is inside the circle, on which the flight ends"
+        raise Rejected(Complaint("not-decided", message, help="give a place that is inside the circle"))
+
+
+# --- for `results:` ---------------------------------------------------------------------------------------------------
+
+
+@in_results(
+    "flight",
+    "the free motion after a contact is lost or a string goes slack, `flight_x` and `flight_y`",
+    lost="flight: a result of `leaves`",
+    at="at: a symbol for the value of the coordinate where it begins",
+)
+def _flight(lost: Quantity, key: str, at: Letter = None) -> tuple[Quantity, ...]:
+    return checked(free_flight)(lost, at, key=key)
+
+
+@in_results(
+    "lands",
+    "where and when a free flight ends, and with which speed",
+    flight="lands: a result of `flight`",
+    on="on: a plane under `surfaces`; by default the circle that the particle left",
+)
+def _lands(flight: Sequence[Quantity], key: str, on: SurfaceNamed = None) -> tuple[Quantity, ...]:
+    return checked(landing)(flight, on, key=key)
+
+
+@in_results(
+    "passes",
+    "the condition for a free flight to pass through a place",
+    flight="passes: a result of `flight`",
+    through="through: the components of the place, `[0, 0]`",
+)
+def _passes(flight: Sequence[Quantity], through: PlaceIn, key: str) -> Quantity:
+    return checked(passes_through)(flight, through, key=key)
