@@ -227,11 +227,11 @@ class Connections:
         if self.in_a_plane:
             for surface in dict.fromkeys(each.surface for each in self.contacts):
                 yield from self._surface(surface, [each for each in self.contacts if each.surface == surface])
+            for landing in connections_of(self.system, LandingSurface):
+                yield from self._landing(landing.surface)
         else:
             for plane in self._planes:
                 yield from self._table(plane)
-            for landing in connections_of(self.system, LandingSurface):
-                yield from self._landing(landing.surface)
         for pulley in connections_of(self.system, Pulley):
             yield from self._pulley(pulley.at, pulley.radius, Rational(9, 5) * pulley.radius)
         labels: set[Any] = set()  # each angle is drawn once
@@ -329,10 +329,9 @@ class Connections:
         if not isinstance(plane, Plane):
             return
         along = Location((plane.unit_normal.components[1], -plane.unit_normal.components[0]))
-        circles = [
-            (each.surface.centre, each.surface.radius) for each in self.contacts if isinstance(each.surface, Circle)
-        ]
-        for middle, far in (circles or [(line.places[0], self._span) for line in self.lines])[:1]:
+        circles = [each.surface for each in self.contacts if isinstance(each.surface, Circle)]
+        starts = [(circle.centre, circle.radius) for circle in circles]
+        for middle, far in (starts or [(line.places[0], self._span) for line in self.lines])[:1]:
             way = dot(along, middle - plane.through)
             low, high = (plane.through + (way + sign * PAST * far) * along for sign in (-1, 1))
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
