@@ -100,7 +100,14 @@ def plot(
 # --- marks -----------------------------------------------------------------------------------------------------------
 
 
-def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, asked: bool = True) -> Mark:
+def arrow(
+    vector: Any,
+    at: Any = ORIGIN,
+    size: Any = LONG,
+    label: Any = None,
+    asked: bool = True,
+    is_reversed: bool = False,
+) -> Mark:
     """A vector in its true direction; its length is arbitrary, because vectors of different kinds have no common scale.
 
     vector   vector (3), along the axes of the drawing; not drawn if it vanishes
@@ -108,9 +115,14 @@ def arrow(vector: Any, at: Any = ORIGIN, size: Any = LONG, label: Any = None, as
     size     the length of the arrow relative to the size of the body
     label    the name of the vector, by default the symbol of the quantity
     asked    whether the problem asks for the vector; then the arrow is emphasised
+    is_reversed   whether the arrow is opposite to `vector`, with a minus sign before its label: for a force with a
+                  negative component
     """
     (value, own), (start, others), (_, named) = vector_of(vector), vector_of(at), value_and_keys(label)
-    return Arrow(start, value, size, asked, label=name_of(vector, label), keys=own + others + named)
+    name = name_of(vector, label)
+    if is_reversed:
+        value, name = -value, -name if name is not None else None
+    return Arrow(start, value, size, asked, label=name, keys=own + others + named)
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:

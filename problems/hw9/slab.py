@@ -51,6 +51,8 @@ def solve(
         "slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0})
     )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
-    pushes = [arrow(out, radius * across, 2 / S(5), label=name) for out, name in ((across, N), (along, F))]
+    # At rest the friction points uphill for each angle below pi/2, so F is negative there.
+    contact, size = radius * across, 2 / S(5)
+    pushes = arrow(across, contact, size, label=N), arrow(along, contact, size, label=F, is_reversed=True)
     sketch("forces", system, O, C, pushes, weights=True)
     return L, motion, swings, grows, stable, level, minimum, again, N, F
