@@ -179,7 +179,7 @@ def test_a_curve_is_hatched_on_its_solid_side(side: str, solid: int, tmp_path: P
 
 
 def test_a_wire_has_no_hatches(tmp_path: Path) -> None:
-    drawing = drawings(tmp_path, edited(CURVE, ("(2*b)}", "(2*b), wire: true}")))["system"]
+    drawing = drawings(tmp_path, edited(CURVE, ("(2*b)}", "(2*b), side: both}")))["system"]
     assert not of_class(drawing, CurvedGround)
     assert [mark.pen for mark in of_class(drawing, WayMark)] == ["wire"]
 

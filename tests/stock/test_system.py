@@ -11,8 +11,6 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.marks import Drawing
-from derive.figures.parts import BarMark
 from derive.steps.record import Run
 from tests.stock.described import PENDULUM, complaints, course_with, edited, loaded, messages, solved
 
@@ -189,18 +187,6 @@ def test_a_distance_is_positive_at_rest(tmp_path: Path) -> None:
     found = solved(tmp_path, edited(PENDULUM, *hung))
     assert equal(found["rest_1"].value[0], l + m * g / k)
     assert found["rest_2"].step.outcome == "where"
-
-
-def test_what_a_particle_is_called_tells_how_it_is_drawn(tmp_path: Path) -> None:
-    """A bob hangs on a rod, a bead is on a wire: their formulas are the same."""
-    for name, radius, is_rod in (("bob", "R", True), ("bead", "l", False), ("upper", "l", True), ("upper", "R", False)):
-        text = edited(PENDULUM, ("bob:", f"{name}:"))
-        text = text.replace("l*", f"{radius}*").replace("{l: length", "{R: length" if radius == "R" else "{l: length")
-        run = Run()
-        run_solve(loaded(tmp_path, text), run)
-        (drawn,) = run.drawings
-        assert isinstance(drawn, Drawing)
-        assert any(isinstance(mark, BarMark) for mark in drawn.marks) == is_rod
 
 
 def test_nothing_is_drawn_of_a_body_that_has_no_shape(tmp_path: Path) -> None:

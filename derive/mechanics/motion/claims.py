@@ -20,7 +20,7 @@ from sympy import (
     tan,
 )
 
-from derive.algebra.expressions import TIME, explicit, rate
+from derive.algebra.expressions import TIME, depends_on_time, explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
@@ -404,7 +404,7 @@ def speeds_up(wanted: bool) -> Predicate:
 
     def is_so(facts: Judged) -> bool:
         bend = diff(facts.result, TIME, 2)
-        return not bend.has(TIME) and is_zero(bend) != wanted and is_zero(facts.inputs["other_force"]) != wanted
+        return not depends_on_time(bend) and is_zero(bend) != wanted and is_zero(facts.inputs["other_force"]) != wanted
 
     return is_so
 

@@ -257,8 +257,9 @@ class ContactKeys(Record):
 
     def _body(self, known: Connected) -> Any:
         """Return the body, particle or point of a body that touches the surface, or a fixed corner."""
-        if self.of.name is not None and self.of.name not in known.places.written:
-            return material(self.of.name, known)
+        name = self.of.name
+        if name is not None and (name.partition(".")[0] in known.bodies or name not in known.places.written):
+            return material(name, known)
         return _end(self.of, known, "of")
 
     def _surface(self, known: Connected) -> Any:
