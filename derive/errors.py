@@ -71,7 +71,7 @@ class Complaint:
         lines = [f"{p.path}:{p.line}:{p.column}: {head}"]
         gutter = " " * len(str(p.line))
         if p.text.strip():
-            # A tab is one column wide here, so that the caret is under what it marks.
+            # A tab is printed one column wide, so that the caret is under the marked text.
             lines.append(f"  {p.line} | " + p.text.rstrip("\r\n").replace("\t", " "))
             lines.append(f"  {gutter} | " + " " * max(0, p.column - p.cut - 1) + "^" * max(1, p.width))
         return "\n".join([*lines, *self._footer(gutter)])
@@ -82,7 +82,7 @@ class Complaint:
 
 
 class DeriveError(Exception):
-    """An error that stops the work and that the user can do something about."""
+    """An error that stops the work, and whose cause the user can remove."""
 
     exit_code = 1
 
@@ -122,7 +122,7 @@ class OutOfTime(BaseException):
     doing     what the work was doing, innermost first
     answers   the names of the answers that the work was deriving, innermost first
     finished  the keys of the steps that are established
-    kept      whether these steps are stored for the next attempt
+    kept      whether the finished steps are stored for the next attempt
     """
 
     def __init__(self, waited: bool = False):

@@ -35,8 +35,8 @@ def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
     """Open a problem by its id, such as `hw9/block`; by default `root` is the course in or above the working folder."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
-        help_line = "run Python in the course's folder, or name the folder: `open_problem(..., root=...)`"
-        raise Misused(Complaint("no-root", "no folder `problems` was found here or above", help=help_line))
+        help_line = "run Python in the course's folder or below, or name the folder: `open_problem(..., root=...)`"
+        raise Misused(Complaint("no-root", "no folder `problems` was found", help=help_line))
     return Opened(load_problem(folder, problem_id_of(problem_id)))
 
 
@@ -75,7 +75,7 @@ class Drawn:
 
 
 class Opened:
-    """A problem that is derived once, when the first of its answers is asked for."""
+    """A problem that is derived once, when an answer or a drawing is first requested."""
 
     def __init__(self, problem: Problem):
         self._problem = problem
@@ -85,13 +85,13 @@ class Opened:
 
     @property
     def answers(self) -> tuple[str, ...]:
-        """The keys of the answers that its parts ask for."""
+        """The keys of the answers that the parts of the problem ask for."""
         derivation = self._solved.derivation
         steps = [step for part in self._problem.parts for step in derivation.answering(part.answers)]
         return tuple(dict.fromkeys(step.key for step in steps))
 
     def answer(self, key: str) -> Answer:
-        """Return the answer to a part, or any other step of the page, by its key."""
+        """Return the result with this key: the answer to a part, or the result of any other step."""
         derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:
@@ -110,7 +110,7 @@ class Opened:
         )
 
     def drawing(self, key: str) -> Drawn:
-        """Return a drawing of the page by its key."""
+        """Return the drawing of the page with this key."""
         name = f"{self._problem.id.rpartition('/')[2]}-{key}.svg"
         if name not in self._drawings:
             keys = [file.partition("-")[2].removesuffix(".svg") for file in self._drawings]

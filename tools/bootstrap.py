@@ -1,7 +1,7 @@
 """Make or repair the environment in `.venv` if necessary. `make` runs this script; it needs no installed packages.
 
-Only wheels whose files have the digests in `locks/` are installed, so no code of an unknown package runs. The
-installer then installs derive itself with the build tools among these packages, without access to any registry.
+The installer accepts only wheels with the digests in `locks/`, so no code of an unknown package runs. It then installs
+derive itself with the build tools among these packages, without access to any registry.
 
 A stamp file in `.venv` records that the environment fits `pyproject.toml` and `locks/`. The stamp `.runtime` covers
 the packages that `derive` needs; `.tests` covers these packages, the linters and the test tools. The file
@@ -31,12 +31,12 @@ OLDEST = (3, 11)
 
 
 class Stopped(Exception):
-    """The environment cannot be made; the message is one line that includes the fix."""
+    """The environment cannot be made; the message states the reason and, if there is one, the fix."""
 
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Allow one installation at a time: a second `make` waits here, then finds the environment complete."""
+    """Allow one installation at a time: a second `make` waits here until the first has ended."""
     lock = os.open(ROOT / ".venv.lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     try:
         try:
@@ -56,7 +56,7 @@ def fingerprint() -> str:
 
 
 def works(uv: str | None) -> bool:
-    """Return whether the Python in `.venv` runs, is new enough, and can install packages."""
+    """Return whether the Python in `.venv` runs, is new enough, and has `pip` if there is no `uv`."""
     installer = bool(uv) or "importlib.util.find_spec('pip')"
     probe = f"import sys, importlib.util; sys.exit(sys.version_info < {OLDEST} or not {installer})"
     try:
@@ -75,10 +75,10 @@ def check_tools(uv: str | None) -> None:
     if sys.version_info < OLDEST:
         this = sys.version.split()[0]
         raise Stopped(
-            f"error[python]: derive needs Python 3.11 or later, and this is {this}: install a newer one, or uv"
+            f"error[python]: derive needs Python 3.11 or later, but this is {this}: install a newer one, or uv"
         )
     if not uv and not has_venv():
-        fix = f"`apt install {name}-venv`, or install uv, then `make` again"
+        fix = f"run `apt install {name}-venv` or install uv, and then run `make` again"
         raise Stopped(f"error[venv]: {name} has no working venv module: {fix}")
 
 
@@ -96,7 +96,7 @@ WANTED = {
     ".runtime": "SymPy and the TeX engine (once, about 100 MB)",
     ".tests": "SymPy, the TeX engine and the test tools (once, about 140 MB)",
 }
-LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # tests.txt lists additional packages
+LOCKS = {".runtime": "locks/runtime.txt", ".tests": "locks/tests.txt"}  # tests.txt lists only additional packages
 CHECKED = ["--require-hashes", "--only-binary", ":all:"]
 ITSELF = ["--no-index", "--no-deps", "--no-build-isolation", "--editable", "."]
 
@@ -112,7 +112,7 @@ def install(stamp: str, uv: str | None) -> None:
     pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else [str(PYTHON), "-I", "-m", "pip", "install"]
     locks = list(LOCKS.values())[: 1 + list(LOCKS).index(stamp)]
     files = [word for lock in locks for word in ("--requirement", lock)]
-    failed = "cannot install the packages, run `make` again to retry"
+    failed = "cannot install the packages (run `make` again to retry)"
     run([*pip, "--quiet", *CHECKED, *files], failed)
     run([*pip, "--quiet", *ITSELF], failed)
     UNFINISHED.unlink()
@@ -146,7 +146,7 @@ def main() -> int:
         print(f"error[cannot-write]: cannot set up .venv: {error.strerror}: {error.filename}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("interrupted; the next `make` continues", file=sys.stderr)
+        print("interrupted; run `make` again", file=sys.stderr)
         return 130
     return 0
 

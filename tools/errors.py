@@ -26,7 +26,7 @@ _RAISING = {"Complaint", "Misfit", "complaint", "error", "rejected", "refuse", "
 _BEGINNING = """\
 # Errors and how to fix them
 
-Made by `tools/errors.py` from the code, the tests and `tools/errors.yaml`; do not edit it.
+`tools/errors.py` writes this page from the code, the tests and `tools/errors.yaml`; do not edit the page.
 
 An error message states the file, the line and the column, a code such as `wrong-kind`, and what is wrong. It shows
 the line, and a fix if there is one. All errors of a file are reported at once; earlier outputs stay unchanged. In the
@@ -61,7 +61,7 @@ def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 def _code_at(call: ast.Call) -> int | None:
-    """Return the position of the code among the arguments of a call, or None if it raises no error."""
+    """Return the position of the code among the arguments of a call, or None if the call reports no error."""
     if ast.unparse(call.func).rpartition(".")[2] not in _RAISING:
         return None
     return 1 if ast.unparse(call.func).endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None

@@ -1,7 +1,7 @@
-"""Write docs/gallery.md. With `--pictures`, also take new pictures of the pages of `make library` in Chromium, and copy
-the drawings that docs/connections.md shows.
+"""Write docs/gallery.md. With `--pictures`, also take new pictures, in Chromium, of pages that `make library` has
+built, and copy the drawings that docs/connections.md shows.
 
-A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below it.
+A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below the picture.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ _BEGINNING = """\
 # Gallery
 
 `tools/gallery.py` writes this page; do not edit it. Each picture shows the beginning of a page that a build has
-written for a browser. The YAML of the problem is below the picture, without the comparison with a book. All problems of
-`problems/library` are in YAML alone. `make library` builds these problems, and `derive list` lists them.
+written for a browser. The YAML of the problem is below the picture, without the comparison with a book. No problem of
+`problems/library` has a script of its own. `make library` builds these problems, and `derive list` lists them.
 `derive new hw10/mine --like library/torus` begins a problem of your own with a copy of `library/torus`.
 """
 
@@ -53,7 +53,7 @@ def _entry(name: str, shows: str) -> str:
 
 
 def _told(text: str) -> str:
-    """Return the YAML of a problem without its `reference:`, which compares the results with a book."""
+    """Return the YAML of a problem without the comment for editors and without `reference:`, the results of a book."""
     return re.sub(r"^# yaml-language-server.*\n", "", text.partition("\nreference:")[0], flags=re.MULTILINE).strip()
 
 

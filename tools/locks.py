@@ -1,4 +1,4 @@
-"""Write the lists of packages in `locks/`, with the digests of the files: `python -P -m tools.locks`.
+"""Write the lists of packages in `locks/`, with the digests of their files: `python -P -m tools.locks`.
 
 The versions come from `constraints.txt`. `uv` finds the files of each version for every platform; `locks/` names no
 registry.
@@ -25,12 +25,12 @@ _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILI
 
 
 def entries(text: str) -> dict[str, str]:
-    """Return the entry of each package of a lock file by the package's name: version, conditions and digests."""
+    """Return, by the name of each package of a lock file, its entry: version, conditions and digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 
 def resolved(*options: str) -> dict[str, str]:
-    """Return the entries of all packages that `uv`, with these options, selects for derive."""
+    """Return the entries of all packages that `uv`, with these options, selects for derive and its installation."""
     uv = shutil.which("uv")
     if uv is None:
         sys.exit("error[uv]: locks are written by `uv`, which is not installed: `pip install uv`")

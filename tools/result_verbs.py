@@ -13,7 +13,7 @@ START, END = "<!-- the verbs, by tools/result_verbs.py -->\n", "<!-- the end of 
 
 
 def table() -> str:
-    """Return a line for each verb: the keys that it needs, its optional keys, and what it yields."""
+    """Return a table with a line for each verb: the keys that it needs, its optional keys, and what it yields."""
     lines = ["| verb | needs | may have | yields |\n", "|---|---|---|---|\n"]
     return "".join([*lines, *(_line(RESULT_VERBS[name]) for name in sorted(RESULT_VERBS))])
 

@@ -1,4 +1,4 @@
-"""Write the page of all rules, and the list of rules that have only checks, from the records next to the verbs."""
+"""Write docs/rules.md, and the list of rules with checks only in docs/soundness.md, from the records of the rules."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def rules() -> list[Rule]:
 
 
 def verbs() -> str:
-    """Return a table of the verbs that a script can call: name, verb under `results:`, and what the verb yields."""
+    """Return a table with a line for each verb that a script can call: its verb of `results:`, and what it yields."""
     public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
     asked: dict[str, str] = {}
     for name, verb in RESULT_VERBS.items():
@@ -50,7 +50,7 @@ def verbs() -> str:
 
 
 def summary(text: str) -> str:
-    """Return the first paragraph of a docstring, without the lines on arguments, outcomes and sources below it."""
+    """Return the first paragraph of a docstring up to the first line on arguments, outcomes, evidence or sources."""
     below = r"\n\n|\n(?:Outcomes|Errors|Source|Check|Second route)s?:|\n\w+  +\w"
     return " ".join(re.split(below, text)[0].split())
 

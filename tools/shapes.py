@@ -1,4 +1,4 @@
-"""Write the table of shapes in the documentation: the position of each shape in its own axes, and its points."""
+"""Write the table of shapes in the documentation: the sizes, the position and the points of each shape."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ M = Symbol("M", positive=True)
 
 
 def table() -> str:
-    """Return a line for each shape: its sizes, its position, its points."""
+    """Return a table with a line for each shape: its sizes, its position in its own axes, and its points."""
     lines = ["| `shape` | sizes | in its own axes | points |\n", "|---|---|---|---|\n"]
     return "".join([*lines, *(_line(name, shape) for name, shape in sorted(shapes().items()))])
 
@@ -34,7 +34,7 @@ def _line(name: str, shape: type[Body]) -> str:
 
 
 def _how_it_lies(shape: type[Body]) -> str:
-    """Return the first sentence of the docstring of a shape, without its article, "thin" and "uniform"."""
+    """Return the first sentence of the docstring of a shape, without the article and the words "thin", "uniform"."""
     first = " ".join((shape.__doc__ or "").split(".")[0].split())
     return re.sub(r"^(A|An|The|Half of a) (thin )?(uniform )?", lambda m: "half of a " * ("Half" in m[0]), first)
 

@@ -42,7 +42,7 @@ def subset(whole: str, made: Path) -> None:
 
 
 def narrow_roots(font: Any) -> None:
-    """Give all root signs about the same width: Chromium reserves the width of the widest sign for every root."""
+    """Give all root signs about the same width, because Chromium reserves the greatest width for every root."""
     variants = font["MATH"].table.MathVariants
     root = variants.VertGlyphConstruction[variants.VertGlyphCoverage.glyphs.index(font.getBestCmap()[ord("√")])]
     for variant in root.MathGlyphVariantRecord[1:]:

@@ -18,14 +18,14 @@ FILES = {"problem": "A problem", "set": "A set", "reference": "A reference"}
 _BEGINNING = """\
 # Every key
 
-Made by `tools/yaml_reference.py` from the schemas that `derive schema` gives editors; do not edit it. The keys are
+`tools/yaml_reference.py` writes this page from the schemas for editors; do not edit the page. The keys are
 described in [problems.md](problems.md), [yaml-alone.md](yaml-alone.md) and [references.md](references.md). A key in
 bold is required.
 
 An *expression* is a formula of declared symbols, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = 8  # a table that contains all keys of an earlier table, at least this many, refers to that table instead
+MANY = 8  # a table refers to an earlier table, and does not repeat its keys, if these are at least so many
 Schema = dict[str, Any]
 
 
@@ -63,7 +63,10 @@ class Sections:
         self.tables.append("\n".join([*lines, ""]))
 
     def _shared_with_another(self, keys: Schema) -> tuple[str, Schema]:
-        """Return a link to an earlier table and its keys if it has `MANY` keys or more, all in `keys`; or "" and {}."""
+        """Return a link to an earlier table, and the keys of that table; return "" and {} if there is no such table.
+
+        That table has at least `MANY` keys, and `keys` contains all of them and at least one other key.
+        """
         for title, other in self._titled.items():
             if MANY <= len(other) < len(keys) and all(keys.get(name) == under for name, under in other.items()):
                 return f"[{title}](#{_anchor(title)})", other

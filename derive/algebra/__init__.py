@@ -1,1 +1,1 @@
-"""Expressions, and the decision whether two are equal: no laws of physics, no pages."""
+"""Expressions, and how to decide whether two expressions are equal; no laws of physics and no pages."""

@@ -47,8 +47,8 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a nonzero product of entries, one from each row and column; all such products have the same
-        dimension."""
+        """The dimension of a nonzero product with one entry from each row and column; None if every such product
+        vanishes. All nonzero products of this kind have the same dimension."""
         matrix = self.args[0]
         for entry in matrix:
             of(entry)
@@ -62,8 +62,8 @@ class Determinant(ScalarNode):
 def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the expanded determinant in the polynomial ring of the symbols in the matrix, without division.
 
-    Functions and roots count as symbols too. SymPy has no ring for functions and roots, and would otherwise cancel
-    after each step.
+    Each function and each root counts as a symbol. SymPy has no ring for functions and roots, and would otherwise
+    cancel after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -81,7 +81,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
     known: dict[tuple[int, ...], Any] = {(): ring.one}
-    for row in reversed(range(size)):  # the columns of a minor of this row and the rows below it -> the minor
+    for row in reversed(range(size)):  # `known`: columns -> their minor in the rows below
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
         for columns, minor in known.items():

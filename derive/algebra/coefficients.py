@@ -25,7 +25,7 @@ PHASE = 2  # number of bits below the bits of the symbols
 
 
 class Coefficient(NamedTuple):
-    """The coefficient of one product of powers, and the number of terms of the coefficient.
+    """The coefficient `whole` of one product of powers of the symbols; `terms` is the number of its terms.
 
     If the coefficient is a factor without angles times a factor of sines and cosines only, `angles` is the second
     factor. `written(number, angles)` returns the product of a number, the first factor and a rewritten second factor,
@@ -46,7 +46,7 @@ class Factored(NamedTuple):
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The combinations of powers of these symbols that occur, the highest first, each with its coefficient.
+    """The tuples of powers of these symbols that occur in the value, the highest first, each with its coefficient.
 
     Raises `Outside` if the value is not a polynomial, or is too large.
     """
@@ -137,7 +137,7 @@ class Expanded(Ring):
         return rest, turning
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
-        """The sum, times a number and another factor, with the common factors of the terms in front."""
+        """The product of the sum, `number` and `other`, with the common factors of the terms in front."""
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
         lowest, content, rest = _in_front(terms)
@@ -150,7 +150,8 @@ class Expanded(Ring):
         return Factored(found, is_prime)
 
     def product_in_front(self, terms: Terms, power: int = 1) -> Product:
-        """The common factors of the terms, and the sum of the remaining terms, each raised to the power 1 or -1."""
+        """The common factors of the terms times the sum of the remaining terms, all raised to `power`, which is 1 or
+        -1."""
         lowest, content, rest = _in_front(terms)
         powers = {letter: power * n for letter, n in self._letters(lowest)}
         if len(rest) > 1:
@@ -176,7 +177,8 @@ class Expanded(Ring):
         return (letter ** Integer(power) for letter, power in self._letters(monomial))
 
     def _letters(self, monomial: int) -> Iterator[tuple[Expr, int]]:
-        """The symbols of a monomial with their powers; places are `WIDTH` bits apart, and the first is at `PHASE`."""
+        """Yield each symbol of a monomial with its power. Each symbol has `WIDTH` bits of the monomial; the first
+        begins at the bit `PHASE`."""
         monomial >>= PHASE
         place = PHASE
         while monomial:
@@ -207,7 +209,7 @@ def _in_front(terms: Terms) -> tuple[int, int, Terms]:
 
 
 def _common(one: int, other: int) -> int:
-    """The symbols that two monomials share, each in the lower of its two powers."""
+    """The greatest common monomial of two monomials: each shared symbol has the lower of its two powers."""
     shared, place = 0, PHASE
     while one >> place and other >> place:
         shared += min((one >> place) & ONES, (other >> place) & ONES) << place
@@ -216,8 +218,8 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether a symbol appears in one term only, in its first power. The only factors of such a sum are the common
-    factors of its terms."""
+    """Whether some symbol appears in exactly one term, and there in its first power. The only factors of such a sum are
+    the common factors of its terms."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]

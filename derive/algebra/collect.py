@@ -16,7 +16,7 @@ from derive.algebra.tidy import tidied
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Collect the terms by accelerations, and by squares and products of rates, each with one factor in front."""
+    """Collect the terms by accelerations and by squares and products of rates; each of these has one coefficient."""
     return by_rates(value, moving, 2)
 
 
@@ -44,7 +44,7 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
     for powers, c in gathered:
         part = _with_its_rates(c, [(s, n) for s, n in zip(present, powers, strict=True) if n], halves)
         part = part if any(powers) else _level(part, part, moving)
-        # Terms without rates stay separate.
+        # Terms without rates are not put in one bracket.
         level = Add.make_args(_with_differences(part, moving)) if not any(powers) else ()
         parts += [_with_short_sums(term, moving) for term in level] if not any(powers) else [part]
     parts = [part for part in parts if part != 0]  # a part such as sin^2 + cos^2 - 1 is zero
@@ -113,8 +113,8 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Take the common constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 + r^2 phi_dot^2), if
-    they include a mass or a moment of inertia. Otherwise put terms with the same numerical factor and the same
-    constants in one bracket.
+    these constants include a mass or a moment of inertia. Otherwise put terms with the same numerical factor and the
+    same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -178,8 +178,8 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """Products of powers of these symbols, the highest first, with their coefficients; empty if the value has no such
-    form."""
+    """The tuples of powers of these symbols that occur in the value, the highest first, each with its coefficient;
+    empty if the value is not a polynomial in these symbols."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -204,8 +204,8 @@ def _roots_in(expr: Expr) -> frozenset[Pow]:
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Collect the terms by rates and by products of the coordinates.
 
-    A coefficient with terms of both signs follows a minus sign: I_x omega_x_dot - (I_y - I_z) omega_y omega_z, and
-    cyclically.
+    If a coefficient has terms of both signs, a minus sign precedes its bracket: I_x omega_x_dot - (I_y - I_z) omega_y
+    omega_z, and cyclically.
     """
     rates = [rate(q, n) for n in (2, 1) for q in moving]
     present = [s for s in (*rates, *moving) if value.has(s)]
@@ -242,8 +242,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy the factor without angles and the factor with angles separately, if the factor with angles contains no
-    sum."""
+    """Tidy a coefficient times a number. Its factor without angles and its factor of sines and cosines stay separate if
+    the tidy form of the second factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -262,7 +262,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 
 
 def _shorter_as_product(value: Expr) -> Expr:
-    """Return the factored form if it is shorter: (l + x)^2, not l^2 + 2 l x + x^2."""
+    """Return the value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2."""
     return min((value, factored(value)), key=length)
 
 
@@ -297,8 +297,8 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """Return one product or a sum of tidy terms, whichever is shorter; if a denominator contains angles, return a sum.
-    `others` are further forms of the value to choose from."""
+    """Return one product or a sum of tidy terms, whichever is shorter. If the denominator of the value contains angles,
+    always return a sum. `others` are further forms of the value to choose from."""
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

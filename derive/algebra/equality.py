@@ -62,7 +62,7 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # most points drawn for each point that is needed, because some points have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points before the exact decision, and after an exact decision that failed
+FIRST, POINTS = 2, 26  # numbers of points: before the exact decision, and after it if it failed
 TURNS = 400  # most points drawn to find a point at which a sign differs
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
@@ -82,7 +82,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """The things compared: two lines; the result and another derivation, a check or a simulated motion; or nothing."""
+    """The sorts of comparison: of two lines; of the result with a second route, a check or a simulated motion; or
+    none."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -116,7 +117,7 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    The grade of a matrix is that of its least certain entry. Relations are equal if each follows from the other.
+    The grade of a matrix is the grade of its least certain entry. Relations are equal if each follows from the other.
     `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors of an
     inequality are known to be positive.
     """
@@ -188,7 +189,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
-    """Remove one-to-one functions from both sides: acos(u) equals acos(v) exactly if u equals v."""
+    """If both sides are the acos, asin or atan of an argument, return the two arguments: acos(u) equals acos(v) exactly
+    if u equals v."""
     while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
         left, right = left.args[0], right.args[0]
     return left, right
@@ -200,9 +202,9 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
     """The values of both sides at points at which both sides are defined.
 
-    Values that are not real, such as sqrt(g/l - k/m) for a strong spring, have no meaning. Two forms of one expression
-    may then be on different branches. So points at which neither side is real are used only if there are no other
-    points. Points that contradict an assumption of the problem, such as c^2 - v^2 > 0, are left out.
+    Values that are not real, such as sqrt(g/l - k/m) for a strong spring, have no physical meaning, and two forms of
+    one expression may have such values on different branches. So points at which neither side is real are used only if
+    there are no other points. Points that contradict an assumption of the problem, such as c^2 - v^2 > 0, are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -248,7 +250,7 @@ def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]
 
 
 def _side(inside: Expr, point: SamplePoint) -> bool | None:
-    """Whether the expression is positive at the point; None if it is neither positive nor negative."""
+    """Whether the expression is positive at the point; None if its value is zero, not real or undefined."""
     try:
         value = value_at(inside, point)
     except (Undefined, NoNumber):
@@ -339,8 +341,8 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Rewrite strict inequalities n/d > 0 as n d > 0. Both forms are equivalent, because neither is true where d
-    vanishes."""
+    """Rewrite strict inequalities n/d > 0 as n d > 0. The two inequalities are equivalent, because neither is true
+    where d vanishes."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -377,7 +379,9 @@ def _counterexample(left: Expr, right: Expr) -> Verdict | None:
                 continue
             if abs(zero) < Rational(1, 10**30) < abs(off):
                 where = tuple((str(name), str(value)) for name, value in others.items())
-                return Verdict(Grade.REFUTED, f"where one is true, the other is off by {off.evalf(6)}", where)
+                return Verdict(
+                    Grade.REFUTED, f"where one equation is true, the sides of the other differ by {off.evalf(6)}", where
+                )
     return None
 
 
@@ -390,7 +394,8 @@ def _short(value: Any) -> str:
 
 
 def _same_mark(left: str, right: str, sign: int) -> bool:
-    """Whether a factor of this sign turns one operator into the other: a negative factor reverses an inequality."""
+    """Whether multiplication by a factor of this sign turns one operator into the other: a negative factor reverses an
+    inequality."""
     if left in {"=", "!="} or right in {"=", "!="}:
         return left == right
     return bool(sign) and left == (right if sign > 0 else _TURNED[right])
@@ -411,7 +416,7 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 def _ratio(above: Expr, below: Expr) -> Expr:
     if above.has(Float) or below.has(Float):  # inexact numbers are not cancelled
         return above / below
-    for turn in (Integer(1), Integer(-1)):  # a few points suggest a ratio of 1 or -1; cancelling could take a minute
+    for turn in (Integer(1), Integer(-1)):  # points can suggest the ratio 1 or -1; `cancel` could take a minute
         samples = list(_samples(above, turn * below, FIRST))
         if samples and all(sample.agree for sample in samples):
             return turn
@@ -454,5 +459,5 @@ def _without_factor(expr: Expr, known: Expr) -> Expr:
         if not power.is_Integer or base not in {known, -known}:
             left.append(factor)
         elif base != known:
-            left.append(Integer(-1) ** power)  # b - a where a - b is known to be positive
+            left.append(Integer(-1) ** power)  # the factor is b - a, and a - b is known to be positive
     return Mul(*left)

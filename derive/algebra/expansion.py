@@ -2,9 +2,8 @@
 
     f = N/D: N and D are expanded in Taylor series in the small symbol, and the series are divided
 
-The leading power may be negative or half-integer. SymPy's own `series` is not used. Functions without such an expansion
-are rejected.
-Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
+The leading power may be negative or half-integer. SymPy's own `series` is not used. A function without an expansion in
+powers is rejected. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
-    """The expression has no expansion in powers at this limit, or this module finds none within its limits."""
+    """The expression has no expansion in powers at this limit, or the expression is too large for this module."""
 
 
 class BeginsBeyond(NoExpansion):
@@ -129,8 +128,8 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 def _without_what_dies(f: Expr) -> Expr:
     """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
 
-    A growing exponential is the reciprocal of a decaying exponential. So all exponentials are powers of one decaying
-    exponential, which is set to zero.
+    All exponentials are written as powers of one decaying exponential, with negative powers for growing exponentials.
+    This decaying exponential is then set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
@@ -195,7 +194,8 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
-    """The Taylor coefficients at least up to this power, and the lowest power that occurs."""
+    """The nonzero Taylor coefficients, and the lowest power with one. The series ends at this power, or at its first
+    nonzero coefficient if this comes later."""
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)
     for n in range(HIGHEST + 1):

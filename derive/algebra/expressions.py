@@ -72,8 +72,8 @@ def scalar(name: str, **assumptions: bool) -> Symbol:
 
 
 def stand_in(name: str, **assumptions: bool) -> Symbol:
-    """A symbol for checks only, with a prime in its name. No problem can use such a name, so the symbol differs from
-    all symbols of a problem."""
+    """A symbol for checks only, with a prime in its name. No problem can use a name with a prime, so the symbol differs
+    from all symbols of a problem."""
     return scalar(f"{name}\u2032", **assumptions)
 
 
@@ -164,8 +164,8 @@ class CarriedRate(VectorNode):
     """dA/dt in space of a vector A, given by its components along axes that rotate with angular velocity omega.
     Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
 
-    Evaluated by rotating A and differentiating, not as omega x A: A(t) = R(t) A, where the columns of R(t) are the
-    body's axes after the time t. The rotation is built from Euler rotations: rotate about z and y until omega lies
+    The value is found by rotating A and differentiating, not as omega x A: A(t) = R(t) A, where the columns of R(t) are
+    the body's axes after the time t. The rotation is built from Euler rotations: rotate about z and y until omega lies
     along z, rotate by |omega| t, rotate back.
     """
 
@@ -174,10 +174,10 @@ class CarriedRate(VectorNode):
         rate = sqrt(sum((w**2 for w in omega), Integer(0)))
         if rate == 0:
             return ImmutableDenseMatrix(in_body)
-        t = Dummy("t", real=True)  # measured from now: A and omega are the values at this instant
+        t = Dummy("t", real=True)  # time from now; A and omega are the values at t = 0
         to_z = _rotation_onto_z(omega / rate)
         turn = Matrix([[cos(rate * t), -sin(rate * t), 0], [sin(rate * t), cos(rate * t), 0], [0, 0, 1]])
-        # Only this rotation depends on t, so only it is differentiated.
+        # Only `turn` depends on t, so only `turn` is differentiated.
         return ImmutableDenseMatrix(in_body + to_z.T * diff(turn, t).subs(t, 0) * to_z * Matrix(a))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
@@ -344,8 +344,9 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    Evaluated by the chain rule: the partial derivative of f with respect to each coordinate and each rate is multiplied
-    by the next rate, and the partial derivative with respect to time is added; it includes prescribed functions.
+    The value follows from the chain rule: the partial derivative of f with respect to each coordinate and each rate is
+    multiplied by the next rate, and the partial derivative with respect to time, which includes prescribed functions,
+    is added.
     """
 
     def doit(self, **hints: Any) -> Expr:
@@ -421,7 +422,7 @@ class Outer(MatrixNode):
 
 
 def _entries(vector: Value, text: TextOf) -> str:
-    """The text of a vector from which SymPy can take entries, even if the vector is a name."""
+    """The text of a vector; a name is put in `Matrix(...)`, so that SymPy can take entries of the vector."""
     return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
 
 

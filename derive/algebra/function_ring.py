@@ -2,8 +2,8 @@
 
 A root is split into roots of irreducible factors, and an absolute value into absolute values of irreducible factors, if
 the signs of the factors allow it. Each such root or absolute value becomes a new letter of the ring with a relation,
-r^q = p or |p|^2 = p^2. A power becomes a product with a factor for each term of its exponent, exp(u + v) = exp u exp v.
-For any other function, only one property is used: equal arguments give equal values.
+r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term of the exponent,
+exp(u + v) = exp u exp v. For any other function, only one property is used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -104,7 +104,7 @@ class FunctionRing(TrigRing):
             return self._letter_of_power(expr, 2, ONE)
         if isinstance(expr, Abs) and all(part.is_real for part in expr.args[0].as_numer_denom()):
             return self._absolute(expr.args[0])
-        if isinstance(expr, sign) and expr.args[0].is_real:  # valid only where the argument is not zero
+        if isinstance(expr, sign) and expr.args[0].is_real:  # sign(u) = u/|u|, valid only where u is not zero
             return self.product(self.form(expr.args[0]), self.one_over(self._absolute(expr.args[0])))
         return super().function(expr) if isinstance(expr, sin | cos) or expr in {I, pi} else self._opaque(expr)
 

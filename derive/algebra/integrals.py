@@ -6,8 +6,8 @@
     chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
 SymPy's own integrator is slow for most of these kinds, and gives a wrong result or none for chords. For any other
-integral the functions here return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 4.3.127 and
-6.2.1 (powers of sine and cosine).
+integral the functions of this module return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,
+4.3.127 and 6.2.1 (powers of sine and cosine).
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _expanded(value: Expr) -> Expr:
 
 
 def _is_product(term: Expr) -> bool:
-    """Whether nothing in the term needs to be multiplied out."""
+    """Whether each factor is a numerical power of a number, of a symbol, or of the sine or cosine of a symbol."""
     factors = (factor.as_base_exp() for factor in Mul.make_args(term))
     return all(
         (base.is_Atom or isinstance(base, sin | cos) and base.args[0].is_Atom) and exponent.is_Number
@@ -78,7 +78,7 @@ def _is_product(term: Expr) -> bool:
 
 
 def _apart(term: Expr, x: Symbol) -> tuple[Expr, Expr]:
-    """The product of the factors without x, and the product of those with x."""
+    """The product of the factors without x, and the product of the factors with x."""
     factors: tuple[list[Expr], list[Expr]] = [], []
     for factor in Mul.make_args(term):
         factors[factor.has(x)].append(factor)
@@ -133,7 +133,8 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: with y = w sin u it is w^(m+k+1) times a number.
 
-    This substitution requires w >= 0, because otherwise the root is not w cos u. The outer limits must show w >= 0.
+    This substitution requires w >= 0, because otherwise the root is not w cos u. The limits of the outer integrals must
+    show that w >= 0.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):

@@ -24,9 +24,10 @@ class Kind:
 
     unit      the coherent SI unit as text
     positive  whether symbols of this kind are positive; all other symbols are only real
-    signed    whether a minus sign is allowed for the direction, such as the opposite direction of rotation; for other
-              positive kinds a minus sign is an error
-    angles    the allowed powers of the radian in the unit: the radian may be omitted in rad/s, but not for an angle
+    signed    whether a minus sign is allowed, because it reverses a direction such as the direction of rotation; for
+              all other positive kinds a minus sign is an error
+    angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),
+              only 1 for an angle
     """
 
     dimension: Dimension
@@ -89,7 +90,7 @@ def unit_of_kind(kind: str) -> str:
 
 
 def about_kind(kind: str | None) -> Kind:
-    """The properties of a kind; a quantity without a kind has those of a number."""
+    """The properties of a kind; a quantity without a kind has the properties of the kind "number"."""
     return KINDS.get(kind or "", _OF_NONE)
 
 
@@ -141,7 +142,7 @@ def unit_of_dimension(dimension: Dimension) -> str:
     such kind, else a product of units.
 
     Energy and torque have the same dimension, so a quantity of this dimension has the unit N m, which is correct for
-    both. In the same way a rate has the unit 1/s, which does not imply an angle.
+    both. In the same way a rate has the unit 1/s, because angular speed and frequency have the same dimension.
     """
     kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
     return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)
@@ -162,7 +163,7 @@ def _product_of_units(dimension: Dimension) -> str:
 
 @dataclass(frozen=True)
 class Asked:
-    """The type of a parameter of `solve()`: a quantity of a kind, or `count` of them.
+    """The type of a parameter of `solve()`: a quantity of a kind, or `count` quantities of this kind.
 
     letters   symbols for quantities that are given as numbers
     bounds    the least and the greatest allowed angle, in degrees

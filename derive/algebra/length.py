@@ -68,8 +68,8 @@ def _of_fraction(value: Expr) -> int:
 
 
 def _of_product(factors: list[Expr]) -> int:
-    """The length of a numerator or denominator. If it is a number times one sum, SymPy multiplies the number into the
-    sum."""
+    """The length of a numerator or denominator. If its factors are a number and one sum, SymPy multiplies the number
+    into the sum."""
     is_put_in = len(factors) == 2 and factors[0].is_Rational and factors[1].is_Add
     return length(Mul(*factors)) if is_put_in else _of_factors(factors)
 

@@ -33,8 +33,8 @@ def in_lowest_terms(value: Expr) -> Expr:
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """The fraction with sin^2 replaced by 1 - cos^2, with cos^2 replaced by 1 - sin^2, and with 1 - cos^2 or 1 - sin^2
-    written as one square."""
+    """Other forms of the fraction, if they differ from it: with 1 - cos^2 and 1 - sin^2 written as squares, with sin^2
+    replaced by 1 - cos^2, and with cos^2 replaced by 1 - sin^2."""
     ring = _ring()
     plain = ring.fraction(product_of(value))
     turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
@@ -143,7 +143,7 @@ class _Fractions(Expanded):
         return written(times(parts))
 
     def factors(self, base: Expr, power: int) -> Product:
-        """The factors of a power; the power itself if its base is not a sum, is irreducible or is too large."""
+        """The factors of a power. They are only the power itself if its base is irreducible, too large or not a sum."""
         try:
             terms = self.form(base).terms if base.is_Add else {}
         except Outside:
@@ -156,8 +156,8 @@ class _Fractions(Expanded):
         return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
-        """Replace even powers of one function, sine or cosine, of each angle by the other function; one factor of the
-        first function may remain."""
+        """Replace even powers of `function`, sine or cosine, by the other function of the same angle. An odd power
+        leaves one factor `function`."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):
@@ -168,7 +168,8 @@ class _Fractions(Expanded):
         return turn
 
     def in_pairs(self, terms: Terms) -> Terms:
-        """Write x^2 - x^2 cos^2 a as x^2 sin^2 a, pair by pair; other terms keep their squares."""
+        """Write each pair of terms such as x^2 and -x^2 cos^2 a as x^2 sin^2 a; a term without such a partner is
+        unchanged."""
         left = dict(terms)
         turning = self._turning(terms)
         for monomial in terms:
@@ -182,14 +183,15 @@ class _Fractions(Expanded):
         return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
 
     def _turning(self, terms: Terms) -> list[tuple[int, int]]:
-        """The places of the sines and cosines that occur, each with the place of the other function of its angle."""
+        """The places in a monomial of the sines and cosines that occur, each with the place of the other function of
+        the same angle."""
         found = [self.name(place) for place in _places(terms)]
         turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)
         return [(self.place(f), self.place((cos if isinstance(f, sin) else sin)(f.args[0]))) for f in turning]
 
 
 def _by_other_square(terms: Terms, place: int, other: int) -> Terms:
-    """Replace s^2 by 1 - c^2, where `place` is the place of s and `other` is the place of c."""
+    """Replace s^2 by 1 - c^2; the bits of s in a monomial begin at `place`, and the bits of c begin at `other`."""
     found: Terms = {}
     for monomial, coefficient in terms.items():
         half = ((monomial >> place) & ONES) // 2
@@ -244,7 +246,7 @@ def _numbers(places: Sequence[int]) -> dict[int, int]:
 
 
 def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
-    """Whether images modulo a prime show that two sums have no common factor with a symbol.
+    """Whether images modulo a prime show that two sums have no common factor that contains a symbol.
 
     In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves a common factor
     of degree d in the images, unless the leading coefficient of an image vanishes.

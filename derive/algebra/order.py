@@ -15,7 +15,7 @@ from math import prod
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
 PARTS = 12  # number of sizes that are tried for an amount; each is an eighth of the previous size
-LARGEST = 400  # most operations of an expression that is expanded after the replacement
+LARGEST = 400  # most operations of an expression that is expanded after symbols are replaced
 
 SignOf = Callable[[Expr], int | None]
 
@@ -71,7 +71,7 @@ class Order:
         return bool(self.positive or self.replaced)
 
     def sign(self, expr: Expr, sign_of: SignOf) -> int | None:
-        """The sign of an expression, if the relations determine it."""
+        """The sign of an expression; None if the relations do not determine the sign."""
         for difference in self.positive:
             ratio = cancel(expr / difference)
             if ratio.is_number and ratio.is_real:
@@ -86,8 +86,9 @@ class Order:
         return None if None in signs else prod(sign for sign in signs if sign is not None)
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
-        """Numbers that satisfy the relations. The amount of a replaced symbol is the absolute value of the number of
-        this symbol at the point. If this amount gives values that do not fit, smaller fractions of it are tried."""
+        """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amount of a
+        replaced symbol is first the absolute value of its number at the point. While the values that follow do not fit,
+        each amount is replaced by an eighth of it."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -103,8 +104,9 @@ class Order:
 def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
-    """A symbol in which the difference is linear, the value of the symbol, and the amount in this value. The value of a
-    positive symbol must be positive."""
+    """A symbol in which the difference is linear, its value, and a new amount: with this value, the difference equals
+    the amount. A positive symbol is chosen only if its value is positive. Returns None three times if there is no such
+    symbol."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

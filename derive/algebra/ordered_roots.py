@@ -1,5 +1,5 @@
-"""Roots of polynomials that have only real roots, without a closed form; its place in ascending order identifies a
-root.
+"""Roots of polynomials that have only real roots, without a closed form: a root is identified by its place in ascending
+order.
 
 If the coefficients are rational numbers, the value of a root is exact: an algebraic number of SymPy, which can be
 computed to any number of digits.
@@ -48,8 +48,8 @@ class OrderedRoot(ScalarNode):
         return OrderedRoot(known, number, name)
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of the second coefficient divided by that of the first, since all terms of the polynomial have
-        the same dimension."""
+        """The dimension of the second coefficient divided by the dimension of the first, since all terms of the
+        polynomial have the same dimension."""
         highest, second = self.args[0][:2]
         return quotient(of(second), of(highest))
 

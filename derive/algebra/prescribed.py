@@ -1,8 +1,8 @@
 """The time, and prescribed functions of the time such as the position X(t) of a shaken support.
 
 A prescribed function X and its rates X_dot, X_ddot are symbols, as a coordinate and its rates are. But they depend on
-the time alone: their only derivative is the one with respect to t, so the partial derivative of a formula by t includes
-them, and `depends_on_time` is true for each formula with one of them.
+the time alone. So the partial derivative of a formula with respect to t includes their derivatives, and
+`depends_on_time` is true for each formula that contains one of these symbols.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Symbols that lie between two numbers, 0 < alpha < pi/2, and the signs that follow from this.
 
-All laws, lines, outcomes and conditions use this module to decide a sign for all allowed values of the symbols.
+Every check that needs the sign of an expression for all allowed values of its symbols uses this module.
 """
 
 from __future__ import annotations
@@ -93,7 +93,8 @@ def known_ranges() -> Mapping[Symbol, Range]:
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether the point satisfies all assumptions of positivity, as far as the values at the point are known."""
+    """Whether the point satisfies all assumptions of positivity; an assumption about a symbol without a number is
+    ignored."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
@@ -122,7 +123,7 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
 
 
 def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
-    """Numbers for symbols; some numbers are changed so that they satisfy the assumed relations."""
+    """The point, with the numbers of some symbols changed so that the numbers satisfy the assumed relations."""
     order = known_order()
     return order.at(point, _fits) if order else dict(point)
 
@@ -179,7 +180,7 @@ def strict_sign_within(expr: Expr) -> int | None:
 
 
 def never_vanishes_within(expr: Expr) -> bool:
-    """Whether the expression is nowhere zero, by the assumptions and ranges of its symbols."""
+    """Whether the assumptions and ranges of its symbols show that the expression is nowhere zero."""
     return all(
         bool(base.is_nonzero) or strict_sign_within(base) is not None
         for base in (factor.as_base_exp()[0] for factor in Mul.make_args(expr))

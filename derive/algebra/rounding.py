@@ -49,7 +49,7 @@ class Rounded(ScalarNode):
 
 
 def rounded_form(exact: Any, figures: int) -> Any:
-    """`Rounded` numbers in place of exact ones, entry by entry; zero stays zero."""
+    """The value with a `Rounded` number in place of each exact number; zero stays zero."""
     exact = explicit(exact)
     if isinstance(exact, MatrixBase):
         return exact.applyfunc(lambda e: rounded_form(e, figures))

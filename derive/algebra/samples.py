@@ -114,8 +114,8 @@ def seed_of(*exprs: Expr) -> int:
 def compared_at(left: Expr, right: Expr, point: SamplePoint, thoroughly: bool = False) -> Sample:
     """The values of both sides at a point; raises `Undefined` or `NoNumber`.
 
-    A difference counts only if more digits confirm it. With `thoroughly`, agreement must be confirmed too: each side
-    has a value that more digits confirm, or is zero.
+    A difference counts only if more digits confirm it. With `thoroughly`, agreement counts only if more digits confirm
+    the value of each side, or show that it is zero.
     """
     before: tuple[Any, Any, Any] | None = None
     for digits in WORKING:
@@ -210,7 +210,7 @@ _OF_ZERO = -(10**30)
 _LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
 _MOST = 60  # most bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
-_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits of any argument
+_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits for any argument
 _ONE_ARGUMENT = {
     name: getattr(mp, name)
     for name in ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh", "coth")

@@ -1,8 +1,9 @@
 """Sparse sums of monomials in many letters; each monomial is stored as one whole number.
 
 A letter is a variable of the ring: a symbol, or an expression that counts as a symbol. The powers of all letters of a
-monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for
-cached parts of a sum is counted too, so an expression that takes too much work is rejected in every run.
+monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for a
+part of a sum counts even if the part is in the cache, so an expression that takes too much work is rejected in every
+run.
 
 Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
 monomials).
@@ -19,7 +20,7 @@ from sympy import Expr, Pow, Symbol
 from derive.algebra.expressions import PLUS_MINUS
 
 WIDTH = 24  # bits for the power of a letter and the sign of the power
-PARTS = 64  # the most equal parts into which an angle may be divided
+PARTS = 64  # the largest number of equal parts into which an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
 HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
 WORK = 200_000  # most products of two terms that are computed for one expression
@@ -93,7 +94,7 @@ class Ring:
         raise Outside
 
     def inverse(self, base: Expr) -> Form:
-        """The form of one over an expression."""
+        """The form of the reciprocal of an expression."""
         raise Outside
 
     def letter(self, letter: object) -> Form:

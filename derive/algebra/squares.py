@@ -1,4 +1,5 @@
-"""Squares in readable form: a^2 - b^2 in place of (a + b)(a - b), and I + M (R - a)^2 in place of expanded terms."""
+"""Squares in readable form: a^2 - b^2 in place of (a + b)(a - b), and I + M (R - a)^2 in place of I + M R^2 - 2 M R a +
+M a^2."""
 
 from __future__ import annotations
 

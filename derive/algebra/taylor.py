@@ -85,7 +85,8 @@ def series_along(
 def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
-    """The coefficients of `series_along` by Taylor arithmetic, also for 0/0; raises `NoSeries` if no rule applies."""
+    """The coefficients of `series_along` by Taylor arithmetic, also for a quotient that is 0/0 at the place. Raises
+    `NoSeries` if no rule applies."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
@@ -109,7 +110,8 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """Yield each power with a nonzero coefficient, the lowest first, and the series. A short series is tried first."""
+    """Yield each power with a nonzero coefficient, the lowest first, with the series of `below`. A short series is
+    tried before a long one."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))
@@ -171,7 +173,8 @@ class _Arithmetic:
         return tuple(series[: len(self._orders)])
 
     def _prescribed(self, function: Prescribed) -> Series:
-        """The series X + X_dot s + X_ddot s^2/2 + ... if the time is t + s. Raises `NoSeries` for any other time."""
+        """The series X + X_dot s + X_ddot s^2/2 + ... if the series of the time is t + s; a constant if the time has no
+        series. Raises `NoSeries` for any other series of the time."""
         times = self._letters.get(TIME)
         if times is None:
             return self._constant(function)

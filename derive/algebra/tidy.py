@@ -112,7 +112,8 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The unevaluated sine or cosine of a sum or difference of two symbols; only a sign is moved out."""
+    """The unevaluated sine or cosine of a sum or difference of two symbols; a minus sign in front of the angle is
+    removed."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -121,8 +122,8 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign of a term, and for each function its angles, if the term is a product of two sines or cosines of
-    distinct symbols."""
+    """The sign of a term, and the angles of its sines and of its cosines. None unless the term is plus or minus a
+    product of two sines or cosines of distinct symbols."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None
@@ -275,8 +276,8 @@ def factored_matrix(matrix: Any) -> tuple[Expr, Any]:
 
 
 def size_and_rest(v: Any) -> tuple[Expr, Any]:
-    """A vector as (size of its common factor, remaining vector). The magnitude of the vector is this size times the
-    magnitude of the remaining vector."""
+    """A vector as (absolute value of its common factor, remaining vector). The magnitude of the vector is this absolute
+    value times the magnitude of the remaining vector."""
     common, rest = factored_matrix(v)
     if common.is_nonnegative:
         return common, rest

@@ -1,8 +1,8 @@
 """Polynomials in letters and in sines and cosines of angles, in a normal form: equal forms mean equal polynomials.
 
-Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i). Then sums
-and multiples of angles are products of powers of such z, and sin^2 + cos^2 = 1 needs no extra rule. A divisor is
-represented by an additional letter, which is eliminated again before a form is compared with zero.
+Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i). Then the
+exponential of a sum of multiples of angles is a product of powers of these z, and sin^2 + cos^2 = 1 needs no extra
+rule. A divisor is represented by an additional letter, which is eliminated again before a form is compared with zero.
 
 The letters and the z of angles that are products of letters satisfy no polynomial relation, because exponential
 functions of such angles are algebraically independent. So only the form without terms is zero. An angle may also have
@@ -26,7 +26,7 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # most products of two terms for a question; other methods decide the question at far more cost
+WORK = 3_000_000  # most products of two terms for one question; other methods, which take far longer, decide the rest
 LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in an angle
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
@@ -114,7 +114,8 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """Raised for a fraction of an angle that is not a whole multiple of the fraction whose exponential is a letter."""
+    """Raised if an angle must be divided into smaller parts: a fraction of the angle is not a whole multiple of its
+    present part."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -178,7 +179,8 @@ class TrigRing(Ring):
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """The number of smallest parts of the angle in this multiple of the angle."""
+        """The number of parts of the angle in `number` times the angle; `units` has the number of parts of one
+        angle."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -192,8 +194,8 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form. The reciprocal of a sum is the reciprocal of its last monomial times a letter for
-        the reciprocal of the other factor."""
+        """The reciprocal of a form. A sum is its last monomial times a remaining factor. Its reciprocal is the
+        reciprocal of the monomial times a letter for the reciprocal of the remaining factor."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
@@ -259,7 +261,7 @@ class TrigRing(Ring):
         return Mul(*factors)
 
     def is_unsure(self, terms: Terms) -> bool:
-        """Whether a sum may vanish although it has terms."""
+        """Whether the value of these terms may be zero, because they contain roots or parts of pi."""
         return self.has_parts_of_pi(terms) or self._has_roots(terms)
 
     def has_parts_of_pi(self, terms: Terms) -> bool:
@@ -283,8 +285,8 @@ class TrigRing(Ring):
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
-        """Replace a known power of a letter by its form. The result is multiplied by this form until no negative power
-        of the form is left."""
+        """Replace the known power of a letter by the form `of` that equals it. The result is multiplied by a power of
+        `of` that removes all negative powers of `of`."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():
             whole = self._power_in(monomial, place) // order

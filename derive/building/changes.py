@@ -11,7 +11,7 @@ from typing import Any
 
 ADDED, REMOVED, CHANGED = "added", "removed", "changed"
 EQUAL = "equal"
-_ALIKE = 0.4  # two sentences with at least this share of equal words are one edited sentence
+_ALIKE = 0.4  # two sentences with at least this share of equal words count as one edited sentence
 _NO_PART: Mapping[str, Any] = {"answers": [], "ask": "", "says": [], "points": None, "extra": False}
 
 Run = tuple[str, str]
@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference, in the order of interest to a reader: input, questions, results, words."""
+    """Return every difference, the most interesting first: input, questions, results, words."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),
@@ -83,7 +83,7 @@ def _given_text(value: Any) -> str:
 
 
 def _answers(page: Mapping[str, Any]) -> dict[str, str]:
-    """Return the formula of each answer, with its numbers."""
+    """Return the formula of each answer, followed by the numbers of the answer."""
     return {
         key: " = ".join([answer["text"], *(n["text"] for n in [answer["number"], *answer.get("also", [])] if n)])
         for key, answer in page["answers"].items()
@@ -123,8 +123,8 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with its earlier form by its answers, its question and its letter. The letter alone is not enough,
-    because letters change if a part is added before them."""
+    """Pair each part with the most similar earlier part: answers, question and letter are compared. The letter alone is
+    not enough, because letters change if a part is added before them."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -219,7 +219,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return the grades of a step's claims without their frequencies, which depend on the number of lines."""
+    """Return each grade of a step's claims once: how often a grade occurs depends on the number of lines."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -280,7 +280,7 @@ def _sentence_of(block: Mapping[str, Any]) -> _Sentence:
 
 
 def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> Iterator[Change]:
-    """Return the sentences that are new, removed or changed; a changed sentence has its earlier form."""
+    """Yield the sentences that are new, removed or changed; a changed sentence comes with its earlier version."""
     matcher = SequenceMatcher(None, [each.keys for each in old], [each.keys for each in new], autojunk=False)
     for how, a, b, c, d in matcher.get_opcodes():
         if how == EQUAL:

@@ -21,7 +21,7 @@ from derive.building.workers import Bug, Job, done, job_of
 from derive.course.problem_set import path_of, problem_paths
 from derive.errors import Complaint, DeriveError, Misused
 
-_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # keys that builds of an earlier derive did not write
+_SAYS = ("detail", "statement", "limits_say", "note", "warnings")  # keys that older versions did not write
 Page = Mapping[str, Any]
 
 
@@ -82,7 +82,8 @@ def built_page(root: Path, problem_id: str) -> Page:
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """Return the job for a page of the course in `of`; its derivations are stored with the builds of `root`."""
+    """Return the job that derives a page of the course in the folder `of`; the derivation is stored with the builds of
+    `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 

@@ -121,7 +121,7 @@ def _drawn(
 
 
 def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """Return typeset letters: those stored for this or another drawing, and the rest typeset now."""
+    """Return each text as typeset letters: stored if a drawing has needed this text before, else typeset now."""
     keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:

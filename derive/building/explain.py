@@ -28,8 +28,8 @@ Rows = list[tuple[str, ...]]
 
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """Return the explanation of the step with that key; without a key, a table with a row for each step. `as_json`
-    gives JSON instead."""
+    """Return the explanation of the step with that key; without a key, a table with a row for each step. With
+    `as_json`, return JSON in place of text or table."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -46,8 +46,8 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return the keys of all steps, or the key of one step: of the step with that key, of the step that replaces it, or
-    of the first step that the verb of that name made."""
+    """Return the keys of all steps if `key` is None, else the key of one step. `key` may be the key of this step, the
+    key of a step that this step replaces, or the name of the verb that made this step first."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
@@ -70,7 +70,7 @@ def _value(step: Step, notation: Notation) -> str:
 
 
 def _text(sections: list[Section], notation: Notation) -> str:
-    """Return the text of the sections: each heading with its lines next to it."""
+    """Return the text of the sections in two columns: each heading, and next to it its lines."""
     lines = []
     for heading, told in sections:
         texts = [line for each in told for line in _wrapped(inline_text(each, notation))]

@@ -1,7 +1,7 @@
 """The record of the inputs of each output of a set; the record decides which outputs must be made again.
 
 A problem is up to date if its input files, the modules of derive and the options are unchanged. An output is up to date
-if its own content is unchanged too. Only content is compared, never times.
+if, in addition, its own content is unchanged. Only content is compared, never times.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Manifest:
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
     asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
-    evidence: str = ""  # how much solutions show of their checks, by the set's file
+    evidence: str = ""  # how much solutions show of their checks, as the set's file states
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe

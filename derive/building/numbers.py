@@ -67,8 +67,9 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """Return errors and warnings. An error: a form asks for a number that does not exist. Warnings: an answer has no
-    number although a given number serves only this answer; the sheet does not state a number.
+    """Return errors and warnings. It is an error if a form asks for a number that does not exist. Two things are only
+    warnings: an answer has no number although a number is given that only this answer could use, or the sheet does not
+    state a number that an answer needs.
 
     values     the numbers of answers, by key
     drawings   the drawings of the problem: a plot needs numbers too
@@ -76,7 +77,7 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    served = [answer.part for answer in answers if answer.has_number]  # parts whose forms may be for these answers
+    served = [answer.part for answer in answers if answer.has_number]  # their forms may be meant for these answers only
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
     return [
@@ -132,7 +133,8 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of letters whose numbers the answers need, but which no title, statement or question mentions."""
+    """Warn of each letter whose number the answers need, if no title, statement or question mentions the given value
+    with this letter."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}

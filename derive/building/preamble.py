@@ -54,7 +54,7 @@ def at_hand() -> Scratch:
 def without_preamble(
     tex: str, engine: str, identity: str, options: Sequence[str], cache: Cache, place: Path, environment: Environment
 ) -> str | None:
-    """Return a source without its preamble, and put the preamble's format into `place`; None if TeX makes no format.
+    """Return a source without its preamble, and put the preamble's format into `place`; None if there is no format.
 
     The engine makes the format, unless this process or the cache has it already.
     """

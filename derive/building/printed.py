@@ -149,8 +149,8 @@ class _Printing:
         return self.document if self.level is Level.FULL else self._page(Level.FULL, self.document)
 
     def _page(self, level: Level, like: Document | None = None) -> Document:
-        """Return the page of a level, with the equation numbers of `like`; raise `Rejected` with the errors of the
-        page."""
+        """Return the page at a level of detail, with the equation numbers of the page `like` if it is given; raise
+        `Rejected` with the errors of the page."""
         solved, others = self.solved, self.heading.numbers if self.heading else {}
         document, faults = document_of(
             self.problem,
@@ -181,7 +181,7 @@ class _Printing:
 
     @cached_property
     def rubric(self) -> Mapping[str, Mapping[Word, Fraction]]:
-        """The points that the author specifies for steps, by the label of the part."""
+        """The points that the author gives for single steps, by the label of their part."""
         rubric = {chr(ord("a") + i): part.rubric for i, part in enumerate(self.problem.parts)}
         Faults(faults_of_rubric(self.document, rubric)).stop()
         return rubric
@@ -227,8 +227,8 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page in the form of a document: the key shows every line; in the hints, hints replace the
-        derivation."""
+        """Return the page as this kind of document shows it: the key has every line, and the hints have hints in place
+        of the derivation."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)

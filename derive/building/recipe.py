@@ -1,4 +1,4 @@
-"""The inputs of pages other than the files of the problem: modules, packages, phrases, templates and options.
+"""The inputs of a page in addition to the files of its problem: modules, packages, phrases, templates and options.
 
 Each ingredient has a name that the author recognizes, and a digest or a value.
 """

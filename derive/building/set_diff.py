@@ -1,5 +1,5 @@
-"""The present state of a set, compared with its last build or with a revision of git: its problems, their points, and
-each problem."""
+"""The present state of a set, compared with its last build or with a revision of git: the list of its problems, their
+points, and the content of each problem."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
 
 
 def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> SetDiff:
-    """Return the changes since a revision; the installed derive derives the problems of the revision too."""
+    """Return the changes since a revision; the installed derive derives the problems of both states."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)
@@ -59,7 +59,7 @@ def set_since_revision(root: Path, set_id: str, revision: str, detail: str | Non
 
 
 def _written(root: Path, set_id: str) -> Points:
-    """Return the points of a set's problems, as its files state them."""
+    """Return the points of a set's problems, as the files of the set state them."""
     check_asked(root, set_id)
     faults = Faults()
     found = {name: written_problem(root, name, faults) for name in problem_set(root, set_id).problems}

@@ -127,7 +127,7 @@ def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Lis
 
 
 def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
-    """Return a problem with its number in the set, if the set lists it."""
+    """Return a problem with its number in the set; the number is empty if the set does not list the problem."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
@@ -143,7 +143,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
-    """Return the data that the template of a whole document may use."""
+    """Return the data that the template of a whole document can use."""
     words: Phrases = phrases(template_folder(root))
     return {
         "set_id": Tex(heading.id),

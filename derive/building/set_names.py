@@ -1,4 +1,4 @@
-"""The sets that exist, and those that can be built."""
+"""Which sets exist, and which of them can be built."""
 
 from __future__ import annotations
 

@@ -62,7 +62,8 @@ class Superseded(Exception):
 
 @dataclass(frozen=True)
 class Edits:
-    """An author who edits the set while it is rebuilt after each edit; edited problems are built first."""
+    """The functions through which a build detects edits of its set and reports finished PDFs. A build with `Edits`
+    builds edited problems first."""
 
     edited: Callable[[], bool]  # whether there were edits since this build began
     wrote: Callable[[Path], None]  # called with the PDF of a problem as soon as the PDF has changed
@@ -176,7 +177,7 @@ class _Build:
         from derive.course.problem_set import problem_set
 
         self.manifest.complete = False
-        with writing(self.outputs):  # until all outputs are up to date, `make` has work to do
+        with writing(self.outputs):  # without `.built`, `make` builds the set again
             (self.outputs / ".built").unlink(missing_ok=True)
         self.prepares = not os.listdir(at_hand().name)  # all workers share the TeX formats in this folder
         reading = partial(problem_set, self.root, self.set_id)
@@ -227,7 +228,7 @@ class _Build:
         return [pair for pair in self.documents if not self.options.documents or pair[0] in self.options.documents]
 
     def _finish(self) -> None:
-        """Finish all work under way, and the work that follows from its results."""
+        """Wait for each job under way and continue with its outcome, which may start more jobs."""
         for outcome in self.crew.outcomes():
             self.then.pop(outcome.job)(outcome)
 
@@ -335,8 +336,8 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Return the digest of a file, or `EDITED` after an edit since the build began: the next build must read that
-        file again."""
+        """Return the digest of a file. If the file was edited since the build began, return `EDITED`, so that the next
+        build reads the file again."""
         file = self.root / path
         is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a moved file may have an old mtime
         return EDITED if is_edited else self._digest(path)
@@ -352,7 +353,7 @@ class _Build:
             self._typeset(name, document, texts, derived.files, FIRST)
 
     def _whole(self) -> None:
-        """Make the documents of the set, as soon as its last problem is derived."""
+        """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
         from derive.building.set_document import document_page, index_page, the_document
@@ -362,7 +363,7 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
-            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # with these, one run is enough
+            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # one run if they are known
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}

@@ -1,4 +1,5 @@
-"""From a problem's id to its solution: load the problem, derive its steps and the numbers of its answers, print it."""
+"""From a problem's id to its page: load the problem, derive its steps and the numbers of its answers, and print the
+page."""
 
 from __future__ import annotations
 
@@ -76,8 +77,8 @@ def rendered(
 def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, stored or derived now, and the disagreements with the reference.
 
-    Steps are stored under a digest of the problem's files, unless they disagree with the reference or a file was edited
-    after it was read.
+    Newly derived steps are stored for later builds, unless they disagree with the reference or a file was edited after
+    it was read.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -99,7 +100,7 @@ def _edited(problem: Problem, begun: int) -> bool:
     return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 
-@lru_cache(maxsize=4)  # for a process that needs the steps more than once
+@lru_cache(maxsize=4)  # one process may need the same steps more than once
 def _kept(cache: Cache, key: str) -> Solved:
     """Return the steps stored under a key."""
     kept = Solved.from_data(cache.get_data(key))
@@ -125,7 +126,7 @@ def derived(
     problem: Problem, memory: Memory | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """Return the derivation of all answers, the steps that evaluate answers numerically, all steps by key, and the
-    record."""
+    record of the run."""
     run = record.Run(memory=memory)
     try:
         returned = run_solve(problem, run)
@@ -206,7 +207,8 @@ def _value(
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
-        # An inequality can be solved for a letter only after other values are given; the unit is used only then.
+        # This condition is not solved for a letter, so it has no number. An inequality may still have a unit, which is
+        # used if other given values make the inequality solvable for a letter.
         never = answer.value.operator == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
@@ -234,8 +236,8 @@ def _value(
 def _kind_of(
     problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
 ) -> tuple[str | None, Dimension]:
-    """Return the kind, if any, and the dimension of the evaluated quantity: in a relation such as R > a/2, that is
-    R."""
+    """Return the kind, if any, and the dimension of the evaluated quantity; for a relation such as R > a/2, this
+    quantity is R."""
     kind, symbol = answer.step.kind, answer.symbol
     if isinstance(answer.value, Relation):
         symbol = answer.value.left

@@ -1,7 +1,8 @@
 """A derivation as stored between builds, so that a page with new wording is not derived again.
 
-A stored derivation depends on derive's own modules and SymPy, on the script and its modules, the given values, the
-answers that parts ask for with their forms, and the reference. It does not depend on words, points and templates.
+A stored derivation depends on derive's own modules and SymPy, the script and its modules, the given values, the
+reference, and the answers that parts ask for, with the forms of these answers. It does not depend on words, points and
+templates.
 """
 
 from __future__ import annotations

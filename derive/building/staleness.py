@@ -116,7 +116,7 @@ def staleness(asked: Asked) -> Staleness:
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    """Yield first the reasons in files, because users edit files, then the rarer reasons."""
+    """Yield the reasons: first the changed files, because users edit files, then the rarer reasons."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     documents = _documents(manifest, outputs)
@@ -245,7 +245,7 @@ def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
 
 
 def _named(asked: Asked, manifest: Manifest) -> str:
-    """Return the id of the problem if the outputs are of one problem only, else the set."""
+    """Return the id of the problem if all outputs belong to one problem, else the name of the set."""
     documents = _documents(manifest, asked.outputs)
     (one,) = documents if len(documents) == 1 else ("",)
     of_set = one in (*manifest.document_files, *DOCUMENTS, INDEX)

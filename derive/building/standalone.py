@@ -25,7 +25,7 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return the report of each set by its path; if only one problem of a set was checked, the report of that
+    """Return the report of each set by its path; if only one problem of a set was checked, the report is about this
     problem."""
     from derive.building.set_document import report_document
 

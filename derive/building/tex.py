@@ -128,9 +128,9 @@ def typeset(
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
-    `numbers` are the page numbers of the last build, stored for the next build: if they are still right, one run is
-    enough; `included` are files that the source includes, such as its drawings; `formats` stores the beginning of
-    documents.
+    `numbers` stores the page numbers from one build to the next; if the stored page numbers are still right, one run is
+    enough. `included` are the files that the source includes, such as its drawings. `formats` stores the common
+    beginning of documents as a format.
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:

@@ -20,7 +20,7 @@ __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
 IDLE = 0.02  # share of processor time below which work counts as waiting
-PATIENCE = 10  # after this many times the limit in wall-clock time, work is stopped, however busy the machine is
+PATIENCE = 10  # work is stopped after this many times the limit in wall-clock time, on a busy machine too
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 

@@ -102,8 +102,8 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Raise `Superseded` if a file has changed since, for example because it was only partly written: the errors of
-        such a file are discarded."""
+        """Raise `Superseded` if a file has changed since the last comparison. The build may have read a file that was
+        only partly written, so its errors are discarded."""
         if self._edited():
             raise Superseded
 

@@ -114,7 +114,7 @@ class Crew:
     files."""
 
     def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
-        """`tick` is called repeatedly with the running jobs and their seconds."""
+        """`tick` is called repeatedly with the names of the running jobs, each with the seconds that it has run."""
         self._size = max(1, size)
         self._tick = tick or (lambda _: None)
         self._waiting: list[tuple[float, int, Job]] = []  # a heap
@@ -239,8 +239,8 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker without an answer; the place of the error is the line of the script that was
-    running."""
+    """Return the error about a worker without an answer. Its place is the running line of the script, else the
+    reference file if the worker used this file, else the problem's file."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"
@@ -406,8 +406,8 @@ def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; of a long list, only
-    the beginning and the end."""
+    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; if there are many
+    lines, return only the first and the last ones."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')

@@ -1,4 +1,4 @@
-"""The subject of a command: the folder of the course, sets and problems by their names."""
+"""The folder of the course, the sets and the problems that a command line names."""
 
 from __future__ import annotations
 

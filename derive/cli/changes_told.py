@@ -142,7 +142,7 @@ class _Shown:
                 yield from self._pair(self._head(change), *result, "      ")
             else:
                 yield self._head(change)
-            if result and "lines" in facets:  # if the result has changed, its earlier lines are not shown
+            if result and "lines" in facets:  # the lines before a changed result are not shown
                 del facets["lines"]
             for facet, (before, after) in facets.items():
                 cut = _few if facet == "lines" else str
@@ -170,11 +170,11 @@ class _Shown:
         return textwrap.wrap(listed, WIDTH, initial_indent="  ", subsequent_indent="  ", break_long_words=False)
 
     def _order(self, changes: Sequence[Change]) -> Iterable[str]:
-        yield f"  {changes[0].where} that are still there come in another order"
+        yield f"  {changes[0].where} that remain are in another order"
 
 
 def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], bool, bool]]:
-    """Return each run of words, and whether the sentence begins or ends with it."""
+    """Return each run of words, whether the sentence begins with this run, and whether the sentence ends with it."""
     return ((run, i == 0, i == len(runs) - 1) for i, run in enumerate(runs))
 
 
@@ -185,14 +185,14 @@ def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, st
 
 
 def _abridged(words: str, first: bool, last: bool) -> str:
-    """Return the unchanged words; of many, only those next to a change."""
+    """Return the unchanged words; if there are many, return only the words next to a change."""
     listed = words.split(" ")
     before, after = ([] if first else listed[:_AROUND]), ([] if last else listed[-_AROUND:])
     return words if len(listed) <= len(before) + len(after) + 1 else " ".join([*before, "…", *after])
 
 
 def _few(lines: str) -> str:
-    """Return the lines; of many, only the first lines and the number of the other lines."""
+    """Return the lines; if there are many, return only the first lines and the number of the other lines."""
     listed = lines.splitlines()
     more = len(listed) - _MOST_LINES
     return lines if more <= 1 else "\n".join([*listed[:_MOST_LINES], f"and {more} more"])

@@ -29,7 +29,7 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
 
 
 def _new(new: argparse.ArgumentParser) -> None:
-    named(new.add_argument("id", metavar="SET/PROBLEM", help="name of the problem; its set may be new too"), "new")
+    named(new.add_argument("id", metavar="SET/PROBLEM", help="name of the problem; its set may be new"), "new")
     like = new.add_argument(
         "--like",
         default="system",
@@ -134,7 +134,7 @@ def _detail(command: argparse.ArgumentParser) -> None:
 
 
 def _evidence(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--evidence", choices=EVIDENCE, help="how much to show of the checks")
+    command.add_argument("--evidence", choices=EVIDENCE, help="how much of the checks to show")
 
 
 def _engine(command: argparse.ArgumentParser) -> None:

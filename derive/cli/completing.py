@@ -19,15 +19,16 @@ _PAGES = (".html", ".json", ".pdf", ".svg", ".tex", ".txt")
 
 
 def offer(parser: argparse.ArgumentParser) -> None:
-    """Print the completions for the shell that asks, and exit; options complete a word that begins with `-`."""
+    """Print the completions for the shell that asks, and exit; options are offered only for a word that begins with
+    `-`."""
     from argcomplete import autocomplete
 
     autocomplete(parser, always_complete_options=False)
 
 
 def offered(names: str, prefix: str, root: str | None, problem: str = "") -> list[str]:
-    """Return the names of a sort that begin with a prefix; nothing without a course. Names of steps are those of
-    `problem`."""
+    """Return the names of this sort that begin with the prefix; without a course, the list is empty. For the sort
+    "steps", the names are the keys of the steps of `problem`."""
     try:
         folder = found_root(root)
     except DeriveError:

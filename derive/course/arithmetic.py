@@ -64,8 +64,8 @@ class Term:
 
 
 class Arithmetic:
-    """The operations of a reader on terms of one text. If operands have no meaning together, the operation rejects them
-    and reports their place in the text."""
+    """The operations of a reader on terms of one text. An operation rejects operands that it cannot combine, and
+    reports their place in the text."""
 
     max_terms = MAX_TERMS
 
@@ -113,7 +113,7 @@ class Arithmetic:
         return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
 
     def raised(self, base: Term, exponent: Term) -> Term:
-        """Check that a power is small, and return the power; `9**9**9` is rejected before it is computed."""
+        """Return a power. An exponent that is too large, as in `9**9**9`, is rejected before the power is computed."""
         number = exponent.expr
         if not number.is_number and exponent.dimension == NUMBER:
             return self._raised_to_letters(base, exponent)
@@ -162,7 +162,7 @@ class Arithmetic:
     def number(self, text: str, start: int, end: int) -> Term:
         digits, _, power = text.lower().partition("e")
         if len(digits) > MAX_DIGITS or len(power) > 4 or abs(int(power or 0)) > MAX_TEN_POWER:
-            message = f"a number may have {MAX_DIGITS} digits, and a power of ten up to {MAX_TEN_POWER}"
+            message = f"a number may have at most {MAX_DIGITS} digits, and a power of ten up to {MAX_TEN_POWER}"
             self.refuse("too-large", message, start, end)
         value = rational(text)
         return Term(value, NUMBER, start, end, max(value.p.bit_length(), value.q.bit_length(), 1))

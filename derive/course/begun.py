@@ -80,7 +80,8 @@ def _copied(root: Path, like: str) -> tuple[str, str]:
 
 
 def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
-    """Return the file of a set with one more problem, or the file of a new set."""
+    """Return the text of a set's file with one more problem; if the file does not exist, return the text of a new
+    file."""
     file = root / path
     if not file.is_file():
         return f"{NEW_SET.format(set_id)}  - {name}\n"

@@ -25,7 +25,8 @@ _RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
 def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Range:
     """Read the range in which a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
 
-    If `signed`, the letter may be negative even if its kind is otherwise positive; an example is a coordinate.
+    If `signed` is true, as for a coordinate, the letter may be negative even if letters of its kind are usually
+    positive.
     """
     found = _RANGE.fullmatch(node.text)
     if not found:

@@ -13,8 +13,7 @@ from derive.course.written import SCRIPT, ProblemKeys
 
 
 def problem_schema() -> str:
-    """Return the schema of a problem's file; the keys allowed under `given:` depend on the engine's script named in the
-    file."""
+    """Return the schema of a problem's file; which keys are allowed under `given:` depends on the value of `solve:`."""
     schema = object_schema(ProblemKeys)
     schema["properties"]["solve"] |= {"anyOf": [{"enum": list(stock_names())}, {"pattern": f"^{SCRIPT.pattern}$"}]}
     schema["properties"]["reference"] |= {**object_schema(OwnKeys), "type": ["object", LEFT_EMPTY]}

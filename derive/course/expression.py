@@ -133,7 +133,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether two tokens are a number and its unit, such as `30 deg`, and not a number and a letter."""
+        """Return whether the second token is the unit of the first, a number, as in `30 deg`, and not a letter."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 

@@ -77,7 +77,8 @@ class Given:
 
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
-    """Return the symbol of a declared letter: `t` is the time itself; any other letter of kind time is a duration."""
+    """Return the symbol of a declared letter. The letter `t` of kind time is the time itself; any other letter of kind
+    time is a duration."""
     if name == TIME.name and kind == "time":
         return TIME
     if about_kind(kind).positive or lies is not None and lies.is_above_zero:
@@ -290,7 +291,7 @@ class NumbersAsLetters:
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the letter or exact angle for a number with a unit; None if the text is an expression. The number is
-        one of `of` numbers that belong together."""
+        one of a group of `of` numbers, such as three sides."""
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -304,7 +305,8 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the annotation of a kind for `count` values, with the usual letters of this kind."""
+    """Return the annotation for one value of a kind, with the letters that are usual if `count` values of this kind
+    belong together."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
@@ -319,7 +321,7 @@ class _LettersForNumbers:
         self.used = used
 
     def letter(self, kind: Asked, size: Expr, scalar: Scalar) -> Symbol:
-        """Return the letter for a size, after a check that the size, as written, lies in the letter's range."""
+        """Return a letter for a size, after a check that the size lies in the range of this letter."""
         taken = {*self.used, TIME.name}
         declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in taken)
         chosen = next(declared, None)
@@ -355,10 +357,11 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
             # Zero is exact in every unit: a letter would only hide it.
             exprs.append(Integer(0))
             continue
-        # A letter that is assumed positive stands for the absolute value; the sign is a factor.
+        # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube; 2 cm, 4 cm, 6 cm are a, 2a, 3a.
+        # Equal numbers share a letter, so that a cube stays a cube. Small multiples of the smallest number share its
+        # letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1
         if smallest:
             entry, size = smallest, smallest.si
@@ -376,7 +379,8 @@ def _is_exact_angle(angle: Expr) -> bool:
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """Return the smallest of several positive numbers, if all numbers are small integer multiples of it."""
+    """Return the smallest of several positive numbers if all these numbers are small integer multiples of the smallest,
+    else None."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

@@ -1,4 +1,4 @@
-"""Numbers with units as written in a file, and the value that each of them specifies."""
+"""Numbers with units, as a file writes them, and the values that these numbers specify."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NUMBER_UNIT = re.compile(
 
 @dataclass(frozen=True)
 class Number:
-    """A number with its unit, before a letter replaces it, and its text in the file."""
+    """A number with its unit, its SI value, and its text in the file; later a letter replaces the number."""
 
     number: Rational
     unit: str
@@ -35,8 +35,8 @@ class Number:
 
 @dataclass(frozen=True)
 class Wanted:
-    """The value that is being read: its name, its kind, its bounds, and notes for messages, such as where `solve()`
-    asks for it."""
+    """The value that is being read: its name, its kind, its bounds, and notes for messages. A note says, for example,
+    where `solve()` asks for the value."""
 
     name: str
     kind: str

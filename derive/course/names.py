@@ -1,4 +1,5 @@
-"""The names of sets and problems, and the documents of a whole set, whose names no problem can have.
+"""The names of sets and problems, and the names of the documents of a whole set. No problem can have the name of such a
+document.
 
 The solutions are for students, the sheet has only the questions, and the report is for the instructor.
 """
@@ -14,7 +15,7 @@ SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 # points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
-ON_A_PAGE = (SHEET, *MORE)  # documents that are also built as one page each for a browser
+ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
 INDEX = "index"  # the page of a set for a browser
 
 
@@ -22,5 +23,5 @@ class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 
     NONE = "none"  # states that the solution was checked, and where the evidence is
-    END = "end"  # a note at the end of the solution has the numbers of checks
-    MARGIN = "margin"  # the note, and next to each display its grade and its second route
+    END = "end"  # a note at the end of the solution says how many checks were made
+    MARGIN = "margin"  # the note, and the grade and the second route next to each displayed formula

@@ -1,5 +1,5 @@
-"""The modules that a script imports from its own folder: they can be imported while the script runs, and are read again
-each time."""
+"""The modules that a script imports from its own folder. They can be imported only while the script runs, and every run
+reads them again."""
 
 from __future__ import annotations
 
@@ -47,7 +47,8 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the top-level names that a file imports; none if the file is not Python: running it reports the error."""
+    """Return the top-level names that a file imports. The set is empty if the file is not Python; the run reports this
+    error."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

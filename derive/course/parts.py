@@ -166,7 +166,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
             "points",
             message,
             part.places["rubric"],
-            help="lower them until their sum is at most the points of the part",
+            help="lower these points until their sum is at most the points of the part",
         )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"

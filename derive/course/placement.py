@@ -103,7 +103,8 @@ def _width(node: Tree | None, faults: Faults) -> float | None:
 def _values(
     written: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults
 ) -> tuple[tuple[Symbol, Expr], ...]:
-    """Read numbers or proportions for letters, in the order of the file; a proportion is expressed in other letters."""
+    """Read the numbers or proportions for letters, in the order of the file. A proportion contains other letters: `h:
+    2*R`."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
         # A coordinate of the script is not declared; whether the drawing contains this coordinate is known only after

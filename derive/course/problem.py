@@ -150,7 +150,8 @@ class Problem:
         return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
 
     def keys_in_cases(self, part: Question, answers: Iterable[str]) -> list[str]:
-        """Return the keys of the numbers of a part's answers, case by case."""
+        """Return the keys under which the numbers of these answers are stored: case by case, one key for each
+        answer."""
         return [f"{answer}_in_case_{case}" for case in self.cases_of(part) for answer in answers]
 
     @property
@@ -174,7 +175,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     script_path, script = _script(root, path, written.solve, faults)
     points = written.points_in_all(faults)
     if not all(kind.known for kind in written.symbols.values()):
-        faults.stop()  # givens that contain such letters can be read only when the kinds of the letters are known
+        faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
@@ -238,7 +239,8 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of the block to `record`, with the problem's numbers, places of givens, letters and assumptions."""
+    """Add the steps of a `with` block to `record`; before them, add the problem's numbers, places of givens, letters
+    and assumptions."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -254,7 +256,8 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of the block to `record`; inside the block, the ranges and the order of the letters are known."""
+    """Add the steps of a `with` block to `record`; inside the block, the ranges and the order of the letters are
+    known."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 

@@ -16,7 +16,7 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did
 _NOT_PROBLEMS = ("set", "reference")
 
 
-# Each document with the name of its files.
+# The documents of every set, each with the default name of its files.
 THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 
@@ -96,12 +96,14 @@ class SetKeys(Record):
 
 
 def problem_ids(root: Path) -> list[str]:
-    """Return `hw9/block` for every problem file below the root, including those in the folder of a topic of a set."""
+    """Return the ids, such as `hw9/block`, of all problem files below the root, including files in the folder of a
+    topic of a set."""
     return sorted(problem_paths(root))
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return these ids set by set, in the order in which each set lists its problems; unlisted problems come last."""
+    """Return the ids of all problems set by set, in the order in which each set lists its problems. In each set,
+    unlisted problems come last."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):

@@ -45,7 +45,8 @@ class Mention:
 class Prose:
     """Text with mentions; `pieces` is the whole text in order, so that no other code needs to parse it.
 
-    `place_within` returns the place in the file of a given number of characters from an index of the text.
+    `place_within(index, width)` returns the place in the file of the `width` characters that begin at `index` in the
+    text.
     """
 
     text: str

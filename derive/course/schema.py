@@ -2,7 +2,8 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-A reader gives editors a JSON schema of what a key allows, and turns what is written there into a checked value.
+Each key has a reader. The JSON schema of the reader shows editors what the key allows; its function turns the contents
+of the key into a checked value.
 """
 
 from __future__ import annotations

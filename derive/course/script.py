@@ -91,7 +91,8 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """Add a place to an error of a verb: the line of the script that called the verb. Verbs do not know the file."""
+    """Add a place to an error of a verb (a function of derive that the script calls): the line of the script with the
+    call. The verb itself does not know this line."""
     place = _innermost(error, file, source)
     if place is None:
         return error

@@ -95,7 +95,7 @@ class StockScript:
 
 
 def stock_names(folder: Path = Path(FOLDER, "stock")) -> tuple[str, ...]:
-    """Return the names that `solve:` allows in place of a script."""
+    """Return the names of the engine's scripts, which `solve:` allows in place of the path of a script."""
     return tuple(sorted(file.stem for file in folder.glob("[a-z]*.py")))
 
 
@@ -108,7 +108,7 @@ def stock_script(name: str) -> Stock:
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
     """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`.
 
-    Verbs do not depend on files, so their errors have no places.
+    Verbs (the functions of `derive.mechanics`) do not depend on files, so their errors have no places.
     """
     try:
         yield
@@ -135,7 +135,8 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader that has these symbols too; both readers replace equal numbers by the same symbol."""
+        """Return a reader with these symbols in addition to its own. This reader and the new one replace equal numbers
+        by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found
@@ -171,7 +172,8 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
-        """Read an expression of a kind that contains no coordinate, no rate and, without `in_time`, not the time."""
+        """Read an expression of a kind. Coordinates and rates are rejected; functions of the time are allowed only with
+        `in_time`."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}

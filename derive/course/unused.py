@@ -15,7 +15,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-OF_STATES = ("at", "results", "conserved", "coordinates", "functions")  # may mention a coordinate that nothing uses
+OF_STATES = ("at", "results", "conserved", "coordinates", "functions")  # may mention unused coordinates
 NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")

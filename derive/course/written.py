@@ -44,8 +44,8 @@ _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 class SortOfLetter(str):
     """The kind of a letter; `ends` is the text after `in`: the range of the letter.
 
-    If `positive` is true, this word is before the kind, and the letter stands for a positive number. If `known` is
-    false, the kind is not valid, and the error has been reported.
+    `positive` is true if the word `positive` is before the kind; the letter then stands for a positive number. If
+    `known` is false, the kind is not valid, and the error has been reported.
     """
 
     ends: Scalar | None = None

@@ -42,7 +42,7 @@ _TAB_INDENT = re.compile(r"^[ ]*\t[ \t]*(?=\S)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Source:
-    """The text of one file; turns an index into a place."""
+    """The text of one file, and methods that turn an index into a place."""
 
     path: str
     text: str = field(repr=False)
@@ -182,7 +182,7 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 
 class Formula(Word):
-    """An expression of a file that is read later, when its letters are known; two expressions with the same text are
+    """An expression in a file, kept as text until its letters are known; two expressions with the same text are
     equal."""
 
     scalar: Scalar

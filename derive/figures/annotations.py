@@ -227,7 +227,7 @@ class Weight(Arrow):
     """A weight at its point of action.
 
     A weight does not affect the choice of the view, because it is visible from every viewpoint. Its label may be
-    anywhere along its side, because the space below its tip is often occupied.
+    anywhere next to the shaft of the arrow, because the space below the tip is often occupied.
     """
 
     def pieces(self, paper: Paper) -> list[Piece]:

@@ -102,7 +102,8 @@ def axes_at(body: Body, about: str) -> list[Mark]:
 
 
 def is_in_plane(body: Body) -> bool:
-    """Return whether a body of several parts should be shown in the plane of its parts."""
+    """Return whether a body has several parts and is flat perpendicular to its z axis; such a body is shown in its
+    plane."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -127,7 +128,7 @@ class Pose:
 
 
 def _pose(point: Point) -> Pose:
-    """Return the pose of a body in a drawing that has its origin at this point, and the axes of this point."""
+    """Return the pose of a body in a drawing with the origin and the axes of this point."""
     return Pose(point.seen, point.axes.T * Z)
 
 
@@ -180,7 +181,8 @@ def _flat_circle(boundary: Round, pose: Pose, words: dict[str, Any]) -> Circle:
 
 
 def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
-    """Return pairs of a height in body axes and the radius there: both ends, or many heights for a curved side."""
+    """Return pairs of a height in body axes and the radius at this height: the two ends for a straight side, many
+    heights for a curved side."""
     lower, upper = boundary.ends
     parts = [Rational(k, CURVED) for k in ((0, CURVED) if boundary.is_straight else range(CURVED + 1))]
     heights = [lower + (upper - lower) * part**2 * (3 - 2 * part) for part in parts]

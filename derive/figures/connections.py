@@ -1,6 +1,6 @@
-"""The marks of what connects the parts of a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
+"""The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
 
-Each described thing is drawn as what it is; nothing is guessed from formulas or from the names of symbols.
+Only the description decides what is drawn; nothing is guessed from formulas or from the names of symbols.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ TABLE = 4  # the radius of a table in space, relative to the largest body on it
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
-SMALL = 0.08  # greatest inclination of a plane that counts as level or upright
+SMALL = 0.08  # a component of the direction of a plane counts as zero up to this number
 FAR = Rational(8, 5)  # drawn range of a wire, relative to the value of its coordinate
 
 Sort = TypeVar("Sort", bound=Connection)
@@ -116,8 +116,9 @@ class Connections:
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
-        """Return a value for a length, as a fraction of a length that remains in the positions when it is zero: less
-        for displacements from places at rest, so that parts stay in their order."""
+        """Return a value for the coordinate q, a length: a fraction of a length that remains in the positions if all
+        coordinates are zero. The fraction is smaller if q is a displacement from a place at rest, so that the parts
+        stay in their order. The result is None if there is no suitable length."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
@@ -142,7 +143,8 @@ class Connections:
         return found
 
     def _amplitudes(self) -> dict[Symbol, Expr]:
-        """Values of the amplitudes of supports that oscillate, relative to the string or rod at the support."""
+        """Values of the amplitudes of oscillating supports: a fraction of the length of the string or rod at the
+        support."""
         found = {}
         for line in self.lines:
             length = self._kept_length(line)
@@ -153,7 +155,8 @@ class Connections:
         return found
 
     def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:
-        """Values of Cartesian coordinates of a body on a circle with its centre at a fixed place."""
+        """Values of the Cartesian coordinates of a body that touches a circle: the body is drawn at a fixed angle from
+        the vertical."""
         body = touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
         x, y = body.components
         circle: Any = touch.surface
@@ -166,7 +169,8 @@ class Connections:
         return dict(zip((x, y), (circle.centre + along).components, strict=True))
 
     def _over_corners(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
-        """Values of coordinates at which a rod lies over a fixed corner, at a third of its length."""
+        """Values of coordinates at which a rod lies over a fixed corner, with the corner at a third of the length of
+        the rod."""
         found: dict[Symbol, Any] = {}
         for touch in (each for each in self.contacts if each.of is None):
             past = tidied(dot(touch.tangent, touch.at - touch.surface.of.centre).subs(known))
@@ -190,13 +194,14 @@ class Connections:
 
     @property
     def _farthest(self) -> Rational:
-        """The coordinate of a carrier: a wedge is to the right of the body on it, the middle of a plank to the left."""
+        """The drawn coordinate of a carrier, relative to `size`: a wedge is drawn to the right of the body on it; a
+        plank is drawn with its middle to the left of the body."""
         slopes = [each for each in self._planes if each.of is not None and tidied(each.unit_normal.components[0]) != 0]
         return Rational(5, 2) if slopes else Rational(4, 5)
 
     @property
     def _span(self) -> Expr:
-        """The distance of the two farthest ends of strings."""
+        """The greatest distance between two places on strings and rods."""
         places = [place for line in self.lines for place in line.places]
         return max((distance_of(a, b) for a, b in combinations(places, 2) if not same(a, b)), key=self.number)
 
@@ -210,7 +215,8 @@ class Connections:
 
     @property
     def is_possible(self) -> bool:
-        """Whether each body that touches a curve is drawn on the curve; not all coordinates can be found from it."""
+        """Whether, at the drawn values, each body that touches a curve is on the curve. The coordinates of such a body
+        cannot always be computed from the curve."""
         return all(abs(self.number(each.gap)) < EXACT for each in self.contacts if isinstance(each.surface, Curve))
 
     def number(self, value: Expr) -> float:
@@ -301,8 +307,8 @@ class Connections:
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
 
     def carries_only_blocks(self, plane: Surface) -> bool:
-        """Whether the plane is a level floor under particles, which are drawn as blocks with their centres at their
-        places, so that springs and strings are at half their height."""
+        """Whether the plane is a fixed level floor that only particles touch. Such a particle is drawn as a block whose
+        centre is at the place of the particle, so that springs and strings are at half the height of the block."""
         on_it = [each.of for each in self.contacts if each.surface == plane]
         return (
             isinstance(plane, Plane)
@@ -353,7 +359,7 @@ class Connections:
             half = max((tidied(way) for way in ways), key=lambda way: abs(self.number(way)))
             far = (half if self.number(half) > 0 else -half) + past
             return plane.through - far * along, plane.through + far * along  # the place of a plank is its middle
-        if isinstance(plane.of, Particle):  # a wedge, whose face begins at its place
+        if isinstance(plane.of, Particle):  # a wedge: its face begins at the place of the particle
             first, last = (ZERO, last + past) if self.number(last) > -self.number(first) else (first - past, ZERO)
             return plane.through + first * along, plane.through + last * along
         low = first if meets and first == 0 else first - past
@@ -469,8 +475,8 @@ class Connections:
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
 
     def _lifts(self, line: Line) -> tuple[float, float]:
-        """The distances of the two parts of a string from the surfaces below them: a block that stands on a slope holds
-        its string at half its height."""
+        """The shifts of the two parts of a string away from the surfaces below. The part to a block whose base is at
+        its place, as on a slope, is shifted by half the height of the block; any other part is not shifted."""
         stands = [
             any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
             for place in (line.places[0], line.places[-1])
@@ -478,19 +484,22 @@ class Connections:
         return (BLOCK[1] / 2 if stands[0] else 0.0, BLOCK[1] / 2 if stands[1] else 0.0)
 
     def _kept_length(self, line: Line) -> Expr | None:
-        """The length of a straight string or rod, if it is a symbol or a multiple of one."""
+        """The length of a string or rod, if this length is constant and is a symbol or a multiple of a symbol;
+        otherwise None."""
         constraint = next((c for c in self.system.constraints if c.forces and c.forces == line.forces), None)
         length = constraint.left if constraint is not None else distance_of(line.places[0], line.places[-1])
         return length if length.as_coeff_Mul()[1].is_Symbol and not moving_in(self.system, length) else None
 
     def _link_along(self, line: Line) -> Link:
-        """The link from the end about which the line rotates to its other end."""
+        """The link along a straight string or rod; the link starts at the end whose position contains fewer
+        coordinates."""
         start, end = line.places
         moving = [moving_in(self.system, *place.components) for place in (start, end)]
         return line_between(end, start) if len(moving[1]) < len(moving[0]) else line_between(start, end)
 
     def _pulley(self, at: Location, radius: Expr, hanger: Expr) -> Iterable[Mark]:
-        """Yield a pulley and, if it is fixed, its hanger of this length."""
+        """Yield a pulley. If the pulley is fixed and is not a particle, also yield its hanger, whose length is
+        `hanger`, and the ceiling."""
         particle = next((one for one in self.system.particles if same(one.at, at)), None)
         label = radius if radius.is_Symbol and hanger != HANGER * self._span else None
         yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
@@ -516,7 +525,7 @@ class Connections:
         yield from displacement_marks(self.system, place)
 
     def _turns(self) -> bool:
-        """Whether the system is in space and has a prescribed rotation, so that no ceiling holds it."""
+        """Whether the system is in space and has a prescribed rotation; such a system is drawn without a ceiling."""
         angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return self.rows == 3 and any(angle.has(TIME) for angle in angles)
 
@@ -543,7 +552,7 @@ class Connections:
                 yield Turn(column_of(placed.at), sense * ACROSS, Rational(1, 8), label=motor.torque)
 
     def _dashpots(self) -> Iterator[Mark]:
-        """Yield the dashpots, each beside the spring between the same places, if there is one."""
+        """Yield the dashpots. A dashpot is drawn beside a spring if both connect the same two places."""
         springs = [{each.start.components, each.end.components} for each in self.system.between]
         for each in connections_of(self.system, Dashpot):
             beside = {each.start.components, each.end.components} in springs
@@ -552,8 +561,8 @@ class Connections:
     # --- particles ---
 
     def block(self, particle: Particle) -> list[Mark] | None:
-        """Return the block that shows a particle on a plane; an empty list if something else shows the particle, as a
-        wedge or a pulley does; None if it is a small disc."""
+        """Return the block that represents a particle on a plane. The list is empty if another mark represents the
+        particle, such as a wedge or a pulley. The result is None if the particle is drawn as a small disc."""
         if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane:
             return []
         if any(same(particle.at, place) for line in self.lines for place in line.places[1:-1]) and self.in_a_plane:
@@ -565,7 +574,7 @@ class Connections:
         return [BlockMark(column_of(particle.at), column_of(touch.tangent), stands=stands, label=particle.mass)]
 
     def holds(self, particle: Particle) -> bool:
-        """Whether a contact, a string, a rod or a wire shows how the particle is placed."""
+        """Whether a contact of a system in a plane, or an end of a string or rod, shows how the particle is placed."""
         touched = any(each.of == particle for each in self.contacts) and self.in_a_plane
         return touched or any(same(particle.at, line.places[k]) for line in self.lines for k in (0, -1))
 
@@ -573,7 +582,7 @@ class Connections:
         return any(same(wire.of.at, at) for wire in self.wires)
 
     def runs_along(self, link: Link) -> bool:
-        """Whether a string, a rod or the radius of a circle is drawn along a link, with its length."""
+        """Whether a string, a rod or the radius of a circle is drawn along the link."""
         pieces = [line.places for line in self.lines if link.is_constant or len(line.places) == 2]
         ends = [piece for places in pieces for piece in pairwise(places)]
         circles = [each.surface for each in self.contacts if isinstance(each.surface, Circle) and self.in_a_plane]
@@ -582,7 +591,7 @@ class Connections:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance of two places for a drawing, without a decision about its sign."""
+    """Return the distance between two places, for a drawing. If the sign of a difference x is unknown, |x| remains."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 

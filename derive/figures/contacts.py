@@ -74,7 +74,8 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """Yield the marks of a cylinder seen along its axis: the circle, the line to the contact, and its angle."""
+    """Yield the marks of a cylinder seen along its axis: the circle, the line to the contact, and the angle of this
+    line."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")

@@ -1,7 +1,7 @@
 """The extrema of a curve, from sign changes of its exact derivative.
 
-The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve: a little to
-either side, its values are greater than at a minimum, or less than at a maximum.
+The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve on both sides
+of the extremum: next to a minimum its values must be greater, next to a maximum they must be less.
 """
 
 from __future__ import annotations
@@ -80,7 +80,8 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
 
 
 def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:
-    """Check that the curve is higher one step to either side of a minimum, and lower for a maximum."""
+    """Check that the curve is higher one step to either side of a minimum, or lower one step to either side of a
+    maximum."""
     rises = [f(at + side * step) - f(at) for side in (-1, 1)]
     if not all(rise > 0 if kind == MINIMUM else rise < 0 for rise in rises):
         raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, but its slope changes sign"))

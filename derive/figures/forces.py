@@ -42,8 +42,8 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
     at rest, determines the direction of the arrow
-    The result is None if no such force acts on the body, if a force is not among `found`, if further forces act, so
-    that the diagram would not show all forces on the body, or if the direction of a force is not decided.
+    The result is None for a system in space. It is also None if no such force acts on the body, if a force is not among
+    `found`, if other forces act that the diagram would not show, or if the direction of a force is unknown.
     """
     if len(system.places[0].components) != 2:
         return None
@@ -67,7 +67,8 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
 
 @dataclass(frozen=True)
 class _Drawn:
-    """A force in a diagram; `value` is its value in the drawn state, N, and `pushes` puts its tip at the body."""
+    """A force in a diagram. `value` is its value in the drawn state, in newtons; if `pushes` is true, the tip of its
+    arrow is at the body."""
 
     at: Location
     way: Any
@@ -81,7 +82,7 @@ class _Drawn:
 
 
 def _numbers(values: Sequence[Expr], at: Mapping[Symbol, Any]) -> list[float]:
-    """Return the sizes of the forces, all with the same numbers for their symbols."""
+    """Return the magnitudes of the forces; a symbol has the same number in all forces."""
     there = [value.subs(at).subs(at) for value in values]
     letters = sorted(set().union(*(value.free_symbols for value in there)), key=str)
     run = current_run.get()
@@ -91,23 +92,23 @@ def _numbers(values: Sequence[Expr], at: Mapping[Symbol, Any]) -> list[float]:
 
 
 def _share(size: float, greatest: float) -> Rational:
-    """Return the length of an arrow relative to the longest; small forces stay visible."""
+    """Return the length of an arrow relative to the longest arrow: at least 1/5, so that small forces stay visible."""
     return Rational(max(round(60 * size / greatest), 12), 60)
 
 
 def _has_others(system: System) -> bool:
-    """Whether forces act in the system that are neither weights nor forces of connections."""
+    """Whether forces other than weights and the forces of connections act in the system."""
     frictions = [force for each in connections_of(system, Connection) for force in each.forces if force.size == 1]
     given = len(system.given_forces) > len(frictions)
-    couples = any(not each.forces for each in system.constraints)  # a motor, a rigid joint or a formula
-    unnamed = bool(system.conditions)  # rolling by a friction without a symbol
+    couples = any(not each.forces for each in system.constraints)  # constraints by a motor, a rigid joint or a formula
+    unnamed = bool(system.conditions)  # rolling conditions, whose friction has no symbol
     return bool(couples or unnamed or given or system.between or system.dampers or system.charges or system.stored)
 
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
-    """Whether the forces account for the motion of the centre of mass: it can move in every direction, or the forces
-    balance in each direction in which the coordinates keep it. Otherwise an unknown reaction acts, as of the ice on a
-    plank."""
+    """Whether the forces account for the motion of the centre of mass. The centre must move independently in the
+    directions in which coordinates move it, and the forces must balance in all other directions. Otherwise an unknown
+    reaction also acts, such as the reaction of the ice on a plank."""
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
     moving = list(system.coordinates)
     free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
@@ -148,7 +149,7 @@ def _forces(
 ) -> list[_Drawn] | None:
     """Return the forces, each reversed if it is negative in the drawn state; a zero force is not drawn.
 
-    The result is None if the direction of a force depends on the numbers of other symbols, such as a difference of
+    The result is None if the direction of a force is unknown, for example if it depends on the sign of a difference of
     masses.
     """
     drawn = []
@@ -157,7 +158,7 @@ def _forces(
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
-        if size == 1:  # friction, whose direction contains its size
+        if size == 1:  # for friction of size 1 the direction contains the true size
             size, direction = _size_and_direction(direction, letters)
         value = times * size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
         if is_zero(value):

@@ -1,4 +1,4 @@
-"""Lines from a fixed or known point to a particle, and their angles, as the formulas of positions give them.
+"""Links: lines from a fixed or known point to a particle, with their angles, found from the formulas of the positions.
 
 A link is the line along which polar coordinates are measured; it does not show a physical part. Algebra decides each
 property, after numerical samples have excluded most of the wrong candidates.

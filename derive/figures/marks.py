@@ -40,7 +40,7 @@ class Mark:
 
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
-    together: ClassVar[str | None] = None  # one phrase for all marks of this class and their labels
+    together: ClassVar[str | None] = None  # one phrase that describes all marks of this class
     layer: ClassVar[int] = 9  # marks with a lower layer are drawn first
 
     def __init_subclass__(cls) -> None:

@@ -235,7 +235,7 @@ class CornerRopeMark(_Piecewise):
         half = acos(max(-1.0, min(1.0, cosine))) / 2
         if not 0.05 < half < pi / 2 - 0.05:
             return [Stroke((a, corner, b), "string")]
-        # For the direction from the corner to each end, the normal on the side of the other end.
+        # For each direction from the corner to an end, the unit normal that points to the side of the other end.
         inwards = [_normal(e, other) for e, other in zip(ways, ways[::-1], strict=True)]
         sine = sin(2 * half)
         shares = [(lift - WHEEL) / sine for lift in self.lifts[::-1]]

@@ -15,7 +15,8 @@ from derive.figures.space import NOUGHT, Spot, Stance, Vector
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`; `head` and `tail` are arrowheads."""
+    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`; `head` and `tail` are true for an
+    arrowhead at its end or at its start."""
 
     spots: tuple[Spot, ...]
     pen: str

@@ -130,7 +130,8 @@ def _rolls(system: System, placed: Any) -> bool:
 
 
 def pivot_of(system: System, placed: Any) -> Link | None:
-    """Return the line from a fixed point, about which the whole body rotates, to the centre of mass; or None."""
+    """Return the line to the centre of mass from the fixed point about which the whole body rotates; None if there is
+    no such point."""
     for link in links_about_fixed(system, placed.centre):
         if not link.is_constant:
             continue
@@ -145,8 +146,8 @@ def pivot_of(system: System, placed: Any) -> Link | None:
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
     """Yield the marks of a body that rotates about a fixed point, the pivot.
 
-    A disc may have a joint at its rim, and a rod at its end. If both ends of a rod are at the same distance from the
-    pivot, the ends slide on a circle. For any other rod, the distance of its centre from the pivot is shown.
+    The joint may be at the rim of a disc or at the end of a rod. If both ends of a rod are at the same distance from
+    the pivot, the ends slide on a circle. For any other rod, the distance of its centre from the pivot is shown.
     """
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
@@ -171,7 +172,7 @@ def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
 
 
 def _kept(system: System, value: Expr) -> Expr:
-    """Return a value that is constant during the motion, simplified by setting all coordinates to zero."""
+    """Simplify a value that is constant during the motion: set all its coordinates and the time to zero."""
     return tidied(value.xreplace(dict.fromkeys(moving_in(system, value), Integer(0))))
 
 
@@ -183,7 +184,8 @@ def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
 
 
 def _holder(system: System, placed: Any) -> Mark:
-    """Return a stand under a body, a ceiling above a hanging body, or only a point if the rotation is prescribed."""
+    """In a plane, return a joint. In space, return a point if the rotation is prescribed, a support below an upright
+    body, or a ceiling above a hanging body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -251,7 +253,8 @@ def _of_parts(placed: Any) -> list[Mark]:
 
 
 def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
-    """Return the holes of a removed part in a plane; in space only a closed cavity can be drawn."""
+    """In a plane, return the holes of a removed part. In space, return only closed cavities, because no other removed
+    part can be drawn."""
     surfaces = [mark for mark in outline if isinstance(mark, SilhouetteMark | WheelMark)]
     if is_plane:
         return [Hole(mark) for mark in surfaces]
@@ -341,7 +344,7 @@ def placed_outline(placed: Any) -> list[Mark]:
 
 
 def _as_it_looks(placed: Any) -> Any:
-    """Replace a body with known moments only by the body that represents it, with the same centre of mass."""
+    """Replace a body that has no shape by the body that represents it in drawings, with the same centre of mass."""
     look = getattr(placed.body, "look", None)
     if look is None:
         return placed

@@ -41,7 +41,7 @@ LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of
 
 
 def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[Any, Any] | None = None) -> Drawing:
-    """Return a drawing of these marks, which is recorded for the problem.
+    """Return a drawing of these marks; the drawing is recorded for the problem.
 
     key      the name of the drawing, for `drawings:` in the problem
     marks    marks or lists of marks; solids hide the marks behind them, and all other marks are drawn over the solids
@@ -77,7 +77,8 @@ def plot(
     of: str = "angle",
     shown: Expr | None = None,
 ) -> Plot:
-    """Return the curve of a quantity as a function of a symbol, recorded for the problem, which gives the numbers.
+    """Return the curve of a quantity as a function of a symbol. The curve is recorded for the problem; the problem
+    gives the numbers for the other symbols.
 
     key        the name of the curve, for `drawings:` in the problem
     quantity   a scalar with a kind, such as an energy

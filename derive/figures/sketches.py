@@ -1,7 +1,7 @@
 """The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
-Bodies, springs, strings, rods, wires, surfaces and joints are drawn as what they are. A particle that nothing holds is
-a small disc, with the dashed lines of its coordinates and the curve on which it moves. Nothing is guessed.
+Each body, spring, string, rod, wire, surface and joint of the description is drawn. A particle that nothing holds is a
+small disc, with the dashed lines of its coordinates and the curve on which it moves. Nothing is guessed.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def sketch(
     start: Moment | None = None,
     impact: Moment | None = None,
 ) -> Drawing | None:
-    """Return a drawing of a system from its description, which is recorded for the problem.
+    """Return a drawing of a system from its description; the drawing is recorded for the problem.
 
     The result is None if the drawing would not show the whole system and no further marks are given.
 
@@ -111,7 +111,7 @@ class _Scene:
         )
 
     def _bodies_are_seen(self) -> bool:
-        """Whether each body has an outline, or an axis from its fixed point in space."""
+        """Whether each body has an outline or, in space, a line from its known point to its centre of mass."""
         return all(
             placed_outline(with_its_shape(placed)) or self.rows == 3 and not same(placed.at, placed.centre)
             for placed in self.system.bodies
@@ -241,7 +241,7 @@ class _Scene:
             yield from self._cartesian(particle.at) if len(plain) == self.rows else self._ways(particle.at)
 
     def _is_held(self, particle: Particle, link: Link | None) -> bool:
-        """Whether a connection shows how the particle is placed."""
+        """Whether a connection holds the particle or is drawn along its link."""
         return self.connections.holds(particle) or link is not None and self.connections.runs_along(link)
 
     def _is_drawn(self, particle: Particle, link: Link) -> bool:
@@ -249,7 +249,9 @@ class _Scene:
         return self._is_held(particle, link) if link.is_constant else self.connections.runs_along(link)
 
     def _round(self, link: Link) -> Iterable[Mark]:
-        """Yield the circle of a particle about a vertical axis, and this axis; otherwise the curves of the particle."""
+        """If the link starts on the vertical axis through the origin, yield the circle of the particle about the axis,
+        and the axis if its label is a coordinate. Otherwise yield the curves of the particle. Yield nothing for a link
+        of constant length or with a prescribed rotation about a fixed point."""
         *across, height = link.start.components
         if (
             link.is_constant
@@ -288,8 +290,8 @@ class _Scene:
             yield ConnectionMark(column_of(rest), column_of(beside))
 
     def _two_bodies(self) -> Iterable[Mark]:
-        """Yield, for two particles, the components of their relative position and the axes of their centre of mass, if
-        the coordinates of the system are these components."""
+        """For two particles in a plane, yield the components of their relative position, and the axes of their centre
+        of mass. Yield nothing unless the coordinates of the system are the components of these two vectors."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -335,8 +337,8 @@ class _Scene:
         return is_free and all(c in self.system.coordinates for c in at.components)
 
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
-        """Return the place at which the coordinate is zero and the place of a mass that it moves, if the line is fixed
-        and the coordinate is the distance along it. The mass that the fewest coordinates move is preferred."""
+        """Return the place of a mass at zero coordinate and its present place, if the coordinate is a distance along a
+        fixed line; otherwise None. Of several such masses, choose the one that the fewest coordinates move."""
         found = []
         for _, at in self.system.masses:
             way = Location(tuple(diff(c, q) for c in at.components))
@@ -380,12 +382,13 @@ class _Scene:
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
 
     def _is_on_carrier(self, at: Location) -> bool:
-        """Whether a mass carries a plane or touches one that is carried; its dimension line is beneath the carrier."""
+        """Whether a mass carries a surface, or touches a surface that a particle carries. The dimension line of such a
+        mass is beneath the carrier."""
         carriers = [each for each in self.connections.contacts if isinstance(each.surface.of, Particle)]
         return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
 
     def _clear(self, at: Location) -> Expr:
-        """The distance of a dimension line from the centre of a body: its radius."""
+        """The distance of a dimension line from a place: the radius of a disc with its centre there, or zero."""
         outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
         wheels = (mark for mark in outlines if isinstance(mark, WheelMark) and mark.radius is not None)
         return next((mark.radius for mark in wheels if same(Location(tuple(mark.centre)), at)), ZERO)
@@ -412,7 +415,7 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Return whether the point moves or is the position of a particle, rather than a fixed end."""
+        """Return False for a fixed end: for a point that does not move and is not the position of a particle."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
     def _between(self, each: Central) -> Iterable[Mark]:

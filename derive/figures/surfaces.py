@@ -146,7 +146,8 @@ class TorusMark(Surface):
         return found
 
     def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
-        """Return the visible opening, which is between the inner edges behind and in front."""
+        """Return points around the visible opening: the part of the inner edge between the ends of its rear half; an
+        empty list if there is no opening."""
         centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
         behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
         ends = [x for x, _ in behind]
@@ -270,7 +271,7 @@ class Bore(Cavity):
 
 @dataclass(frozen=True)
 class Hole(Cavity):
-    """A hole in a flat body, which can be seen through."""
+    """A hole in a flat body; marks behind the hole are visible through it."""
 
     layer: ClassVar[int] = 2
 

@@ -187,7 +187,7 @@ class AngleBetween(Mark):
     """The arc from one line to another at a vertex; its radius is less than the lengths of the lines.
 
     a, b     vectors from the vertex along the lines
-    dashed   whether the first line is drawn too
+    dashed   whether the first line is drawn, as a dashed line
     """
 
     vertex: Position

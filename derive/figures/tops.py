@@ -92,8 +92,8 @@ def seen_upright(mark: Mark) -> Mark:
 def stance_values(system: System) -> dict[Symbol, Expr]:
     """Return the precession angles at which inclined bodies are drawn.
 
-    If a body follows the line of nodes and no condition holds, the line of nodes is in front; otherwise the axis of the
-    body leans to the right.
+    If the line of nodes is a principal axis of the body and no condition, such as rolling, holds for the system, the
+    line of nodes is in front; otherwise the axis of the body leans to the right.
     """
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
@@ -135,7 +135,8 @@ def _is_round(body: Any) -> bool:
 
 
 def _parts(placed: Any) -> list[tuple[Any, Expr]]:
-    """Return the round parts of a body, each with the distance of its z = 0 from the fixed point along the axis."""
+    """Return the round parts of a body, each with the height of the origin of its axes above the fixed point, along the
+    axis."""
     held = placed.point.position[2]
     if _is_round(placed.body):
         return [(placed.body, -held)]

@@ -56,7 +56,7 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # otherwise the axis shows the rate
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # else the rate is the label of an axis
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)

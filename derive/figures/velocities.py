@@ -61,7 +61,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the velocities just before an impact, given impulses, and the distances of points of impact."""
+    """Yield the velocities just before an impact, the given impulses, and the distances of the points of impact."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     for place in places:
         velocity = Location(tuple(tidied(Add(*_shares(c, moment))) for c in place.components))
@@ -125,16 +125,16 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether a mark shows a displacement with a rate just before the impact, or a displacement or an angle that
-    is zero at the impact."""
+    """Return whether the label of a mark is a coordinate that is zero at the impact, or the label of a dimension line
+    is a coordinate with a rate just before the impact."""
     if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values for the drawing of an impact. They are the values at the impact, but parts whose displacement
-    has a rate are drawn before the impact."""
+    """Return the values for the drawing of an impact: the values at the impact. A part whose displacement has a rate is
+    drawn at its place before the impact."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

@@ -1,8 +1,8 @@
-"""Check the arguments of a verb, a function that scripts call, against its signature: errors use the terms of the
-script.
+"""Check the arguments of a verb against its signature; a verb is a function that scripts call.
+
 The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
-An argument of another type, such as a matrix in place of a step or a number with a decimal point, is an error. The
-message names the verb and the argument.
+An argument of another type is an error, such as a matrix in place of a step, or a floating-point number. The message
+names the verb and the argument, in the terms of the script.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _CALLED = {
 }
 
 
-# functions that return a part of a system: it contains all their arguments unchanged
+# functions that return a part of a system; this part contains all arguments of the function unchanged
 KEEPING = {
     "angular_impulse",
     "charge",
@@ -48,7 +48,8 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before each call; results of earlier equal calls are reused."""
+    """Return the verb with a check of its arguments before each call. In a run with a memory, an
+    equal call returns the earlier result; only the functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
@@ -101,12 +102,12 @@ def _names(given: Any) -> Iterator[str]:
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
     """Check that a part of a system, such as a force, contains its arguments unchanged.
 
-    A law and its second route both read this part, so the comparison of their results would not detect a changed sign.
+    A law and its second route both read this part, so their comparison would not detect a sign that the verb changed.
     """
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):
         if value not in kept:
-            raise Unverified(Complaint("unverified", f"`{verb}` was given {value}, but its result has another value"))
+            raise Unverified(Complaint("unverified", f"`{verb}` was given {value}, but its result lacks this value"))
 
 
 def _values(given: Any) -> Iterator[Any]:

@@ -27,7 +27,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Holds(Enum):
-    """The kind of value of a key of a verb."""
+    """The kinds of values that a key of a verb can have."""
 
     ANSWER = auto()  # the name of one answer
     ANSWERS = auto()  # the names of one or more answers
@@ -42,7 +42,7 @@ class Holds(Enum):
     WORD = auto()
     SYMBOL = auto()  # the letter of the result
     SYMBOLS = auto()  # one letter for each of several results
-    FORMULA = auto()  # an expression in symbols and answers; placeholders stand for the answers
+    FORMULA = auto()  # an expression in symbols and answers; placeholders represent the answers
     FUNCTIONS = auto()  # two answers or expressions
     POINT = auto()  # the name of a point of a body
     AXIS = auto()  # a direction
@@ -63,7 +63,7 @@ Axis = Annotated[Any, Holds.AXIS]
 PlaceIn = Annotated[Sequence[Any], Holds.PLACE]
 SurfaceNamed = Annotated[Any, Holds.SURFACE]
 Symbols = Annotated[Sequence[str], Holds.SYMBOLS]
-Ask = Callable[[str], Quantity]  # an argument `ask` is not a key, but a function: name -> answer
+Ask = Callable[[str], Quantity]  # the argument `ask` of a verb is not a key, but a function: name -> answer
 
 
 @dataclass(frozen=True)
@@ -81,15 +81,15 @@ class ResultVerb:
     """A verb of `results:`.
     name       the key that names the verb; its value is the first argument
     yields     a description of the result, for the manual
-    function   the function, called with the values of the keys, and with the name of the result as `key`
+    function   a function of the values of the keys; its argument `key` is the name of the result
     called     argument -> its key, followed by a colon and a description for the manual
     one_of     keys of which the verb needs at least one
-    excludes   pairs of keys; if both keys are given, the second has no effect
+    excludes   pairs of keys; if both keys of a pair are given, the second key has no effect
     """
 
     name: str
     yields: str
-    function: Callable[..., Any] = field(repr=False)  # not in the text: its address differs in each process
+    function: Callable[..., Any] = field(repr=False)  # not in `repr`, because its address varies
     called: Mapping[str, str]
     one_of: tuple[str, ...] = ()
     excludes: tuple[tuple[str, str], ...] = ()
@@ -122,7 +122,7 @@ class ResultVerb:
         return next(key for key in self.arguments.values() if key.name == self.name)
 
     def takes(self, argument: str) -> bool:
-        """Whether the function has an argument of this name, such as `ask`, which is not a key."""
+        """Whether the function has an argument of this name; an argument such as `ask` is not a key."""
         return argument in signature(self.function).parameters
 
 
@@ -139,9 +139,9 @@ def in_results(
 ) -> Callable[[F], F]:
     """Register how `results:` calls a function; `called` maps an argument to its key and description, "for: a letter".
 
-    If the signature of a verb fits, the verb itself is decorated. Otherwise a function next to the verb, with a name
-    that begins with an underscore, adapts the keys and calls `checked(verb)`. In both cases the arguments of the verb
-    are plain values, and results of earlier equal calls are reused.
+    If the signature of a verb fits the keys, the verb itself is decorated. Otherwise the decorated function is next to
+    the verb: its name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the
+    verb is called with plain values, and an equal call returns the earlier result.
     """
 
     def declared(function: F) -> F:

@@ -1,6 +1,6 @@
 """Theorems in general form. A page states each theorem once, before the first step that uses it.
-A theorem is a formula in symbols. A theorem is not a step, because it is not about a body or system of the problem. But
-each step that uses a theorem is checked, and the rule of this step names the theorem under `quotes`.
+A theorem is a formula in symbols. A theorem is not a step, because it is not about a body or system of the problem.
+Each step that uses a theorem is checked, and the rule of such a step names the theorem under `quotes`.
 `tests/mechanics/test_theorems.py` substitutes bodies and motions into the formulas.
 """
 

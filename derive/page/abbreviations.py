@@ -1,4 +1,4 @@
-"""Formulas that a page shows once: after a step has named a formula, its symbol replaces that formula."""
+"""Formulas under a square root: after a step has named a formula by a symbol, the page shows this symbol instead."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Replace each named formula under a square root by its symbol, even if the formula has another form there."""
+    """Replace each named formula under a square root by its symbol, even if the formula is written in another form."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

@@ -1,4 +1,4 @@
-"""Assumptions about symbols as textbooks write them: 0 < alpha < pi/2, without assumptions that follow from others."""
+"""Assumptions about symbols as textbooks write them: 0 < alpha < pi/2, without assumptions that others imply."""
 
 from __future__ import annotations
 

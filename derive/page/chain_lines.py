@@ -1,4 +1,4 @@
-"""The lines of a step as a page shows them: each side in its notation, with the reason next to it."""
+"""The lines of a step as a page shows them: left side, relation, right side, and the reason for the line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ EQUATION_OF = "equation_of_"  # prefix: <<equation_of_ROLE>> in a reason gives t
 
 @dataclass(frozen=True)
 class ChainLine:
-    """`left relation right` with a reason; in a line that continues a chain, only a relation has a left side."""
+    """`left relation right` with a reason; a line that continues a chain has a left side only if it is a relation."""
 
     left: Any | None
     relation: str
@@ -29,7 +29,7 @@ class ChainLine:
     reason: tuple[Inline, ...] = ()
     presented: bool = False
     numeric: bool = False
-    beside: bool = False  # whether this line may begin on the row of the line before
+    beside: bool = False  # whether this line may share the row of the line before
     because: str = ""  # the `because` of the form that this line shows; empty in a list of results
 
 
@@ -107,7 +107,7 @@ class ChainWriter:
             return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
             left, right, word = form.expr.left, form.expr.right, sign_of_relation(step, form.expr.word)
-            if step.about and word != "approx" and not reason:  # "about" in words for an inequality
+            if step.about and word != "approx" and not reason:  # an inequality has no sign for "about"
                 reason = filled(self.words.labels["approximately"], {})
             return ChainLine(left, word, right, reason, numeric=numeric, because=form.because)
         own = step.breaks_off and form.because in ONLY_ABOUT and step.symbol in self._used
@@ -153,7 +153,8 @@ class ChainWriter:
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key of the step; for a vector or tensor that is not shown, the keys of the entries in use."""
+        """Return the key of a step; for a vector or tensor that is not shown, the keys of the entries that `of`
+        uses."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]

@@ -26,7 +26,8 @@ from derive.steps.step import Step
 class Row:
     """Consecutive steps of one rule, checked by the same methods, with all inputs and the number of lines.
 
-    `routes` names the second routes, then the motion if the witness followed it numerically; `checks` names the checks.
+    `routes` names the second routes, then the motion, if the witness followed this motion numerically; `checks` names
+    the checks.
     """
 
     steps: tuple[str, ...]
@@ -137,7 +138,8 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """Return the words for the checks of a step (`sort`), or for its second routes and the motion if followed."""
+    """Return the words for the checks of a step or for its second routes, as `sort` requires. The words for the routes
+    end with the motion, if the witness followed this motion."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found

@@ -18,8 +18,8 @@ BY_VALUE = "<<definition>>"  # the clause of a step without a phrase: symbol = v
 class Clauses:
     """The clauses of one page.
 
-    waiting  steps to define as soon as their symbol is used
-    told     keys of the steps that were defined
+    waiting  steps whose symbols are to be defined at the first use
+    told     keys of the steps whose symbols have been defined
     set_up   text about axes and coordinates, from steps without lines, to put before the next sentence
     """
 
@@ -68,7 +68,8 @@ class Clauses:
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
 
     def meanings(self, steps: Sequence[Step]) -> tuple[Inline, ...]:
-        """Return the meanings of the symbols: `where rho is the density`, or `where rho = M/V` without a phrase."""
+        """Return the meanings of the symbols: `where rho is the density`, or `where rho = M/V` if there is no
+        phrase."""
         return self._sentence("where", steps, by_value=False)
 
     def _due(self, lines: Any) -> list[Step]:

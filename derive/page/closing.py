@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: one sentence for each case, with the formula in the text if it fits."""
+"""The limiting cases at the end of a page: one sentence for each case; only vectors and tensors are displayed."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ def limiting_cases(
 ) -> Iterator[Step | Nodes]:
     """Yield the steps that only the limiting cases need, and a sentence for each case.
 
-    phrase, told   functions that return the words of a step and of the author's prose
-    numbers        numbers of the page's equations, which grow while sentences are written
+    phrase, told   functions that return the words of a step, and the words of prose that the author wrote
+    numbers        numbers of the equations on the page; the caller adds numbers between two sentences
     """
     own = {key for keys in derivation.closing for key in keys}
     shown = {key for keys in derivation.parts for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these steps
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
-        if not keys:  # the result no longer contains the symbols of this case
+        if not keys:  # the result does not depend on the symbols of this case
             continue
         first, *more = (derivation.step(key) for key in keys)
         said = _in_the_line(first, phrase(first))
@@ -64,7 +64,8 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
-    """Return the sentence that a limit agrees with a known result, with this result's number, symbol or formula."""
+    """Return the sentence which states that a limit agrees with a known result; it names the result by number or
+    symbol."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
     return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})

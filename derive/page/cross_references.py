@@ -54,7 +54,7 @@ class References:
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
                 message = "a title cannot refer to an equation or to a problem"
-                self.faults.append(Complaint("mention", message, mention.place, help="mention it in the statement"))
+                self.faults.append(Complaint("mention", message, mention.place, help="refer to it in the statement"))
 
     def _problem(self, mention: Mention) -> Inline | None:
         if mention.name in self.others:

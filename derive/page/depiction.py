@@ -1,6 +1,6 @@
 """The position, caption and alternative text of each drawing on a page.
 
-The alternative text is derived from the marks themselves, with the same expressions, so it changes with the inputs.
+The alternative text is derived from the expressions of the marks, so the text changes with the inputs.
 A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part after which all its
 steps are derived. A problem may move a drawing to a later part, but never to an earlier one.
 """
@@ -58,7 +58,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """Return the drawings in the order of the page, and an error for each wrong position that the problem specifies."""
+    """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
     faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
@@ -121,7 +121,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
         Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
                   help=did_you_mean(name, letters) or "its symbols are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
-        if name not in letters and name not in problem.symbols  # for some inputs a drawing lacks a symbol
+        if name not in letters and name not in problem.symbols  # some inputs remove a symbol from a drawing
     ]  # fmt: skip
 
 
@@ -152,7 +152,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part after which all steps of the drawing are derived; None if there is none."""
+    """Return the index of the first part after which all steps of the drawing are derived; None without such a part."""
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)
@@ -198,7 +198,7 @@ def _given_away(
     if earliest is None:
         loose = next(key for key in drawing.keys if key not in derivation.keys)
         message = f"the drawing `{drawing.key}` shows `{loose}`, on which no answer depends"
-        return Complaint("drawing", message, place, help=f"let a part ask for it, or write `at: {HIDDEN}`")
+        return Complaint("drawing", message, place, help=f"let a part ask for this step, or write `at: {HIDDEN}`")
     if index is None or index >= earliest:
         return None
     shown = {key for keys in derivation.parts[: index + 1] for key in keys}

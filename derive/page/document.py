@@ -1,4 +1,4 @@
-"""The page as a tree, before any format: title, statement, parts, steps, answers, and how it was checked.
+"""The page as a tree, independent of formats: title, statement, parts, steps, answers, and how it was checked.
 
 Equations are numbered here, so every format and every reference has the same numbers.
 """
@@ -57,7 +57,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
-HOMOGENEITY = "look in the script for a quantity used in place of another"
+HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
 
 def document_of(
@@ -74,7 +74,7 @@ def document_of(
 ) -> tuple[Document, list[Complaint]]:
     """Return the page and its errors, such as undefined names and lines that are not homogeneous.
 
-    others   numbers of the set's problems, by name, to which prose may refer
+    others   the problems of the set to which prose may refer: their numbers, by name
     like     a page of less detail, whose equation numbers this page uses
     """
     needed = NOTHING_NEEDED
@@ -114,8 +114,8 @@ class _Writer:
         )
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
-        self.rest: list[Step] = []  # the steps of the part that are shown after this one
-        self.told_before = ""  # the key of a step that the sentence of the step before already describes
+        self.rest: list[Step] = []  # the steps that the part shows after the current step
+        self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = page_names(problem, derivation, words)
@@ -170,7 +170,8 @@ class _Writer:
         )
 
     def needs(self, document: Document) -> tuple[set[str], set[str]]:
-        """Return the hidden steps whose symbols the page uses, and those to whose equations the page refers."""
+        """Return the hidden steps whose symbols the page uses, and the hidden steps to whose equations the page
+        refers."""
         shown = (document.title, document.statement, document.strategy, document.illustrations)
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
@@ -206,7 +207,7 @@ class _Writer:
         self.faults += faults
         stem = self.problem.id.rpartition("/")[2]
         away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
-        here = [d for d in found if d.at not in away]  # a part that is not shown has no drawings either
+        here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
         return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in here]
 
     def _part(self, index: int, part: Question, illustrations: Sequence[Illustration]) -> PartPage:
@@ -301,19 +302,22 @@ class _Writer:
         return (*told, Text(" ")) if told else ()
 
     def _beside(self, step: Step | None, equations: Equations) -> bool:
-        """Return whether a step may share a row with another step: it has a symbol, no reason and no frame."""
+        """Return whether a step may share a row with another step: it needs a symbol, and must have no reason and no
+        frame."""
         if step is None or self.level is Level.FULL or step.symbol is None or equations.framed:
             return False
         return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
 
     def _following(self, key: str) -> Step | None:
-        """Return the next step shown in the part if one sentence may describe this step and the next together."""
+        """Return the next step that the part shows, if one sentence may describe both the step `key` and this next
+        step."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that the page has now described: a step without lines is described once its words appear."""
+        """Return the steps that the page has now described: a step without lines is described as soon as its words
+        appear."""
         self.unplaced.add(key)
         if key not in self.numbers:
             return set()

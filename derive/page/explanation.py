@@ -113,14 +113,16 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """Return the first part that asks for each answer, under the key of the answer and the key of its number."""
+    """Return the first part that asks for each answer, by the key of the answer and by the key of its numerical
+    value."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items()}
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield each answer that depends on the step, with the shortest path that does not pass through another answer."""
+    """Yield each answer that depends on the step, with the shortest path of steps that passes through no other
+    answer."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

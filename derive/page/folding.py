@@ -14,7 +14,8 @@ Sentence = tuple[Block, ...]
 
 
 def with_details(document: Document, full: Document) -> Document:
-    """Return the page with the additional lines of `full`, a page of the same problem with the same numbers."""
+    """Return the page with the additional lines of `full`, a page of the same problem with the same equation
+    numbers."""
     lines = {group.key: group.lines for part in document.parts for group in _groups(part.blocks)}
     numbers = {**full.numbers, **document.numbers}
     merged = {part.label: _merged(part, document.numbers, lines) for part in full.parts}
@@ -32,7 +33,8 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return, for the key of each step, the blocks to fold after the step; before the first step the key is empty."""
+    """Return the blocks to fold after each step, by the key of the step; blocks before the first step have an empty
+    key."""
     found: dict[str, list[Block]] = {}
     at = ""
     for sentence in sentences(full.blocks):
@@ -54,7 +56,8 @@ def _merged(
 
 
 def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
-    """Keep one of adjacent references to the same number: two equations of the full page may have one number here."""
+    """Keep one of adjacent references to the same number: two equations of the full page may share a number on this
+    page."""
     if isinstance(block, Paragraph):
         return Paragraph(each_number_once(block.nodes, numbers))
     if not isinstance(block, Display):

@@ -59,7 +59,7 @@ class _Hints:
         self.clauses = Clauses(self.words)
 
     def of(self, part: PartPage) -> PartPage:
-        """Return a part whose blocks are its hints, each folded."""
+        """Return the part with folded hints in place of its blocks."""
         titles = self.words.labels["hints"]
         told = [each for each in sentences(part.blocks) if any(isinstance(block, Display) for block in each)]
         rungs = (
@@ -71,7 +71,8 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _what(self, sentence: Sentence) -> list[Block]:
-        """Return the first hint of a sentence: the words before each display, and the display with ? as results."""
+        """Return the first hint of a sentence: the words before each display, and the display with ? in place of
+        results."""
         found: list[Block] = []
         before: list[Block] = []
         for block in sentence:
@@ -92,7 +93,8 @@ class _Hints:
         return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Return the law of each chain in a sentence, or the lines after the law; results are left out."""
+        """Return the law of each chain in a sentence, or the lines after the law, as `rung` selects; results are left
+        out."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
@@ -157,7 +159,7 @@ def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
 
 
 def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
-    """Return the law of a step if the page omits its line because a theorem or an earlier equation states the law."""
+    """Return the law of a step if the page omits the law because a theorem or an earlier equation states it."""
     law = step.chain[0]
     if law.because != "law" or chain[0].because == "law" or not isinstance(law.expr, Relation):
         return []

@@ -1,4 +1,5 @@
-"""The names that prose may mention on a page: inputs, axes, coordinates, prescribed functions, each step by its key."""
+"""The names that prose may mention on a page: inputs, axes, coordinates, prescribed functions, and steps by their
+keys."""
 
 from __future__ import annotations
 

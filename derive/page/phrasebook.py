@@ -118,7 +118,8 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 
 
 class _Checked:
-    """Checks the structure of a file and gives each phrase its place; a file with another structure is rejected."""
+    """Checks the structure of a file and records the place of each phrase; a file with another structure is
+    rejected."""
 
     def __init__(self, source: Source):
         self.source, self.count = source, 0

@@ -1,7 +1,7 @@
 """The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states only the numbers that differ from the first case. If no case has a number for a symbol, the problem must
-have one.
+A case states only the numbers that differ from the first case. If no case has a number for a symbol of the curves, the
+problem must have a number for this symbol.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ def _curve(
     if missing:
         listed = ", ".join(f"`{name}`" for name in missing)
         place = placement.place if placement else problem.place_of("solve")
-        help_line = "write it under `values:`, or under `cases:` of the drawing"
+        help_line = "write the number under `values:`, or under `cases:` of the drawing"
         raise Rejected(
             Complaint("drawing", f"the plot `{plot.key}` needs a number for {listed}", place, help=help_line)
         )

@@ -1,4 +1,4 @@
-"""Steps whose result earlier lines show: one of two roots in the formula with ±, a principal moment as a tensor entry.
+"""Steps whose result earlier lines show, such as one of two roots written with ±, or a principal moment in a tensor.
 
 Below the level `full` the sentence of such a step points to the earlier lines, and the step has no lines of its own.
 """
@@ -19,7 +19,8 @@ from derive.steps.step import Step
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
     """Return the inputs whose lines show the result.
 
-    For a list of results, return one input for each distinct value, or no inputs if a value is not among their results.
+    For a list of results, return one input for each distinct value, or no inputs if one of the values is not the result
+    of an input.
     """
     inputs = [each for key in step.inputs if (each := derivation.step(key)).rule in step.display.result_in]
     if not isinstance(step.symbol, MatrixBase):

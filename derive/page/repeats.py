@@ -31,11 +31,11 @@ class Stated:
         return None if before == key else before
 
     def without_repeats(self, lines: Lines, letters: Collection[Any]) -> Lines:
-        """Drop the first or the last line of a chain if the page has already shown its formula.
+        """Drop the first or the last line of a chain if the page has already shown the formula of this line.
 
         T = (general formula) = (with values) loses its first line; I' = I = (known formula of I') loses its last line.
 
-        letters  the symbols of the page; the last line is dropped only after a line that is one of these symbols
+        letters  the symbols of the page; the last line is dropped only if the line before it is one of these symbols
         """
         if len(lines) > 1 and lines[1].left is None and _result(lines[:1]) in self._found:
             lines = (replace(lines[1], left=lines[0].left), *lines[2:])
@@ -56,7 +56,7 @@ def results(step: Step, lines: Lines) -> int:
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return the sentence of a repeated result, which refers to the earlier equation, so that no line need follow.
+    """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it.
 
     Return nothing if the outcome is not `again`, or if the level is `full`.
     """

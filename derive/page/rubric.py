@@ -2,7 +2,8 @@
 
 The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; a rule divides the rest. A step
 has one share and an answer has two; the remainder goes to answers first. If an answer has a formula and a number, the
-formula has the two shares; the number is worth half a point, or nothing if a step would then have less than half.
+formula has the two shares; the number is worth half a point, or nothing if another step would then have less than half
+a point.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Give each number half a point if every step can have that much, and divide the rest among the other steps."""
+    """Give each number half a point if every step can have half a point, and divide the rest among the other steps."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)

@@ -4,7 +4,7 @@
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
-Each rule specifies how its steps are shown, in every problem. Some steps have lines of their own at
+Each rule specifies, for all problems, how its steps are shown. Some steps have lines of their own at
 every level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number the page
 needs (`Needed`). So a page never uses a symbol or a number that it has not introduced.
 """
@@ -95,7 +95,7 @@ class Selection:
         return self._having_it[step.key]
 
     def standing_for(self, keys: Collection[str]) -> set[str]:
-        """Return these steps, with each step that points to earlier lines replaced by the steps of those lines."""
+        """Return the given steps; each step that points to earlier lines is replaced by the steps of these lines."""
         pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
         return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 

@@ -12,7 +12,8 @@ _BY_REASON = {"rounded": "approx", "series": "approx", "limit": "tends"}
 
 
 def sign_before(form: Form) -> str:
-    """Return the name of the sign before a line: about equal before rounded numbers and truncated series."""
+    """Return the name of the sign before a line: `approx` before a rounded number or a series, `tends` before a
+    limit."""
     return _BY_REASON.get(form.because, "equals")
 
 

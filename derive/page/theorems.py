@@ -1,8 +1,8 @@
 """Theorems in their general form: a page states each theorem once, before the first step that uses it.
 
-A page is part of several documents: the document of its problem and the documents of its set. In a document of a set
-the first problem states a theorem, and later problems refer to that problem. So a page contains both texts for each
-theorem, and each document prints one of the texts.
+A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
+the first problem that uses a theorem states it, and later problems refer to that problem. So a page contains both the
+statement of each theorem and this reference, and each document prints one of these two texts.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 class Theorems:
     """The theorems that a page states before its steps; a brief page only names theorems in its sentences.
 
-    A full page shows the law of each step, so it does not state that law before the step.
+    A full page shows the law of each step, so it does not state this law before the step.
     """
 
     def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
@@ -70,7 +70,8 @@ class Theorems:
         return replace(step, chain=step.chain[1:])
 
     def _due(self, step: Step) -> list[Theorem]:
-        """Return the theorems to state before this step: theorems that the step uses, and one that it prepares."""
+        """Return the theorems to state before this step: theorems that the step uses, and a theorem that the step
+        prepares."""
         if self._level is Level.BRIEF:
             return []
         own = [theorem for theorem in step.theorems if not theorem.prepared]

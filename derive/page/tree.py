@@ -1,4 +1,4 @@
-"""The tree of a page, before any format: title, statement, parts, sentences, displays, drawings."""
+"""The tree of a page, independent of formats: title, statement, parts, sentences, displays, drawings."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ class Chain:
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
 
-JOINED = "<<chain>>"  # the phrase of a step without words, whose lines follow the step before
+JOINED = "<<chain>>"  # the phrase of a step without words; its lines follow the lines of the step before
 VALUE = "value_"  # prefix of the roles that give values of symbols
 
 AXIS_NAMES = {**{axis: Math(scalar(axis)) for axis in AXES}, "t": Math(TIME)}  # axes and time
@@ -150,7 +150,7 @@ class Phrases:
         return phrase
 
     def of_both(self, step: Step, following: Step) -> str:
-        """Return the phrase for one sentence about a step and the next step, or "" if the phrases have none."""
+        """Return the phrase for one sentence about a step and the next step, or "" if there is no such phrase."""
         return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:

@@ -1,6 +1,6 @@
 """The worker of a preview, as the server controls it: the server asks, waits, ends a slow worker and starts a new one.
 
-The worker has the limits of a build's workers, and causes the same errors if it gives no answer.
+The worker has the limits of a build's workers. If it gives no answer, the errors are the same as in a build.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class _Worker:
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """Return the next line from the process; None if none comes in time, an empty line if the process has ended."""
+        """Return the next line from the process; None if no line comes in time, b"" if the process has ended."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:

@@ -67,7 +67,7 @@ def preview(
 
 @contextmanager
 def _serving(served: Server) -> Iterator[int]:
-    """Serve in a thread, so that this thread can watch for edits; yield the port."""
+    """Serve in a second thread, so that the calling thread can watch for edits; yield the port."""
     thread = threading.Thread(target=served.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()
     try:

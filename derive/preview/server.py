@@ -1,8 +1,8 @@
-"""A server for this machine alone: the pages of one set, and their changes while it is edited.
+"""A server for this machine alone: the pages of one set, and their changes while the set is edited.
 
     /                 the page that the preview was started for
     /NAME.html        the page of another problem of the set
-    /NAME/events      messages to this page: its new content, or its errors
+    /NAME/events      messages to the page NAME.html: its new content, or its errors
 
 Nothing else is served, and no file can be requested by its name. Only requests that use a local name of this machine
 are answered, so that no page of another site can read the content of these pages.
@@ -36,7 +36,7 @@ _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORE
 ALIVE = 15.0  # seconds after which a message is sent even without news, so that a closed browser is noticed
 PROMPT = 5.0  # seconds within which a browser must send the next request on an open connection
 TAKEN = 30.0  # seconds within which a browser must receive an answer
-MOST = 64  # the most connections at a time; each page open in a browser uses one
+MOST = 64  # the most connections at a time; each page open in a browser uses one connection
 FULL = 0.1  # seconds to wait for free descriptors
 CACHED = "no-store"
 NONE = "'none'"

@@ -52,7 +52,7 @@ def _settle(root: Path) -> None:
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
     """Return the page of a problem, or its errors, as plain data; the limits are the same as in a build's worker.
 
-    At the time limit the work may stop anywhere, so the process ends after this answer.
+    Work that exceeds the time limit may stop anywhere, so the process ends after the answer to such a question.
     """
     problem = question["problem"]
     work = partial(main_part, root, problem, question["detail"])

@@ -15,12 +15,13 @@ from derive.solving.relations import positive
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity
 
-DRAWN = 24  # sets of numbers that are drawn for the symbols
+DRAWN = 24  # greatest number of sets of numbers that are drawn for the symbols
 LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, None if the symbols decide it; and whether v is never in this interval."""
+    """The condition for -1 < v < 1, None if the ranges of the symbols decide; and whether v is never in this
+    interval."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)
@@ -30,9 +31,9 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
-    """The condition under which an unknown can have the value, and whether the unknown can never have it.
+    """The condition under which an unknown can have the value, and whether the unknown can never have this value.
 
-    A sine or cosine is not greater than one, and the value of a symbol is in its range.
+    A sine or cosine is between -1 and 1, and the value of a symbol is in the range of this symbol.
     """
     exists, never = (None, False)
     if isinstance(unknown, sin | cos) and value not in (1, -1):

@@ -99,7 +99,7 @@ def _of_squares_drawn(value: Expr) -> Expr:
 
 
 def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: Expr, power: Rational) -> Any | None:
-    """The same terms, computed by series arithmetic without derivatives; None if this arithmetic does not suffice."""
+    """The terms of the series, computed by arithmetic without derivatives; None if this arithmetic does not suffice."""
     first = min((n for each in series for n in each), default=Rational(0))
     if not first.is_Integer or not power.is_Integer:
         return None

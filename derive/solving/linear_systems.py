@@ -69,7 +69,7 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-# greatest number of coordinates of a conservative system, and of coordinates times symbols if it has more than three
+# conservative systems: most coordinates, and most (coordinates x symbols) for more than three coordinates
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
@@ -134,8 +134,8 @@ class CharacteristicRoot:
 
     value     lambda = omega^2 of a conservative system; the frequency or the rate of growth of a gyroscopic system; the
               rate of decay of a damped system, which is b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a rate of decay b/a the sign of this
-              rate; None if the sign is unknown
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a quadratic factor of a damped system,
+              -1 if the motion is overdamped; for a rate of decay b/a the sign of this rate; None if the sign is unknown
     columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
               0 if this is unknown
@@ -187,7 +187,7 @@ class LinearSystem:
         return is_zero((self.turning + self.turning.T).applyfunc(tidied))
 
     def at(self, s: Expr) -> MatrixBase:
-        """The matrix of the amplitudes of a motion a e^(s t)."""
+        """The matrix that multiplies the amplitudes a of a motion a e^(s t)."""
         return ImmutableDenseMatrix(self.mass * s**2 + self.turning * s + self.stiffness)
 
     def sign(self, value: Expr) -> int | None:
@@ -222,7 +222,7 @@ class LinearSystem:
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:
-        """The irreducible factors of the determinant, a polynomial of this degree, with their powers."""
+        """The irreducible factors of the determinant, a polynomial of the given degree, each with its power."""
         try:
             found = Poly(determinant, root).factor_list()[1]
         except PolynomialError:
@@ -295,9 +295,9 @@ class Conservative(LinearSystem):
         alone = [each for each in self.factors if _values_of(each) is None] == [factor]
         if not self.name or factor.times > 1 or not alone or not self._are_positive(coefficients):
             message = f"the squares of {factor.degree} frequencies are the roots of a polynomial that does not factor"
-            help_ = "use one symbol for equal masses or equal springs, or give all of them numbers"
+            help_ = "use one symbol for equal masses or equal springs, or give numbers to all masses and springs"
             if self.name:
-                help_ = "with numbers, frequencies are found about a stable equilibrium, for only one such polynomial"
+                help_ = "numbers suffice only about a stable equilibrium, and for only one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(factor.degree)]
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
@@ -493,8 +493,7 @@ class Gyroscopic(LinearSystem):
 
     @staticmethod
     def _forwards(part: Poly) -> Poly:
-        """Of a polynomial and its mirror image, return the one whose roots have a positive sum; return the polynomial
-        unchanged if the sign of the sum is unknown."""
+        """Return the polynomial, or its mirror image if the sum of the roots is known to be negative."""
         a, b = part.all_coeffs()[:2]
         return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_for_all(tidied(b / a)) == 1 else part
 
@@ -654,7 +653,7 @@ def _with_root(plain: Expr, before: Expr, root: Expr, by_terms: bool = False) ->
 
     The forms are a tidied sum, and one fraction with factored numerators.
 
-    by_terms   whether the form u +- sqrt(v^2 D) is tried too
+    by_terms   whether u +- sqrt(v^2 D) is a third form
     """
     below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
     apart = (factor(plain * below) + factor(before * below) * root) / factor(below)

@@ -43,7 +43,8 @@ SHORT = 40  # number of operations up to which multiples of an angle are tried
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
     """The value in textbook form: factored, or as separate terms, whichever is shorter.
 
-    in_sums     whether products of sines and cosines may become sums; under a root squares must stay visible
+    in_sums     whether products of sines and cosines may become sums; False for a value with a root, so that squares
+                under the root stay visible
     """
     value = explicit(value)
     tidy = tidied(value)
@@ -65,7 +66,7 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
 def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
     """Drop the factors that are positive for all values of the symbols: the sign of the value stays the same.
 
-    in_equation     whether to drop negative numbers too: the sign may change, but the value vanishes at the same points
+    in_equation     whether to drop negative numbers as well; this may change the sign of the value, but not its zeros
     """
     factors = (f for f in Mul.make_args(value) if not (in_equation and f.is_Rational and f.is_nonzero))
     return Mul(*(f for f in factors if sign_for_all(f) != 1))
@@ -74,7 +75,7 @@ def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
 def without_sine_below(value: Expr) -> Expr:
     """Remove sines from the denominator: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a.
 
-    For an odd power one sine moves to the numerator: sin a/(1 + cos a), not (1 - cos a)/sin a.
+    An odd power in the denominator leaves one sine in the numerator: sin a/(1 + cos a), not (1 - cos a)/sin a.
     """
     above, below = factored(value).as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
@@ -94,12 +95,13 @@ def _is_power_of(sine: Expr, e: Expr) -> bool:
 
 
 def _by_cosine(c: Expr, power: Expr) -> Expr:
-    """Write a power of a sine with 1 - c^2 for each sin^2; an odd power keeps one sine."""
+    """Write a power of a sine with 1 - c^2 in place of each squared sine; an odd power keeps one factor sine."""
     return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
 
 
 def _turns_under_root(value: Expr) -> bool:
-    """Whether a root contains sines or cosines; products of these are kept, so that squares can be taken out."""
+    """Whether the value has a root that contains sines or cosines. Products of sines and cosines then do not become
+    sums, so that squares can be taken out of the root."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
 
@@ -109,7 +111,8 @@ LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which sq
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """Write a polynomial in the symbols in its shortest form: completed squares, products or one fraction."""
+    """Write a polynomial of first or second degree in the symbols in its shortest form: completed squares, products or
+    one fraction."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:
@@ -198,7 +201,7 @@ def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Exp
 
 
 def _letters_in(monomial: Expr) -> tuple[Symbol, ...]:
-    """The symbols of a monomial, each as often as its power: p, p for p^2; p, q for p q."""
+    """The symbols of a monomial, each repeated as often as its power says: (p, p) for p^2, (p, q) for p q."""
     powers = sorted(monomial.as_powers_dict().items(), key=str) if monomial != 1 else []
     return tuple(sorted((p for p, n in powers for _ in range(int(n))), key=str))
 
@@ -213,7 +216,8 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 
 def as_one_root(value: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m); any other value is returned unchanged."""
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value that is not a product of an
+    irrational number and the root of a sum is returned unchanged."""
     factors = Mul.make_args(value)
     outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))
     sign, square = sign_for_all(outside), (value**2).expand()

@@ -49,9 +49,9 @@ def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
 
 
 def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
-    """The value of a symbol at which the expression vanishes; None if this value is zero or is not unique.
+    """The value of a symbol at which the expression vanishes; None if this value is zero or is not found.
 
-    The symbol may occur to the first power only, or, if it is positive, to the second power only.
+    The value is found if the symbol occurs to the first power only or, for a positive symbol, to the second power only.
     """
     found = isolated(expr, letter)
     if found is None or found.value == 0 or found.power > (2 if letter.is_positive else 1):
@@ -61,13 +61,14 @@ def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
 
 
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0 without positive factors, solved for a symbol if that is possible.
+    """The condition v > 0 without positive factors, solved for `letter` or for the only symbol with a square, if
+    possible.
 
-    Otherwise a difference of two terms has one term on each side, as in R omega^2 > g; any other sum is compared with
-    zero.
+    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in R omega^2 > g;
+    any other v is compared with zero.
     """
     above, below = tidied(value).as_numer_denom()
-    core = expand(without_positive(above) * without_positive(below))  # a quotient has the sign of the product
+    core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
         return solved
@@ -135,7 +136,8 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown, or for its square if its sign is unknown."""
+    """The relation between a difference and zero, solved for an unknown u; for u^2 if the difference contains only u^2
+    and u or the value of u^2 may be negative."""
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):
@@ -154,7 +156,7 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
 
 
 def without_square(condition: Relation) -> Relation:
-    """The condition x > sqrt(v) for x^2 > v, if neither x nor v is negative; any other condition unchanged."""
+    """For x^2 > v, return x > sqrt(v) if x and v are never negative; return any other condition unchanged."""
     left, right = condition.sides
     if not (left.is_Pow and left.exp == 2 and left.base.is_nonnegative and right.is_nonnegative):
         return condition
@@ -167,7 +169,8 @@ def _without_sign(value: Expr) -> Expr | None:
 
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
-    """The factor difference/(alone - solved), times -1 if negative; empty if the sign of the factor is unknown."""
+    """The absolute value of the factor difference/(alone - solved); an empty tuple if the sign of this factor is
+    unknown."""
     slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())

@@ -19,7 +19,8 @@ FOUR = Integer(4)
 
 @dataclass(frozen=True)
 class RootOf(Fact):
-    """One root of a linear or quadratic factor of a polynomial, given by the coefficients from the highest power.
+    """One root of a linear or quadratic factor of a polynomial, given by the coefficients of this factor, from the
+    highest power to the lowest.
 
     sign   the sign before the square root; 0 for a linear factor
     """
@@ -72,7 +73,8 @@ class RootOf(Fact):
 
 
 def roots_of(factor: Poly, times: int = 1) -> list[RootOf]:
-    """The root of a linear polynomial, or both roots of a quadratic polynomial, first the root with the minus sign."""
+    """The root of a linear polynomial, or both roots of a quadratic polynomial, first the root with the minus sign
+    before the square root."""
     coefficients = tuple(tidied(c) for c in factor.all_coeffs())
     return [RootOf(coefficients, sign, times) for sign in ((0,) if len(coefficients) == 2 else (-1, 1))]
 

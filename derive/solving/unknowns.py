@@ -2,7 +2,8 @@
 cosine.
 
 An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). A substitution replaces the unknown
-wherever it occurs. An equation that also contains the symbol in another form cannot be solved for this unknown.
+wherever it occurs. If an equation also contains the symbol outside the unknown, the equation cannot be solved for this
+unknown.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of an equation, kept with a root of this equation. The root can replace the unknown even if the
-    symbol of the root is another one."""
+    """The unknown of an equation, as a fact of a root of this equation. The root can therefore replace the unknown,
+    even if the root has a different symbol."""
 
     missing = "is not a root of an equation"
     unknown: Expr
@@ -70,7 +71,7 @@ def _letter_within(unknown: Any) -> Symbol | None:
 
 
 def letter_of(unknown: Expr) -> Symbol:
-    """The only symbol of an unknown."""
+    """The symbol in an unknown, such as theta in cos(theta)."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
         raise Rejected(Complaint("wrong-argument", f"{unknown} is neither a symbol nor a function of a symbol"))
@@ -78,7 +79,7 @@ def letter_of(unknown: Expr) -> Symbol:
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """Symbol of the unknown -> value of this symbol, from the value of the unknown: theta from cos(theta) = 2/3."""
+    """Symbol in the unknown -> its value, computed from the value of the unknown: theta from cos(theta) = 2/3."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)
@@ -150,8 +151,8 @@ def polynomial_in(
 ) -> tuple[Expr, list[Dummy]]:
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
-    Factors that contain the symbol of an unknown but not the unknown itself are dropped. Unless `or_value`, those of
-    them that might vanish are assumed not to vanish.
+    Factors that contain the symbol of an unknown but not the unknown itself are dropped. If `or_value` is false, the
+    page assumes that those dropped factors that might vanish do not vanish.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]

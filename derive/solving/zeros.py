@@ -78,9 +78,10 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; of a periodic one, the zeros within about three half periods of one zero.
+    """All real zeros of a function; if the function is periodic, only the zeros within about three half periods of a
+    chosen zero.
 
-    A product of sines and cosines that cannot be solved is written as a sum and tried again.
+    If not all zeros are found, products of sines and cosines are written as sums and the search is repeated.
     """
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
@@ -94,7 +95,7 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
     """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero where k x + c is 0 or
-    pi/2; none for any other function."""
+    pi/2; an empty list for any other function."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -109,7 +110,8 @@ def _turned(factor: Expr, x: Symbol) -> list[Zero]:
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
-    """Sort key: zeros without a condition come first; among them 0 comes before pi, and pi before all other values."""
+    """Sort key: zeros without a condition come before zeros with a condition; in each group 0 comes first, then pi,
+    then all other values."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)
@@ -219,7 +221,7 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 
 def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
-    """The roots of a polynomial in a cosine or a sine; they must be real for all values of the symbols."""
+    """The roots of a polynomial in a cosine or a sine; raise `Unsolved` if a root is real only under a condition."""
     found = [root for root, _ in _roots(factor, x)]
     if any(root.exists is not None for root in found):
         raise Unsolved(factor)
@@ -247,7 +249,8 @@ def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
-    """The zeros of a polynomial in q, of sqrt(P(q)) minus a constant, or of two powers with symbols as exponents."""
+    """The zeros of a polynomial in q, of sqrt(P(q)) minus a constant, or of a sum of two powers of q whose exponents
+    contain symbols."""
     if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
         return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
@@ -348,7 +351,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 def _is_square_of_letters(value: Expr) -> bool:
     """Whether the value is positive if its symbols do not vanish, such as l^2 for a momentum l.
 
-    If so, record the assumption that these symbols do not vanish.
+    If the result is true, record the assumption that these symbols do not vanish.
     """
     above, below = value.as_numer_denom()
     parts = [f.as_base_exp() for f in Mul.make_args(above) if not f.is_positive]
@@ -361,6 +364,6 @@ def _is_square_of_letters(value: Expr) -> bool:
 
 
 def _is_size(below: Expr) -> bool:
-    """Whether a denominator that does not vanish is positive, such as c^2 or |c|."""
+    """Whether a denominator is positive wherever it does not vanish, such as c^2 or |c|."""
     parts = (f.as_base_exp() for f in Mul.make_args(below) if not f.is_positive)
     return all(isinstance(base, Abs) or bool(base.is_real and power.is_even) for base, power in parts)

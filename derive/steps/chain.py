@@ -19,11 +19,11 @@ from derive.errors import Complaint, Unverified
 from derive.steps.rule import Rule
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Level, Quantity, Route
 
-BY_MOTION = "by the equations of motion"  # ends a claim that holds only for motions that satisfy these equations
+BY_MOTION = "by the equations of motion"  # end of a claim that is true only for motions that satisfy these equations
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """Merge each form with the form before it if their expressions are the same; the lower level is kept.
+    """Merge each form with the form before it if both have the same expression; the merged form gets the lower level.
 
     Also leave out a form that is only the symbol of the step, unless there is no other form. Rounded forms are kept.
     """
@@ -38,7 +38,7 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return the values of the symbols of these quantities, and the values of the components of each vector."""
+    """Return symbol -> value for these quantities, and component -> value for the components of each vector."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -159,8 +159,9 @@ def approximation_evidence(
 ) -> tuple[Any, bool, list[Evidence]]:
     """Return three things: the symbol of the whole expression that the result approximates; whether the symbol of the
     result is only approximately equal to the first line; and the evidence. The symbol of a truncated result must differ
-    from the symbol of the whole expression. If a result has the same symbol as a truncated parent, both approximate the
-    same whole expression. Every other result that is derived from a truncated result is approximate too.
+    from the symbol of the whole expression. If a result has the same symbol as a truncated parent, the result and the
+    parent approximate the same whole expression. Any other result that is derived from a truncated result is itself
+    only approximate.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):

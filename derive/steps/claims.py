@@ -28,8 +28,8 @@ Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
-    """Judge with 30 digits whether the condition is true or, if not `wanted`, false; the numbers are already
-    substituted."""
+    """Judge whether a condition between numbers is true or, if `wanted` is False, whether the condition is false. The
+    comparison uses 30 digits."""
     truths = {
         "=": lambda d: d == 0,
         "<": lambda d: d < 0,
@@ -64,12 +64,12 @@ def as_told(predicate: Callable[[Judged, str], bool]) -> Naming:
 
 
 def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
-    """Whether the first row of values is a multiple of the second row, and the second row is not zero."""
+    """Whether the second row of values is not zero and the first row is a multiple of the second row."""
     first = next((k for k, value in other.items() if not is_zero(value)), None)
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
 
-MARK_OF = {  # name of a comparison -> its sign
+MARK_OF = {  # name of a comparison -> the mark between its two sides
     "equal_to": "=",
     "different_from": "!=",
     "greater_than": ">",
@@ -107,8 +107,8 @@ def never_vanishes(v: Any) -> bool:
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether two expressions vanish at the same values of the symbols, since they are equal, or since their ratio is
-    always positive or always negative."""
+    """Whether two expressions are known to have the same zeros: they are equal, or their ratio has the same sign for
+    all values of the symbols."""
     return is_zero(value - other) or not is_zero(other) and not may_be_zero(tidied(value / other))
 
 
@@ -117,10 +117,10 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 
 
 def has_sign(value: Expr, wanted: int | None) -> bool:
-    """Whether a value has this sign for all values of the symbols; if no sign is given, whether the sign is unknown.
+    """Whether the sign of a value is known and equals `wanted`; if `wanted` is None, whether the sign is unknown.
 
-    Trial numbers must confirm the sign. Trial numbers alone are not enough: none of them has a = b, where (a - b)^2
-    vanishes.
+    The sign follows from the assumptions or the given numbers, and trial numbers must confirm the sign. Trial numbers
+    alone are not enough: (a - b)^2 vanishes where a = b, but at no trial point is a = b.
     """
     return sign_known(value) == wanted and (wanted is None or sign_found(value) == wanted)
 
@@ -178,8 +178,9 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence excludes zeros of the denominator; it need not if no factor of the denominator might vanish.
-    If there are several solutions, only the sentence of the first one needs to exclude these zeros."""
+    """Whether the sentence excludes the zeros of the denominator, or need not exclude them because no factor of the
+    denominator can vanish. If there are several solutions, only the sentence of the first solution needs to exclude
+    these zeros."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
     unsure = [f for f in Mul.make_args(factor(below)) if may_be_zero(f) and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
@@ -200,14 +201,14 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """Return False for a period, a frequency or an amplitude that is negative for all values of the symbols. If the
-    sign depends on these values, the page states the condition."""
+    """Whether a period, a frequency or an amplitude is neither known to be negative nor negative at all trial numbers.
+    If its sign depends on the values of the symbols, the page states the condition."""
     return not is_negative(facts.result)
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period or a radius is nowhere negative: for all values of the symbols it is zero, positive or not
-    real."""
+    """Whether a period or a radius is not known to be negative, is negative at no trial point, and is real at one trial
+    point or more."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

@@ -1,6 +1,7 @@
-"""The lines of a step in which values replace the symbols of those quantities whose own steps a page does not show.
+"""In the lines of a step, values replace the symbols of those quantities whose own steps the page does not show.
 
-Each new line is compared with the old line. The comparison uses the values that `establish` stored in the step.
+Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
+step.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from derive.steps.step import NUMBERS, Form, Step
 
 def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
     """Replace the known names in the lines of a step by their values, and add evidence that each new line equals the
-    old line."""
+    line that it replaces."""
     if not known:
         return step
     written = [_put_in(form, known) for form in step.chain]

@@ -1,6 +1,7 @@
 """Find the steps on which the answers of each part depend; write a derivation as JSON and read it again.
 
-A part shows the steps on which its answers depend, depth first, except steps that an earlier part has shown.
+A part shows the steps on which its answers depend, each step after the steps on which it depends. Steps that an earlier
+part has shown are not repeated.
 """
 
 from __future__ import annotations
@@ -81,7 +82,7 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
             each = list(each.values())
         if not isinstance(each, tuple | list) or not each or depth == MAX_NESTED or len(found) > MAX_ANSWERS:
             message = f"`solve()` must return its answers, each made by a verb, but it returned {_named(each)}"
-            help_line = "end it with, for example, `return I, T, theta`"
+            help_line = "end `solve()` with, for example, `return I, T, theta`"
             raise Rejected(Complaint("script", message, place, help=help_line))
         waiting += [(item, depth + 1) for item in reversed(each)]
     return found
@@ -131,7 +132,7 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
 
 
 def standing_in(steps: Iterable[Step]) -> dict[str, str]:
-    """Return key -> key of the step that replaces it, for each key that has no step of its own."""
+    """Return key -> key of the step that replaces it, for each key in `stands_for` without a step of its own."""
     found = {step.key: step for step in steps}
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 

@@ -56,12 +56,12 @@ class Lines:
     between   forms between the substituted law and the result
     after     forms after the result
     law       the level from which the law is shown
-    put_in    the level from which the law with substituted values is shown; None leaves it out
+    put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
     motion    rate -> the value of this rate by the equations of motion. The last line uses these values, so this line
               is valid only for motions that satisfy the equations
-    means     name -> its value, for each name in an expression on the left side that does not occur in the law
+    means     name -> its value, for the names that occur in the left side but not in the law
     """
 
     before: Sequence[Form] = ()
@@ -110,14 +110,14 @@ class PhraseData:
 
 @dataclass(frozen=True)
 class Scope:
-    """The subject of a result, and the origin of its symbol.
+    """The subject of a result, its new coordinates, and its relation to a general or exact quantity.
 
     about         properties of the subject in addition to those of the inputs, or a function of the result that
                   returns these properties
     differ        the properties in which the subjects of the inputs may differ
     coordinates   coordinates that the step introduces, with their kinds
     case_of       the general quantity with the same symbol; the result is a particular case of this quantity
-    approximates  for a limit or a series: the symbol of the whole result, or the key of the whole equation
+    approximates  for a limit or a series: the symbol of the exact result, or the key of the exact equation
     """
 
     about: Subject | Callable[[Any], Subject] = NOTHING
@@ -153,7 +153,7 @@ def establish(
     symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
     inputs      role -> Quantity, or plain SymPy value
-    routes      claim of the rule -> function of the result, which returns two values that must be equal, or a verdict
+    routes      claim of the rule -> a function of the result; it returns two values that must be equal, or a verdict
     outcome     a word that selects the phrase, or a function of the result that returns such a word
     parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
@@ -180,8 +180,8 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
-    # If `means` has a value for a name in the left side (x_dot), no value of the left side (x_dot^2) by a parent is
-    # used.
+    # If `means` has a value for a name in the left side, such as x_dot in x_dot^2, the value of the left side is not
+    # taken from a parent.
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
@@ -291,7 +291,8 @@ def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
 
 
 def _called(value: Any) -> Any:
-    """Return the name of an input in a phrase: its symbol, or the key of a relation, which has no symbol."""
+    """Return the name of an input in a phrase: the symbol of a quantity, or its key if it has no symbol; return a plain
+    value unchanged."""
     if isinstance(value, Quantity):
         return Str(value.key) if value.symbol is None else value.symbol
     return value
@@ -327,7 +328,7 @@ def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) 
 
 
 def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
-    """Check that the facts that later steps take from this step agree with the value of this step."""
+    """Check that the facts of this step, which later steps use, agree with the value of this step."""
     wrong = wrongly_handed_on(facts, handed_on)
     if wrong is not None:
         message = f"`{key}`: its fact {type(wrong).__name__}, which later steps use, does not fit its result"

@@ -101,8 +101,8 @@ def dimension_table(
 ) -> tuple[Table, list[Complaint]]:
     """Return the dimension of every name, and an error for each step that is not homogeneous.
 
-    A symbol that is neither given nor a coordinate is rejected: neither its meaning nor its dependence on time is
-    known. `script` is the place at which this error is reported.
+    Each symbol must be given or be a coordinate. Any other symbol is rejected, because its meaning and its dependence
+    on time are unknown; this error is reported at the place `script`.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []

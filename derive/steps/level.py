@@ -13,13 +13,13 @@ class Manner(StrEnum):
 
     OWN = "own"  # with its sentence and its lines
     TOLD = "told"  # in a clause after the first lines that contain its symbol: "where rho = M/V"
-    TAKEN_IN = "taken_in"  # within the step that uses it: the lines of that step have the value in place of the symbol
+    TAKEN_IN = "taken_in"  # within the step that uses it: there the value replaces the symbol of this step
     LEFT_OUT = "left_out"
     POINTED_OUT = "pointed_out"  # with its sentence, which points to earlier lines that contain its result
 
 
 class Level(StrEnum):
-    """How much algebra a page shows. A form is shown at its own level and at every higher level."""
+    """How much algebra a page shows. A line of a step is shown at its own level and at every higher level."""
 
     BRIEF = "brief"
     STANDARD = "standard"
@@ -35,10 +35,11 @@ class Display:
     """The manner in which a page shows a step below the level `full`, as the rule of the step specifies.
 
     brief, standard   the manner at these levels
-    told_along        whether the sentence of the step before may also state the result of this step
-    first_only        whether only the first of several such steps is shown
-    result_again      up to this level, a step after a step of the same form shows only its result
-    each_worked_out   whether the step is written out even after a step of the same form
+    told_along        whether the sentence of the step before this one may state the result of this step
+    first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
+    result_again      up to this level, only the result is shown directly after a step with the same rule, outcome and
+                      kinds of lines
+    each_worked_out   whether all lines are shown even after a step with the same rule and the same kinds of lines
     unless_long       whether the step is left out if its result is long
     abbreviates       whether the symbol of the step replaces its formula in later steps
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
@@ -64,7 +65,8 @@ class Display:
         return self.brief if level is Level.BRIEF else self.standard
 
     def shows_result_alone(self, level: Level) -> bool:
-        """Whether, at this level, only the result of a step is shown if the step before has the same form."""
+        """Whether, at this level, only the result is shown directly after a step with the same rule, outcome and kinds
+        of lines."""
         return self.result_again is not None and self.result_again.shows(level)
 
 
@@ -72,12 +74,13 @@ class Display:
 class Shown:
     """How a page shows the steps of a rule; by default each step appears with its sentence and its lines.
 
-    outcomes      outcome -> the manner at `brief` and at `standard`, if it is not that of the other outcomes
-    told_along    outcomes for which the sentence of the step before may also state the result of this step
+    outcomes      outcome -> the manner at the level `brief` and the manner at `standard`, in place of the two fields
+                  with these names
+    told_along    outcomes for which the sentence of the step before this one may state the result of this step
     condition_if  a predicate of the step; if it is true, the sentence of the step states a condition that is stated
                   nowhere else
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
-    repeats       a function of the step that returns the key of the equation that it repeats, or ""
+    repeats       a function of the step that returns the key of the equation that the step repeats, or ""
     result_in     outcome -> names of rules: the lines of an input of such a rule may already contain the result
     The other fields are those of `Display`.
     """

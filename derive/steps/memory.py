@@ -1,9 +1,9 @@
 """Reuse the results of earlier calls of verbs, with everything that these calls added to the record.
 
-A call is recalled if three things are the same: its arguments; the coordinates, assumptions and ranges that are known
-before the call; and the answers to the questions that the call asks the record. Arguments are identified by digests of
-their content, so a call is recalled even if its arguments were derived again. A call with an argument that cannot be
-described, such as a function of a script, is always made.
+A call is recalled if three things are the same as in a stored call: its arguments; the coordinates, assumptions and
+ranges that are known before the call; and the answers to the questions that the call asks the record. Arguments are
+identified by digests of their content, so a call is recalled even if its arguments were derived again. If an argument
+cannot be described as data, such as a function of a script, the call is not recalled but made.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """A call, as it is looked up: `key` is a digest of its arguments and of the state of the run. `objects` are the
-    names of the objects in these arguments and this state. `found` are cached properties of these objects that contain
-    steps."""
+    """The data with which a call is looked up. `key` is a digest of the arguments of the call and of the state of the
+    run. `objects` are the names of the objects in these arguments and this state. `found` are cached properties of
+    these objects that contain steps."""
 
     key: str
     objects: list[str]
@@ -82,7 +82,7 @@ class Memory:
 
     def _result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
         asked = self._asked(verb, given, run)
-        if asked is None or asked.key in self.made:  # a second equal call makes its own objects
+        if asked is None or asked.key in self.made:  # a second call with equal arguments makes its own objects
             return make()
         self.made.add(asked.key)
         left = self._recalled(asked.key)
@@ -90,7 +90,7 @@ class Memory:
             return self._put_on_record(left, run)
         before = _State.of(run)
         result = make()
-        if len(run.established) > before.established:  # a call that makes no step is faster to repeat than to read
+        if len(run.established) > before.established:  # repeating a call without steps is faster than reading it
             with suppress(NoDescription, RecursionError):
                 self.store.keep(asked.key, self._left(result, asked, before, run))
         return result

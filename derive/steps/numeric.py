@@ -73,7 +73,7 @@ class Extreme(Fact):
 
 @dataclass(frozen=True)
 class WholeSwing(Fact):
-    """The integral that a series for a period approximates: the product of `factor` and `time`, the time of a swing."""
+    """The exact period that a series approximates: `factor` times the integral `time`."""
 
     missing = "is not a series for a period"
     factor: Expr
@@ -109,7 +109,7 @@ def value_of(
     """The value of an answer in a unit, rounded to significant figures.
 
     The result is None if letters remain, if the answer is zero or an integer without letters, or if the value is
-    imaginary, such as a frequency without an oscillation.
+    imaginary, such as the frequency of a motion that does not oscillate.
 
     answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -120,8 +120,8 @@ def value_of(
 
     Check: the expression, evaluated again from the numbers of its letters, with extra digits against cancellation.
     For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
-    period that is known as a series gets its number from the integral. A result derived from the series has a number
-    only if the series is accurate enough.
+    period that is known as a series gets its number from the integral that the series approximates. Any other result
+    derived from the series is rejected if the series is not accurate to the requested figures.
     Outcomes: measured (numbers were substituted), exact; minimum or maximum, for the value of a function at zero slope.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
@@ -370,7 +370,8 @@ COMPARISON = Rule(
 
 
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
-    """Whether the numbers satisfy a condition, such as 20 cm > 2.5 cm; None if letters remain.
+    """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm; None if
+    letters remain.
 
     condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit
@@ -413,8 +414,8 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(42)/28 M a^2 omega^2 becomes 0.2315 M a^2 omega^2.
 
-    answer       a scalar with letters; the result is None if the scalar contains a sum, which has no separate number,
-                 or if the number is rational
+    answer       a scalar with letters; the result is None if its letters are in a sum, because a sum has no common
+                 number in front, or if the number in front is rational
     figures      significant figures
     of_vectors   whether the answer may be a vector of numbers times letters; these numbers may be rational
     Check: the answer divided by its letters, evaluated again as for `value_of`.
@@ -488,7 +489,7 @@ def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount
 
 
 def _error(number: Expr, exact: Expr) -> Expr:
-    """Return the relative error of an exact number; 0 if the error is only in the last digits."""
+    """Return the relative difference of the two numbers; 0 if they differ only in the last digits."""
     if number == 0:
         return Integer(0) if vanishes(exact) else Integer(1)
     error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no spare digits for the arguments of functions

@@ -41,10 +41,10 @@ class Objects:
         self._names: dict[int, str] = {}
         self._texts: dict[str, str] = {}
         self._parts: dict[str, list[str]] = {}  # name of an object -> names of the objects in it
-        self._told: list[str] = []  # names in the description that is being made
+        self._told: list[str] = []  # names of the objects in the value that is now being described
         self._expressions: dict[Any, tuple[Any, list[str]]] = {}
         self._letters: dict[Dummy, str] = {}
-        self._seekers: set[str] = set()  # objects with cached properties, which may contain steps
+        self._seekers: set[str] = set()  # names of objects whose cached properties may contain steps
         self._met: list[Any] = []  # keeps these objects alive, so that no `id` is used twice
 
     def described(self, value: Any) -> tuple[Any, list[str]]:

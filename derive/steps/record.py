@@ -109,8 +109,9 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a function with which a verb queries the record. While a verb runs, each question and its answer are
-    noted. If the answer differs in a later run, the verb is called again."""
+    """Decorate a function with which a verb queries the record. While a verb runs, each call of this function is noted
+    as a question, with its answer. If a question has a different answer in a later run, the stored result of the verb
+    is not used."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -136,7 +137,8 @@ def is_taken(name: str) -> bool:
 
 
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
-    """Return a symbol for the limit of a result where a letter goes to a value: omega_2_lim, or omega_2_infty.
+    """Return a symbol for the limit of a result: omega_2_lim if a letter goes to a finite value, omega_2_infty if it
+    goes to infinity.
 
     If this symbol is taken, the returned symbol also contains the letter that goes to the limit.
     """
@@ -159,7 +161,7 @@ def _name_of_limit(name: str, letter: Symbol, to: Any) -> str:
 
 
 def coordinate_named(symbol: Symbol, kind: str) -> None:
-    """Record a coordinate that a script names: from now on every expression with it is known to change."""
+    """Record a coordinate that a script names. Expressions with this coordinate are then known to change."""
     run = current_run.get()
     if run is not None:
         run.coordinates[symbol] = kind
@@ -167,11 +169,11 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the usual symbol of a result or, if the problem already uses that symbol, one with another textbook
+    """Return the usual symbol of a result or, if the problem already uses this symbol, a symbol with another textbook
     letter.
 
     name      the usual symbol, with its own index
-    indices   further indices; the problem must not use the returned symbol with one of them either
+    indices   further indices; the problem must not use the returned symbol with any of these indices
     """
     run = current_run.get()
     base, _, own = name.partition("_")
@@ -267,8 +269,8 @@ def _is_the_same(one: Quantity, other: Quantity) -> bool:
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
-    """Check that a symbol denotes one quantity in a script: another value with this symbol must be a case of the
-    quantity.
+    """Check that the symbol of a quantity denotes only one quantity in a script. If another quantity has this symbol
+    and a different value, the new quantity must be a case of the other.
 
     A coordinate and its rates may have several values, since each motion has its own values.
     """

@@ -16,8 +16,8 @@ from derive.steps.level import SHOWN
 from derive.steps.level import Shown as Shown  # other modules import `Shown` from here
 from derive.steps.subject import NOTHING, Mixed, Subject
 
-GENERIC = "generic"  # the outcome if there is nothing to choose
-CENTRE_OF_MASS = "centre_of_mass"  # a word for the point "centre" of a body that also has another centre
+GENERIC = "generic"  # the default outcome
+CENTRE_OF_MASS = "centre_of_mass"  # the word for the point "centre" of a body that also has another centre
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
@@ -85,9 +85,10 @@ class Theorem:
 class Quote:
     """The use of a theorem by the steps of a rule.
 
-    outcomes   outcomes whose steps use the theorem; empty if the steps of all outcomes do
+    outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    values of the term `between` with which a step uses the theorem; empty if a step uses it with every value
+    between    values of the term `between` with which a step uses the theorem; if empty, a step uses it with every
+               value
     """
 
     theorem: Theorem
@@ -111,8 +112,8 @@ class Rule:
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
                 it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
                 error of algebra. A rule without evidence is a definition
-    statements  predicates of the roles, points and formulas that occur only in the sentence; they apply to every
-                outcome
+    statements  predicates for the roles, points and formulas that occur only in the sentence; they must be true for
+                every outcome
     named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges
                 `value_1`
     shown       how a page shows the steps of this rule
@@ -143,7 +144,8 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether the rule has this outcome, the outcome is true, and all other statements of the sentence are true."""
+        """Whether three conditions hold: the rule has this outcome, the outcome is true, and all other statements of
+        the sentence are true."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)

@@ -8,8 +8,8 @@ These means are tried in this order, until one of them decides the sign:
     squares, roots     even powers that do not vanish, sums that are positive by the geometric mean, and roots
     numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
-`derive.algebra.ranges` decides by ranges and relations. A derivation stays symbolic, so numbers decide only between
-cases, such as whether a top spins fast enough.
+`derive.algebra.ranges` decides the sign by ranges and relations. A derivation stays symbolic, so numbers are used only
+to choose between cases, such as whether a top spins fast enough.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def sign_known(value: Expr) -> int | None:
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:
-    """Return the sign for all values of the symbols for which the condition holds."""
+    """Return the sign for all values of the symbols for which the condition holds; None if this sign is unknown."""
     own = sign_for_all(value)
     if own is not None or exists is None or exists.operator[0] not in "<>":
         return own
@@ -62,8 +62,8 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
 
 
 def truth_known(relation: Relation | None) -> bool | None:
-    """Whether the relation is known to hold, by the assumptions on its symbols or the given numbers; None if unknown.
-    If no relation is given, return True."""
+    """Return whether the relation holds, by the assumptions on its symbols or by the given numbers. Return None if this
+    is unknown, and True if no relation is given."""
     sign = sign_known(relation.residual) if relation is not None else 0
     return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
 
@@ -92,8 +92,8 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether the power is an even power of a real symbol, and is in a denominator or has a symbol that is assumed not
-    to vanish."""
+    """Whether a factor is an even power of a real symbol that does not vanish: the factor is in a denominator, or the
+    page assumes that the symbol does not vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
@@ -129,7 +129,8 @@ def _sign_by_numbers(expr: Expr) -> int | None:
 
 
 def taken_positive(value: Expr) -> int | None:
-    """Return the sign of a value. If the sign is unknown, take the value to be positive; the page states this."""
+    """Return the sign of a value. If the sign is unknown, assume that the value is positive; the page states this
+    assumption."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
@@ -155,8 +156,8 @@ def _odd_factors(value: Expr) -> list[Expr]:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason for a doubt: an unknown order of two terms in the value, such as l < r_0, or else numbers that
-    contradict the sentence."""
+    """Return the reason why a sentence is not confirmed. If the order of two terms in the value is unknown, the reason
+    is this order, such as l < r_0; otherwise it is that numbers do not always agree with the sentence."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]

@@ -48,18 +48,18 @@ class Step:
 
     A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
     coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
-    the second root of an equation that has only one root here. `names` are the names in the lines that earlier steps
-    introduced, with their values. `motion` are the values of rates that follow from the equations of motion; a line
-    that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law in the code,
-    such as `derive/mechanics/rotation/vectors.py:120`.
+    the second root of an equation that has only one root here. `names` are the names that earlier steps introduced and
+    that occur in the lines, with their values. `motion` are the values of rates that follow from the equations of
+    motion; a line that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law
+    in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 
-    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the whole result, or the
-    key of the whole equation. `about` means that the step is derived from such a limit or series, so its symbol only
-    approximately equals its first line.
+    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
+    key of the exact equation. `about` is true if the step is derived from such a limit or series; the symbol of the
+    step then only approximately equals the first line.
 
     Four fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
-    uses, and `law_in` are the names of those that state its law. `prepares` is the theorem that a page states before
-    the step because later steps use this theorem.
+    uses, and `law_in` are the names of the theorems that state the law of the step. `prepares` is the theorem that a
+    page states before the step because later steps use this theorem.
     """
 
     key: str
@@ -100,7 +100,7 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the less certain of two grades: the grade of the least certain line, and that of the most certain
+        """Return the less certain of two grades: the grade of the least certain line, and the grade of the most certain
         route. All lines must hold, but one route is enough."""
         lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
         routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
@@ -124,7 +124,7 @@ class Witness(Fact, ABC):
 
     @abstractmethod
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
-        """Test numerically whether a step is true of the motion; return None if there is no test for it."""
+        """Test numerically whether a step is true of the motion; return None if this step has no test."""
 
 
 F = TypeVar("F", bound=Fact)
@@ -156,7 +156,7 @@ class Quantity:
         """Whether the value is exact: it neither is a limit or a series nor is derived from one."""
         return self.step.exact
 
-    @cached_property  # cached, since other quantities read it many times for their parents
+    @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
         """Return the coordinates of the step and of its parents, with their kinds. The value may depend on these
         coordinates."""
@@ -260,7 +260,7 @@ def value_behind(given: Any) -> Any:
 
 def approximations_among(*given: Any) -> list[Quantity]:
     """Return those arguments of a verb that are approximate quantities. A result that depends on such an argument is
-    approximate too."""
+    itself approximate."""
     return [each for each in given if isinstance(each, Quantity) and not each.exact]
 
 

@@ -19,7 +19,7 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It agrees with no other value."""
+    """The value of a property in which united subjects differ. This value agrees with no value."""
 
     SEVERAL = "several"
 
@@ -46,7 +46,8 @@ class Subject:
     place: Any = None
 
     def with_more(self, other: Subject) -> Subject:
-        """Return the properties of the other subject, completed by those that only this subject has."""
+        """Return a subject with the properties of the other subject and, where the other has none, the properties of
+        this subject."""
         both = zip(self._all, other._all, strict=True)
         return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
 

@@ -19,13 +19,13 @@ def check_symbol(key: str, symbol: Any, result: Any) -> None:
         if not is_notation(str(letter.name)):
             raise Unverified(Complaint("unverified", f"`{key}`: {letter.name} is not a letter with indices"))
     shape = getattr(result, "shape", None)
-    if isinstance(symbol, MatrixBase) and symbol.shape != shape:  # each of several results has a name
+    if isinstance(symbol, MatrixBase) and symbol.shape != shape:  # several results need several names
         raise Unverified(Complaint("unverified", f"`{key}`: {symbol} does not name each of its results"))
     if isinstance(symbol, MatrixExpr) and tuple(symbol.shape) != shape:
         what = "a vector" if symbol.shape[1] == 1 else "a tensor"
-        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} is the letter of {what}, but the result is not"))
+        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} denotes {what}, but the result is not one"))
     if isinstance(symbol, Symbol) and shape is not None:
-        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} is the letter of a number, but the result is not"))
+        raise Unverified(Complaint("unverified", f"`{key}`: {symbol} denotes a number, but the result is not one"))
 
 
 def is_notation(name: str) -> bool:

@@ -35,7 +35,7 @@ PAIRS, HALVINGS = 4, 10  # pairs of points, one on each side of a border; number
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of (left - right)
-SMALL = Rational(1, 10**20)  # a smaller ratio of imaginary to real part is a rounding error
+SMALL = Rational(1, 10**20)  # a ratio of imaginary to real part below this number is a rounding error
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
@@ -120,7 +120,8 @@ def signs_of(value: Expr, *conditions: Relation) -> set[int | None]:
 
 
 def sign_found(value: Expr) -> int | None:
-    """Return the sign that a value has at all trial numbers that the assumptions allow; None if the sign varies.
+    """Return the sign that a value has at all trial numbers that the assumptions allow; None if there is no common
+    sign.
 
     The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used. Points at
     which the value is too large or too small to compute, such as exp(-r/a) for r = 900 a, do not count.
@@ -174,8 +175,8 @@ def decides(condition: Relation, points: Iterable[Point]) -> bool:
 def just_where(
     conditions: Sequence[Relation], is_so: Callable[[Point], bool | None], letters: Iterable[Any], *given: Relation
 ) -> bool:
-    """Whether a statement is true at exactly those points where all conditions hold, including points close to the
-    borders of the conditions.
+    """Whether a statement is true at trial points where all conditions hold and false at all other trial points. Points
+    close to the border of each condition are also tested.
 
     is_so     as for `everywhere`
     letters   symbols of the statement

@@ -77,7 +77,7 @@ class GivenBody(Questions):
 
     body: BodyKeys | None = key("the body", BODY)
     bodies: Mapping[Word, OneOfManyKeys] = key(
-        "several bodies by name, in place of one", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
+        "several bodies by name, in place of `body`", mapping_of(record_of(OneOfManyKeys, "a body", "a mapping"))
     )
     results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
 
@@ -150,8 +150,8 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return one body with its points and axes; a point or axis that the body does not specify is that for all
-    bodies."""
+    """Return one body with its points and axes. If the body does not specify a point or an axis, the value for all
+    bodies is used."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -203,7 +203,7 @@ class BodyAnswers(Answers[Asked]):
         return self._of_mass("mass")
 
     def _of_mass(self, name: str) -> Quantity:
-        """Return the step that derives the density or the mass; reject the name if its value is given."""
+        """Return the step that derives the density or the mass; reject a request for a value that is given."""
         if isinstance(self.body, PointMass) or name == "density" and isinstance(self.body, Composite):
             self._has_no(name)
         found = self.body.density

@@ -145,7 +145,7 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
 
 
 def _check_together(written: RotationKeys, faults: Faults) -> None:
-    """Report keys that exclude each other, and a key that is missing."""
+    """Report keys that exclude each other, and required keys that are missing."""
     there = written.values_at.keys()
     for first, second in EXCLUDE_EACH_OTHER:
         if {first, second} <= there:
@@ -209,7 +209,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         if described.body is not None:
             drawn_turning(self, "angle_between" in asked)
         elif described.about in ("centre", CENTRE_OF_MASS):
-            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both have been derived
+            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both answers have been derived
             drawn_free(self, turns and not (described.rate or described.start or described.torque))
         return found
 

@@ -90,7 +90,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def _state_static_friction(self) -> None:
-        """State the conditions under which static friction suffices, if the answers do not find them."""
+        """State the conditions under which static friction suffices, unless steps of the answers derive these
+        conditions."""
         of = {each.force.name: each for each in self.system.constraints}
         for part in self.described.acting:
             if "static" in part.named:
@@ -371,9 +372,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Return the function that is stationary at equilibria.
 
         In a system without constraints, this function is the effective potential energy if some but not all momenta are
-        constant, or if the only coordinate is driven. In all other systems of bodies, it is the Lagrangian if a
-        coordinate is driven or forces are given; if neither, it is the potential energy. If the Lagrangian is given, it
-        is the effective potential energy if some but not all momenta are constant, and otherwise the Lagrangian.
+        constant, or if the only coordinate is driven. In all other systems of bodies, this function is the Lagrangian
+        if a coordinate is driven or forces are given, and otherwise the potential energy. If the problem gives the
+        Lagrangian, this function is the effective potential energy if some but not all momenta are constant, and
+        otherwise the Lagrangian.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
@@ -431,7 +433,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        """Whether constant forces may shift the equilibrium; a driving force, which depends on the time, does not."""
+        """Whether given forces that do not depend on the time may shift the equilibrium. For a given Lagrangian the
+        answer is yes, unless the Lagrangian contains the time."""
         if depends_on_time(self.lagrangian.value):
             return False
         pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []

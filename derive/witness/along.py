@@ -23,12 +23,13 @@ OF_MOTION = frozenset(
         "hamilton.rate_by_momenta",
     ]
 )
-PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # a result of these rules holds at each instant if its inputs do
+PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # their results hold at each instant if their inputs do
 CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 
 def holds_along(step: Quantity) -> bool:
-    """Whether the statement of a step is true at each instant of a motion."""
+    """Whether a step states something about each instant of a motion, according to its rule and the rules of its
+    parents."""
     if step.step.rule in OF_MOTION:
         return True
     if step.step.rule not in PASSED_ON:
@@ -86,7 +87,7 @@ def _fits_together(claim: Claim) -> Verdict | None:
 
 
 def kinetic_energy(claim: Claim) -> Verdict | None:
-    """Test whether the value is half the sum of m v . v."""
+    """Test whether the value is half the sum of m v . v over all particles of the system."""
     count = 0
     for trial in claim.trials():
         formulas = trial.formulas([claim.value])
@@ -126,6 +127,6 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
 
 
 def _terms(residual: Expr) -> list[Expr]:
-    """The terms of a residual, whose sizes are the scale of the comparison."""
+    """The terms of a residual; the sizes of these terms are the scale of the comparison."""
     terms = list(residual.args) if residual.is_Add else [residual]
     return [part for term in terms for part in ((term.args) if term.is_Add else [term])]

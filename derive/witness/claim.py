@@ -48,7 +48,7 @@ class Claim:
 
     @property
     def is_approximate(self) -> bool:
-        """Whether the step or one of its ancestors is a limit or a series, which no motion satisfies exactly."""
+        """Whether the step or one of its ancestors belongs to a limiting case, which no motion satisfies exactly."""
         return any(each.step.rule in APPROXIMATE for each in self.quantity.ancestors())
 
     @property
@@ -89,8 +89,8 @@ class Claim:
 
     @property
     def functions_given(self) -> dict[Symbol, Expr]:
-        """The formulas that were substituted for prescribed functions, and their derivatives for the rates; raises
-        `NotComputable` if there are two formulas for one function."""
+        """Prescribed function -> the formula that was substituted for it, and rate -> the derivative of this formula.
+        Raises `NotComputable` if two formulas were substituted for one function."""
         found: dict[Symbol, Expr] = {}
         for each in self.givens:
             function, value = each.target, explicit(each.value)
@@ -146,8 +146,8 @@ class Claim:
                 return
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
-        """States of the motion, each with its accelerations and multipliers; states that do not determine these are
-        left out."""
+        """States of the motion, each with its accelerations and multipliers. A state that does not determine its
+        accelerations is left out."""
         for which in range(STATES):
             try:
                 state = trial.state(self.states_given if given is None else given, which)

@@ -1,4 +1,5 @@
-"""Whether a constraint force can enforce a condition: its gradient must not vanish where the condition holds.
+"""Whether a constraint force can enforce a condition: the gradient of the condition must not vanish where the condition
+holds.
 
 For example, the gradient of (x - y)^2 vanishes where x = y, so no multiple of this gradient is a constraint force.
 """
@@ -13,7 +14,7 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Trial
 
 TRIALS, STATES = 2, 3
-NO_GRADIENT = 1e-4  # symbols have values of order one, and a double zero is found with an error of 1e-5
+NO_GRADIENT = 1e-4  # a smaller gradient counts as zero, since a double zero is found with an error of 1e-5
 
 
 def without_gradient(of: Description) -> list[int]:

@@ -182,8 +182,8 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Each mass with two places, both its own position; each second moment with two places, the body axes i and
-        k."""
+        """Yield each mass with its position twice, and each second moment with the two body axes to which it
+        belongs."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):
@@ -192,7 +192,7 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix, and the generalized forces of the weights, minus mass times acceleration at constant
+        """The mass matrix, and the generalized forces of the weights minus those of mass times acceleration at constant
         rates."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
@@ -343,7 +343,7 @@ class Dynamics:
 
 
 def jacobian_of(body: int | None, place: Place, at: Placed) -> Reals:
-    """The Jacobian of the position itself, or of the particle of a body at this position."""
+    """The Jacobian of a position or, if a body is given, of the particle of this body at the position."""
     return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
 
 

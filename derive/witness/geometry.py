@@ -43,8 +43,8 @@ class State:
 class Place:
     """A vector and its derivatives.
 
-    jacobian   with respect to the coordinates
-    velocity   with respect to time
+    jacobian   the first derivatives with respect to the coordinates
+    velocity   the first derivative with respect to time
     turning    the second derivative with respect to time, at constant rates
     """
 

@@ -110,7 +110,7 @@ def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Re
 
 
 def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], size: int) -> list[Reals]:
-    """The unit vector of the impulse; the unit vectors of all axes if the colliding objects stay together."""
+    """The unit vector along the impulse; if the colliding objects stay together, the unit vectors of all axes."""
     if not normal:
         return list(np.eye(size))
     components = np.array([trial.value(c.subs(dict(at))) for c in normal])
@@ -118,7 +118,7 @@ def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], 
 
 
 def testimony(of: Impact, quantity: Quantity) -> Verdict | None:
-    """Whether a rate after the impact, or an impulse, agrees with the momentum balance."""
+    """Test whether a rate after the impact, or an impulse, agrees with the momentum balance."""
     symbol = quantity.symbol
     blueprint = _blueprint(of)
     claim = Claim(quantity, Judged(quantity.value), quantity.step.outcome, blueprint)

@@ -64,7 +64,7 @@ def testimony(
     momenta: Mapping[Symbol, Symbol],
     assumed: Sequence[Relation],
 ) -> Verdict | None:
-    """The verdict on a step; None if a formula cannot be computed, so that nothing was tested."""
+    """The verdict on a step; None if nothing was tested, for example because the step is approximate."""
     try:
         claim = Claim(quantity, judged, outcome, blueprint(description), momenta, tuple(assumed))
         if functions := claim.functions_given:

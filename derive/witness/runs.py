@@ -25,11 +25,11 @@ from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, T
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
-MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
+MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with a perhaps short event
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # sets of numbers that are tried, because the numbers may decide whether a motion reaches a position
-NUDGE = 2e-3  # a motion begins at this fraction of its distance, because its start may be an equilibrium
+MANY = 6  # sets of numbers that are tried: whether a motion reaches a position may depend on the numbers
+NUDGE = 2e-3  # a motion begins at this fraction of its distance, because its given start may be an equilibrium
 Event = Callable[[State], float]
 
 
@@ -87,7 +87,7 @@ def followed(
 
 
 def speed(claim: Claim) -> Verdict | None:
-    """Test the square of the rate in each state that the motion from the given start reaches."""
+    """Test the formula for the square of the rate in the states of the motion from the given start."""
     inputs = claim.judged.inputs
     q = inputs.get("coordinate")
     if not isinstance(q, Symbol) or q not in claim.blueprint.coordinates:
@@ -118,7 +118,8 @@ def _without_repeats(given: Sequence[Given]) -> list[Given]:
 
 
 def leaves(claim: Claim) -> Verdict | None:
-    """Test whether the motion from the start reaches the stated position, and whether the force vanishes there."""
+    """Test whether the force vanishes at the stated position, and not before, in the motion from the start. If the step
+    states that the motion turns back, test whether the force never vanishes."""
     inputs = claim.judged.inputs
     if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
         return None
@@ -189,7 +190,8 @@ def _margin(claim: Claim) -> Expr | None:
 
 
 def slips(claim: Claim) -> Verdict | None:
-    """Test whether |F| <= mu_s N exactly where a condition holds; or the place where a motion first violates this."""
+    """Test whether |F| <= mu_s N exactly where the stated condition holds. If the step states where the body begins to
+    slip, test instead whether the motion first violates |F| <= mu_s N there."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")
@@ -205,7 +207,7 @@ def slips(claim: Claim) -> Verdict | None:
                 continue
             states_it = HOLDS[result.operator](difference) != (claim.outcome == "cannot")
             if states_it != (room > 0):
-                return claim.refuted("static friction in the described motion contradicts it", trial, state)
+                return claim.refuted("static friction in the motion contradicts the condition", trial, state)
             count += 1
     return seen(count, "states")
 
@@ -227,7 +229,8 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
-    """The given state; if the motion from it would move away from the stated position, all its rates are reversed."""
+    """Return the state, with all rates reversed if the motion from this state would move away from the stated
+    position."""
     response = trial.dynamics.response(state)
     changing = float(trial.formulas([unknown]).rate_at(state, response)[0])
     return replace(state, v=-state.v) if changing * sign < 0 else state
@@ -235,12 +238,13 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-BEGUN = 0.03  # the motion before a flight begins at this fraction of its way, because its start may be an equilibrium
-FLOWN = 1e-4  # accuracy to which a simulated flight and a formula agree; the flight begins at a simulated event
+BEGUN = 0.03  # the motion before a flight begins at this fraction of its distance: its start may be an equilibrium
+FLOWN = 1e-4  # accuracy to which a simulated flight, which begins at a simulated event, and a formula agree
 
 
 def flight(claim: Claim) -> Verdict | None:
-    """Test a component of a free flight: the system is followed until its force vanishes, then without constraints."""
+    """Test a component of a free flight: the motion is simulated until the constraint force vanishes, then without
+    constraints."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
     for trial, start, free in _begun(claim, fact):
@@ -259,7 +263,8 @@ def flight(claim: Claim) -> Verdict | None:
 
 
 def landing(claim: Claim) -> Verdict | None:
-    """Test the time at which a free flight ends: the described system is followed without constraints until then."""
+    """Test the time at which a free flight ends: the flight is simulated without constraints until the particle meets
+    the surface."""
     fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
     x, y = claim.blueprint.of.particles[0].place
     if target is not None:
@@ -288,7 +293,7 @@ def landing(claim: Claim) -> Verdict | None:
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """Yield states in which the force of the constraint vanishes, and the dynamics of the system without constraints.
 
-    fact   the flight: where it begins, and the motion before
+    fact   the flight: the position where it begins, and the motion before it
     """
     q, end = fact.coordinate
     free = Blueprint(replace(claim.blueprint.of, conditions=()))
@@ -309,12 +314,13 @@ def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
 
 
 def _first_of(formulas: Formulas, trial: Trial | None = None) -> Event:
-    """An event at which the first formula vanishes; with a trial, the formula may contain multipliers."""
+    """An event at which the first formula vanishes; if a trial is given, the formula may contain multipliers."""
     return lambda here: float(formulas.at(here, None if trial is None else trial.dynamics.response(here))[0])
 
 
 def _time_to_turn(trial: Trial, start: State) -> float:
-    """A time of the size of the flight: the speed divided by the acceleration, or one unit of time."""
+    """A time of the order of the duration of the flight: the largest rate plus 0.3, but at most 1, in units with g of
+    order one."""
     return float(min(1.0, np.max(np.abs(start.v)) + 0.3))
 
 
@@ -389,7 +395,7 @@ TIMED = 1e-7  # accuracy of the period of a simulated motion
 def _shrinks(series: Expr, amplitude: Symbol) -> float:
     """The largest allowed ratio of the error at half amplitude to the error at full amplitude.
 
-    This ratio is smaller than (1/2)^n, where n is the highest power of the series.
+    The result is (1/2)^(n + 1/2), where n is the highest power in the series.
     """
     highest = series.as_poly(amplitude).degree()
     return float(0.5 ** (highest + 0.5))

@@ -1,8 +1,8 @@
 """Tests of equilibria and of small motions about them: stability, frequencies and decay.
 
 The described system is linearised numerically on the manifold of its constraints, at constant momenta of its cyclic
-coordinates. The eigenvalues s of the linear motion decide: a displacement grows if Re s > 0, and oscillates if
-s = i omega.
+coordinates. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some s) or
+oscillates (s = i omega).
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
 Dynamics*, section 6.
@@ -26,14 +26,14 @@ from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
-SMALL = 1e-3  # size of a displacement; differences give derivatives accurate to fourth order
-SURE = 1e-3  # an eigenvalue below this fraction of the largest counts as zero
-FREQUENCY = 1e-5  # accuracy to which squares of frequencies agree
-STAYS = 1e-7  # an acceleration below this counts as zero, with numbers of order one
-DOUBLE = 1e-4  # accuracy to which exponents agree: nearly equal exponents are less accurate
+SMALL = 1e-3  # step of the finite differences for the derivatives; their error is of the order of SMALL**4
+SURE = 1e-3  # Re s counts as zero below this fraction of the largest |s|, and |s|**2 below this fraction of its square
+FREQUENCY = 1e-5  # relative accuracy of squared frequencies; the tests allow ten times this value
+STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; the tests allow ten times this value
+DOUBLE = 1e-4  # relative accuracy of eigenvalues s; low, because two nearly equal eigenvalues are less accurate
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # sets of numbers that are tried on each side of a condition
+DRAWS = 8  # number of trials that satisfy a condition, and number of trials that violate the condition
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 
@@ -43,7 +43,7 @@ class Neighbourhood:
     """States near an equilibrium, described by as many coordinates as there are degrees of freedom.
 
     free     the indices of the coordinates that may be displaced: all except cyclic coordinates with known momenta
-    momenta  index of such a cyclic coordinate -> its momentum
+    momenta  index of each cyclic coordinate with a known momentum -> this momentum
     """
 
     trial: Trial
@@ -52,7 +52,8 @@ class Neighbourhood:
     momenta: Mapping[int, float]
 
     def basis(self) -> Reals:
-        """Directions that the constraints allow, as columns whose rows are the free coordinates."""
+        """The directions in which the constraints allow displacements: one column for each direction, one row for each
+        free coordinate."""
         _, by_rates = self.trial.dynamics.gradients(self.state)
         if not len(by_rates):
             return np.eye(len(self.free))
@@ -61,8 +62,11 @@ class Neighbourhood:
         return np.array(rows[rank:].T)
 
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
-        """The state with the displacements u along the basis and their rates w, changed so that it satisfies the
-        constraints or has the given momenta."""
+        """The state with the displacements u along the basis and the rates w of these displacements.
+
+        If the system has constraints, the result is the nearest state that satisfies the constraints. Otherwise the
+        cyclic coordinates get the rates that follow from their momenta.
+        """
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
         v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
@@ -92,9 +96,10 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The neighbourhood of an equilibrium.
+    """The states near the equilibrium at `place`, which gives values of coordinates.
 
-    The result is None if a system with constraints has cyclic coordinates, or if `place` has an unknown coordinate.
+    The result is None if the system has both constraints and cyclic coordinates with known momenta, or if a symbol in
+    `place` is not a coordinate of the system.
     """
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
@@ -133,20 +138,20 @@ def rest(claim: Claim) -> Verdict | None:
         try:
             response = near.trial.dynamics.response(near.state)
         except Singular:
-            if near.momenta:  # the coordinates are singular here, but the reduced coordinates are not
+            if near.momenta:  # a cyclic coordinate may be singular here, as an angle at r = 0 is: no test
                 continue
-            if _is_balanced(near):  # a massless part has no defined acceleration, but is at rest if no force acts
+            if _is_balanced(near):  # the acceleration of a massless part is undefined, but the part stays at rest
                 count += 1
                 continue
-            return claim.refuted("the accelerations are not determined there", near.trial, near.state)
+            return claim.refuted("the accelerations at this equilibrium are not determined", near.trial, near.state)
         if np.max(np.abs(response.a[list(near.free)])) > STAYS * 10:
-            return claim.refuted("the described system does not stay there", near.trial, near.state)
+            return claim.refuted("the described system does not stay at this equilibrium", near.trial, near.state)
         count += 1
     return seen(count, "states")
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether no generalized force acts at rest; false for a system with conditions."""
+    """Whether all generalized forces vanish in this state of rest; False if the system has constraints."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)
@@ -158,8 +163,9 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """Test whether a small displacement stays small or grows, as stated. If the step states a condition for stability,
-    the displacement must stay small where the condition holds, and grow where the condition does not hold."""
+    """Test the stability that the step states: small displacements stay small if the equilibrium is stable, and some
+    small displacement grows if it is unstable. If the step states a condition for stability, the equilibrium must be
+    stable for numbers that satisfy the condition, and unstable for numbers that violate the condition."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -196,13 +202,13 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """The refutation of the statement; otherwise the number of states (0 or 1) that confirm the statement."""
+    """Return the refutation of the stated stability; otherwise the number of equilibria (0 or 1) that were tested."""
     try:
         growth = near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
-        if near.momenta:  # the coordinates are singular here, but the reduced coordinates are not
+        if near.momenta:  # a cyclic coordinate may be singular here, as an angle at r = 0 is: no test
             return 0
-        return claim.refuted("the accelerations are not determined near this state", near.trial, near.state)
+        return claim.refuted("the accelerations near this equilibrium are not determined", near.trial, near.state)
     size = max(float(np.max(np.abs(growth), initial=0.0)), 1e-3)
     leaves = bool(np.max(growth.real) > SURE * size)
     at_zero = bool(np.min(np.abs(growth), initial=size) < np.sqrt(SURE) * size)
@@ -223,7 +229,8 @@ def _around(claim: Claim) -> Around | None:
 
 
 def frequency(claim: Claim) -> Verdict | None:
-    """Test whether a small displacement oscillates with this frequency, or grows at this rate."""
+    """Test whether some small displacement oscillates with the stated frequency. If the outcome of the step says that a
+    displacement grows, test whether some small displacement grows at the stated rate."""
     around = _around(claim)
     if around is None or claim.outcome == "neutral":
         return None
@@ -237,7 +244,7 @@ def frequency(claim: Claim) -> Verdict | None:
         wanted = stated if grows else -stated
         size = max(float(np.max(np.abs(squares), initial=0.0)), 1e-3)
         if np.min(np.abs(squares - wanted), initial=np.inf) > FREQUENCY * 10 * size:
-            return claim.refuted("small motions of the described system have other frequencies", near.trial, near.state)
+            return claim.refuted("no small motion of the described system has this frequency", near.trial, near.state)
         count += 1
     return seen(count, "equilibria")
 
@@ -248,7 +255,8 @@ def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
 
 
 def damped(claim: Claim) -> Verdict | None:
-    """Test whether a small displacement decays at this rate, or oscillates with this frequency while it decays."""
+    """Test whether some small displacement decays or grows at the stated rate, or has both the stated frequency and the
+    stated rate of decay."""
     around = _around(claim)
     if around is None:
         return None
@@ -260,7 +268,7 @@ def damped(claim: Claim) -> Verdict | None:
         if growth is None or not np.isfinite(stated):
             continue
         size = DOUBLE * max(float(np.max(np.abs(growth))), 1e-3)
-        if claim.outcome == PAIR:  # the mean of two exponents, which are real or conjugate to each other
+        if claim.outcome == PAIR:  # minus the stated value is the mean of two s, both real or complex conjugate
             found = (growth[:, None] + growth[None, :])[~np.eye(len(growth), dtype=bool)] / 2
             wanted = -stated
         else:
@@ -269,7 +277,7 @@ def damped(claim: Claim) -> Verdict | None:
                 {DECAYS: -stated, GROWS: -stated, OVERDAMPED: stated - decay}.get(claim.outcome, 1j * stated - decay),
             )
         if np.min(np.abs(found - wanted), initial=np.inf) > size:
-            return claim.refuted("small motions of the described system decay differently", near.trial, near.state)
+            return claim.refuted("no small motion of the described system decays at this rate", near.trial, near.state)
         count += 1
     return seen(count, "equilibria")
 
@@ -302,14 +310,14 @@ def motion(claim: Claim) -> Verdict | None:
         size = max(float(np.max(np.abs(found))), float(np.max(np.abs(begin))), 1e-3)
         if not np.max(np.abs(stated - found)) <= FREQUENCY * 10 * size:
             return claim.refuted(
-                "a small motion of the described system from this start is a different one", near.trial
+                "from the stated initial values, the described system has a different small motion", near.trial
             )
         count += 1
     return seen(count, "motions")
 
 
 def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
-    """The initial displacements and rates that the sentence states; all other initial values are zero."""
+    """The initial displacements and rates that the sentence states; None if one of them is not a relation."""
     told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
     if not all(isinstance(each, Relation) for each in told):
         return None
@@ -317,14 +325,16 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether the accelerations vanish in this state at two different times, so that the state is an equilibrium at all
-    times."""
+    """Whether the accelerations in this state vanish at two times, so that it counts as an equilibrium at all times."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
-    """The eigenvalues, which are cached for all frequencies of one equilibrium; None if they cannot be computed."""
+    """The eigenvalues of the linear motion, or None if they cannot be computed.
+
+    They are computed once for each equilibrium and cached, because the tests of all frequencies use them.
+    """
     known, letters = near.trial.blueprint.known, sorted(near.trial.blueprint.letters, key=str)
     here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
     key = (tuple(near.trial.numbers[letter] for letter in letters), near.free, *here)

@@ -1,7 +1,7 @@
-"""Formulas as a list of numerical operations, so that they can be differentiated by complex steps.
+"""Formulas as lists of numerical operations on complex numbers; complex steps give the derivatives of the formulas.
 
-Equal parts of formulas are computed once. Operations whose arguments are all constant are evaluated when numbers are
-bound to the symbols; all other operations are evaluated for a whole array of points at a time.
+Equal parts of formulas are computed once. Operations whose arguments are all constant are evaluated when numbers
+replace the symbols; all other operations are evaluated for a whole array of points at a time.
 
 Source: Squire, Trapp, *SIAM Review* 40 (1998), 110 (derivatives by complex steps).
 """
@@ -46,11 +46,11 @@ from derive.algebra.ranges import POSITIVE, range_of
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
 
-LARGEST = 20_000  # largest number of operations on one tape
+LARGEST = 20_000  # largest number of operations, symbols and numbers in one `Tape`
 
 
 class NotComputable(Exception):
-    """Reports a formula with a function that the witness cannot evaluate, or with a symbol without a number."""
+    """Reports that the witness cannot compute a value, for example of a function that is not in `FUNCTIONS`."""
 
 
 def _absolute(x: Any) -> Any:
@@ -58,7 +58,7 @@ def _absolute(x: Any) -> Any:
 
 
 def _angle(y: Any, x: Any) -> Any:
-    """The angle of a vector, with the derivative that a complex step needs."""
+    """The angle of the vector (x, y). Its imaginary part is the derivative of the angle along a complex step."""
     whole = np.arctan2(np.real(y), np.real(x))
     square = np.real(x) ** 2 + np.real(y) ** 2
     return whole + 1j * (np.imag(y) * np.real(x) - np.imag(x) * np.real(y)) / square
@@ -83,17 +83,18 @@ FUNCTIONS: Mapping[Any, Callable[..., Any]] = {
 
 
 def _root_in_order(number: int, *coefficients: Any) -> Any:
-    """At each point, root number `number`, in ascending order, of a polynomial whose roots are all real."""
+    """Return, at each point, one root of a polynomial whose roots are all real; root 1 is the smallest."""
     rows = np.stack(np.broadcast_arrays(*map(np.asarray, coefficients)), axis=-1)
     found = [np.sort(np.roots(np.real(row)).real)[number - 1] for row in rows.reshape(-1, rows.shape[-1])]
     return np.asarray(found, dtype=complex).reshape(rows.shape[:-1])
 
 
 def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
-    """A definite function of the time that replaces a prescribed function in its range, or a derivative of it.
+    """Return a definite function of time that replaces a prescribed function X(t) or one of its derivatives.
 
-    It is c + A sin(w t + p) + B sin(v t + q), with numbers that the name determines. No equation in mechanics has this
-    function as a solution by accident, and its derivatives are exact.
+    X(t) is replaced by c + A sin(w t + p) + B sin(v t + q). The numbers follow from the name of X, and the values of
+    the function are in the range of X. No equation in mechanics has this function as a solution by accident, and its
+    derivatives are exact.
     """
     own, source = prescribed.function, Random(crc32(prescribed.function.name.encode()))
     known = range_of(own) or (POSITIVE if own.is_positive else None)
@@ -113,8 +114,8 @@ def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
 class Tape:
     """Formulas as operations; each operation uses the results of earlier operations.
 
-    inputs   the symbols whose values vary from point to point; all other symbols are constants, except prescribed
-    functions, which are `tested_by` a definite function of the time
+    inputs   the symbols whose values vary from point to point
+    All other symbols are constants, except prescribed functions: `tested_by` gives a definite function for each.
     """
 
     def __init__(self, formulas: Sequence[Any], inputs: Sequence[Symbol]):
@@ -130,7 +131,7 @@ class Tape:
         return {node for node in self._nodes if isinstance(node, Symbol)} - set(self.inputs)
 
     def bound(self, numbers: Mapping[Symbol, float]) -> Compiled:
-        """The operations that remain when each constant has its number."""
+        """Substitute a number for each constant, and return the operations that remain."""
         values: list[complex | None] = []
         varying: list[tuple[int, Callable[..., Any], tuple[int, ...]]] = []
         inputs = set(self._of_inputs)
@@ -207,7 +208,7 @@ class Tape:
 
 
 class Compiled:
-    """Operations with numbers bound to the constants, to be evaluated at many points at once."""
+    """Operations in which numbers replace the constants, and which are evaluated at many points at once."""
 
     def __init__(
         self,

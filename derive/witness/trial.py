@@ -1,7 +1,8 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-The seed of a number is the name of its symbol and the number of the trial. So every run tests all claims about one
-system with the same numbers. The numbers are in the ranges of their symbols and satisfy the assumptions of the page.
+The seed of a random number consists of the name of its symbol, the index of the trial and a count of the attempts.
+So every run tests all claims about one system with the same numbers. The numbers are in the ranges of their symbols and
+satisfy the assumptions of the page.
 """
 
 from __future__ import annotations
@@ -23,10 +24,10 @@ from derive.witness.dynamics import Blueprint, Dynamics, Response
 from derive.witness.geometry import STEP, Reals, State
 from derive.witness.tape import NotComputable, Tape
 
-SALTS = 60  # sets of numbers that are tried until one satisfies the assumptions
+SALTS = 60  # largest number of sets of numbers that are tried to satisfy the assumptions
 ROUNDS = 25  # largest number of iterations of Newton's method
 EXACT = 1e-10
-ATTEMPTS = 5  # states that are drawn before the search fails
+ATTEMPTS = 5  # largest number of random states that are tried to satisfy the conditions and assumptions
 
 HOLDS = {
     "=": lambda x: abs(x) < EXACT,
@@ -56,7 +57,7 @@ class Given:
 
 
 class Drawn(Mapping[Symbol, float]):
-    """A number for each symbol: the number in `fixed`, or else a random number that the symbol's name determines."""
+    """A number for each symbol: the number in `fixed`, or else the random number of `drawn`."""
 
     def __init__(self, trial: int, salt: int = 0, fixed: Mapping[Symbol, float] | None = None):
         self.trial, self.salt, self.fixed = trial, salt, dict(fixed or {})
@@ -75,7 +76,7 @@ class Drawn(Mapping[Symbol, float]):
 
 
 def drawn(letter: Symbol, trial: int, salt: int = 0, wide: float = 1.0) -> float:
-    """A random number of order one that is allowed for the symbol."""
+    """A random number that the symbol may have; of order `wide`, unless the symbol has a range or is an integer."""
     source = Random(crc32(f"{letter.name} {trial} {salt}".encode()))
     known = range_of(letter)
     if known is not None:
@@ -98,7 +99,7 @@ def _fraction(number: float) -> Any:
 class Trial:
     """A description with one set of numbers.
 
-    letters   given values of symbols, such as `m = 2 M`; values of coordinates and rates are given for a state instead
+    letters   given values of constants, such as `m = 2 M`; `state` takes given values of coordinates and rates
     """
 
     def __init__(
@@ -146,7 +147,7 @@ class Trial:
     # --- states -----------------------------------------------------------------------------------------------------
 
     def states(self, count: int, given: Sequence[Given] = (), still: bool = False) -> Iterator[State]:
-        """States that satisfy the conditions and the given values; raises `Contradiction` if there are none."""
+        """States that satisfy the conditions and the given values; raises `Contradiction` if none is found."""
         for i in range(count):
             yield self.state(given, i, still)
 
@@ -163,7 +164,7 @@ class Trial:
         raise last
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state; if `wide` is small, its values are close to zero unless they are positive or have a range."""
+        """A random state. A small `wide` makes all rates small, and all coordinates without a range or a sign."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)
@@ -175,8 +176,11 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Project a state onto the conditions and given values by the smallest changes, first of coordinates, then of
-        rates."""
+        """Return a state near `state` that satisfies the conditions and the given values.
+
+        Newton's method, with the smallest changes, finds the coordinates and, where needed, the time. Then it finds
+        the rates.
+        """
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
         given = [g for g in given if g.target not in self.momenta]
@@ -242,11 +246,11 @@ class Trial:
         raise Contradiction(of_rates=True)
 
     def kept_at(self, state: State) -> State:
-        """The nearest state that satisfies the conditions."""
+        """A state near this state that satisfies the conditions."""
         return self._projected(state, [])
 
     def with_momenta(self, state: State, momenta: Mapping[int, float]) -> State:
-        """The state with the rates of cyclic coordinates that these momenta require."""
+        """The state with these momenta of cyclic coordinates; only the rates of these coordinates are changed."""
         if not momenta:
             return state
         rows = list(momenta)
@@ -304,7 +308,7 @@ class Formulas:
         self._bound = self._tape.bound(trial.numbers)
 
     def at(self, state: State, response: Response | None = None) -> Reals:
-        """The values in a state; without a response, accelerations and multipliers count as zero."""
+        """The values of the formulas in a state; if `response` is None, accelerations and multipliers count as zero."""
         return np.array([_real(x) for x in self._values(state, response)])
 
     def complex_at(self, state: State) -> complex:
@@ -319,8 +323,8 @@ class Formulas:
         return self._bound(point[:, None])[:, 0]
 
     def rate_at(self, state: State, response: Response) -> Reals:
-        """The time derivatives of the values along the motion; the values may depend on coordinates, rates and time
-        only."""
+        """The time derivatives of the formulas along the motion. The formulas must not contain accelerations,
+        multipliers or momenta."""
         rows = len(self.trial.blueprint.multipliers)
         n = len(state.q)
         here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)

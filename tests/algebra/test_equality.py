@@ -435,7 +435,7 @@ def test_equations_that_say_different_things_are_told_apart_by_a_point() -> None
     verdict = equal(free, pushed)
     assert verdict.grade is Grade.REFUTED
     assert verdict.point
-    assert "where one is true, the other is off by" in verdict.detail
+    assert "where one equation is true, the sides of the other differ by" in verdict.detail
 
 
 # --- what is divided by, how points are drawn, and whatever comes ---

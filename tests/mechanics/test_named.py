@@ -109,7 +109,7 @@ def test_a_noun_that_does_not_keep_what_it_is_given_is_refused(wrong: str) -> No
     else:
         noun = checked(named_as(lambda amount, at, B: Charge(amount, at, (Integer(0),) * 2, (Integer(0),)), "charge"))
         given = (k, point(q + 0, 0), h)
-    with pytest.raises(Unverified, match="its result has another value"):
+    with pytest.raises(Unverified, match="its result lacks this value"):
         noun(*given)
 
 

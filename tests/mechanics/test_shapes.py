@@ -169,7 +169,7 @@ def test_a_wrong_size_is_refused() -> None:
     [
         (lambda: Annulus(2 * a, a, M), "an outer radius that is greater"),
         (lambda: ThickShell(a, a, M), "an outer radius that is greater"),
-        (lambda: Torus(a, 2 * a, M), "not greater than that of the ring"),
+        (lambda: Torus(a, 2 * a, M), "not greater than the radius of the ring"),
         (lambda: Arc(R, 2 * pi, M), "between zero and pi"),
         (lambda: Triangle(((ZERO, ZERO), (a, a), (2 * a, 2 * a)), M), "on one line"),
         (lambda: Tetrahedron(((0, 0, 0), (a, 0, 0), (0, b, 0), (a, b, 0)), M), "not in one plane"),

@@ -52,12 +52,12 @@ def called(letter: str) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("letter", "why"),
     [
-        ("theta", "the step `angle_between` also uses it for its result"),
+        ("theta", "the step `angle_between` also uses this symbol for its result"),
         ("omega_x", "it is a component of `omega`"),
         ("L_y", "it is a component of `L`"),
         ("I_yx", "it is an entry of `I`"),
         ("z_C", "but `r_C_z` looks the same in print: "),
-        ("rho", "the step `density` also uses it for its result"),
+        ("rho", "the step `density` also uses this symbol for its result"),
     ],
 )
 def test_a_letter_that_a_step_brings_in_is_not_free(letter: str, why: str, block: Known, tmp_path: Path) -> None:
@@ -76,7 +76,11 @@ def test_a_letter_that_looks_otherwise_is_free(letter: str, block: Known, tmp_pa
 
 @pytest.mark.parametrize(
     ("letter", "why"),
-    [("theta", "integrates over it"), ("I_1", "`principal_moments` also uses it for its result"), ("z_C", "`r_C_z`")],
+    [
+        ("theta", "integrates over it"),
+        ("I_1", "`principal_moments` also uses this symbol for its result"),
+        ("z_C", "`r_C_z`"),
+    ],
 )
 def test_a_letter_of_integration_is_not_free_either(letter: str, why: str, cone: Known, tmp_path: Path) -> None:
     (complaint,) = clashes(tmp_path, "cone", cone, called(letter))
@@ -99,7 +103,7 @@ def test_a_letter_that_is_only_declared_stands_for_nothing(slab: Known, tmp_path
 def test_a_letter_that_has_only_a_number_is_in_use(slab: Known, tmp_path: Path) -> None:
     edits = {"g: acceleration}": "g: acceleration, N: force}\nvalues: {N: 2 N}"}
     (complaint,) = clashes(tmp_path, "slab", slab, edits)
-    assert "the step `normal_force` also uses it for its result" in complaint.message
+    assert "the step `normal_force` also uses this symbol for its result" in complaint.message
 
 
 def test_a_letter_chosen_for_a_number_is_told_at_the_number(slab: Known, tmp_path: Path) -> None:

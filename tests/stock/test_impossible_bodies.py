@@ -125,7 +125,7 @@ IMPOSSIBLE = {
         body("{shape: thick_shell, inner: 3 cm, outer: 2 cm, mass: M}"), "an outer radius that is greater"
     ),
     "a ring that crosses its own axis": (
-        body("{shape: torus, radius: R, section: 3*R/2, mass: M}"), "not greater than that of the ring"
+        body("{shape: torus, radius: R, section: 3*R/2, mass: M}"), "not greater than the radius of the ring"
     ),
     "an arc of more than a circle": (
         body("{shape: arc, radius: R, half_angle: 200 deg, mass: M}"), "between zero and pi"

@@ -119,7 +119,7 @@ def test_the_tests_are_added_to_an_environment_without_them(checkout: Checkout) 
 def test_a_failed_installation_says_why_without_an_address_and_is_repaired(checkout: Checkout) -> None:
     code, out, err = checkout.set_up(FAILING="yes", PIP_NO_INDEX="yes")
     assert code == 1
-    failed = "error[install]: cannot install the packages, run `make` again to retry: "
+    failed = "error[install]: cannot install the packages (run `make` again to retry): "
     assert f"{failed}error: no route to (address)\ntrying pip instead of uv\n" in out
     assert err.startswith(failed + "ERROR: ")
     assert not checkout.has(".runtime")
@@ -166,7 +166,7 @@ def test_a_python_without_venv_is_told_with_the_mend(checkout: Checkout) -> None
     command = [sys.executable, "-P", "-c", hidden]
     run = subprocess.run(command, cwd=checkout.root, env={"PATH": "/nowhere"}, capture_output=True, text=True)
     assert run.returncode == 1
-    fix = "`apt install python3-venv`, or install uv, then `make` again"
+    fix = "run `apt install python3-venv` or install uv, and then run `make` again"
     assert run.stderr == f"error[venv]: python3 has no working venv module: {fix}\n"
 
 

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Voice:
-    """What is shown in addition to errors: with `quiet` nothing, with `verbose` each finished piece of work."""
+    """The messages of a build in addition to errors: with `quiet` there are none, and with `verbose` each finished
+    piece of work is shown."""
 
     quiet: bool = False
     verbose: bool = False
@@ -114,14 +115,15 @@ def _reported(report: Report, voice: Voice) -> int:
     pages = [shown_path(path) for path in report.changed if path.suffix in (".html", ".pdf")]
     said = f"wrote {_listed(pages)}" if pages else "no page changed" if report.derived else "up to date"
     if report.failed:
-        said = f"failed; {said if pages else 'earlier pages are as they were'}"
+        said = f"failed; {said if pages else 'earlier pages are unchanged'}"
     derived = f"derived {report.derived} of {report.problems} problems"
     voice.say(f"{report.set_id}: {derived}, {said} ({report.seconds:.1f} s)")
     return 1 if report.failed else 0
 
 
 def _listed(paths: Sequence[str], most: int = 12) -> str:
-    """Return the last paths, because these belong to the whole set, and the number of the others."""
+    """Return all paths if they are few, else the last paths, which belong to the whole set, and the number of the other
+    paths."""
     if len(paths) <= most:
         return ", ".join(paths)
     last = paths[-3:]

@@ -42,7 +42,7 @@ def diff(arguments: argparse.Namespace) -> int:
 
 
 def _found(arguments: argparse.Namespace, asked: str) -> Diff | SetDiff:
-    """Return the changes of a problem, or of a set if no problem of it is named."""
+    """Return the changes of the named problem; if only a set is named, return the changes of this set."""
     from derive.building import diff, set_diff
 
     root, detail, limit = root_of(arguments), arguments.detail, arguments.time_limit

@@ -53,8 +53,8 @@ def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
 
 
 def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Return the points and title of each problem. One worker reads all problems; if this worker fails, one worker
-    reads each half of the list."""
+    """Return the points and title of each problem. One worker reads all problems; if this worker fails, each half of
+    the list is read by a worker of its own."""
     from derive.building.headline import headline
     from derive.building.workers import done, job_of
 

@@ -109,7 +109,8 @@ class Functions(Grids):
             self.refuse("ambiguous", f"`{whole}` could be a function", letter.start, three[2].end, help_line)
 
     def named_as_a_whole(self, cursor: Cursor, first: int) -> Term | None:
-        r"""Read `\left(I_z\right)_{disc}` as the letter `I_z_disc`; return None where the subscript is a limit."""
+        r"""Read `\left(I_z\right)_{disc}` as the letter `I_z_disc`; return None if the brackets contain more than a
+        letter, or if the subscript is a limit."""
         inner = Cursor(cursor.tokens[first : cursor.at - 1], cursor.before.start)
         letter = self.read_letter(inner)
         at = cursor.at
@@ -214,7 +215,7 @@ class Functions(Grids):
             del self.undeclared[told:]
             unclear = isinstance(following, Term) and following.dimension == NUMBER
         if unclear:
-            message = f"`{self.shown(argument)}` may not be the whole argument"
+            message = f"`{self.shown(argument)}` could be only a part of the argument"
             self.refuse("ambiguous", message, argument.start, token.end, "put the argument in brackets")
 
     # -- given by the grammar ---------------------------------------------------------------------------------------
@@ -233,4 +234,4 @@ class Functions(Grids):
 
     @abstractmethod
     def raised_to(self, base: TermOrGrid, script: Argument, depth: int, cursor: Cursor) -> TermOrGrid:
-        """Return a value raised to its exponent."""
+        """Return the value raised to the exponent."""

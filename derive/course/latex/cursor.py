@@ -7,7 +7,7 @@ from derive.course.latex.tokens import Argument, Token
 
 class Cursor:
     """A sequence of tokens with a current position; `bars` states for each open bracket whether it is a bar `|`. If the
-    innermost is a bar, the next bar closes it."""
+    innermost open bracket is a bar, the next bar closes it."""
 
     def __init__(self, tokens: tuple[Token, ...], end: int):
         self.tokens = tokens

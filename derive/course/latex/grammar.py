@@ -55,16 +55,16 @@ class _Parts:
 
 
 class Formula(Brackets):
-    """Reads one text in one branch of its double signs: `\\pm` is + in the first and - in the second."""
+    """Reads one text in one branch of its double signs: `\\pm` is + in the first branch and - in the second branch."""
 
     branch = 0
-    branches = 1  # number of integrals on the current side
+    branches = 1  # number of branches of the current side: 2 if it has a double sign
 
     # -- chains ---------------------------------------------------------------------------------------------------
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
-        """Return the sides, each with its alternatives, branches, first and last token; and the mark before each side
-        or ""."""
+        """Return the sides and the relations before them. A side has its alternatives, its number of branches, its
+        first and its last token; the relation is "" if a side has none before it."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -167,7 +167,7 @@ class Formula(Brackets):
         return cursor.before.text if cursor.before.kind == "mark" else f"\\{cursor.before.text}"
 
     def divided(self, cursor: Cursor, depth: int, above: TermOrGrid, signs: list[Sign]) -> TermOrGrid:
-        """Read `a/b`, which nothing may follow: `a/2b` is a/(2b) to one reader and (a/2)b to the next."""
+        """Read `a/b`, and reject a factor that follows `b`: some readers take `a/2b` for a/(2b) and some for (a/2)b."""
         slash = cursor.token
         assert slash is not None
         cursor.at += 1
@@ -188,8 +188,8 @@ class Formula(Brackets):
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
-        """Reject two adjacent numbers (one number, a mixed number or a slip?), and `a2`, which may be a lost
-        subscript."""
+        """Reject two adjacent numbers, which may be one number, a mixed number or a slip. Reject `a2`, which may have
+        lost its subscript mark."""
         if before is None:
             return
         if token.kind == "number" and before.kind == "number":

@@ -40,14 +40,15 @@ TermOrGrid: TypeAlias = Term | Grid
 
 
 def each(value: TermOrGrid, change: Callable[[Term], Term]) -> TermOrGrid:
-    """Apply the same change to a scalar, or to every entry."""
+    """Apply the same change to a scalar, or to every entry of a column or matrix."""
     if isinstance(value, Term):
         return change(value)
     return replace(value, rows=tuple(tuple(change(term) for term in row) for row in value.rows))
 
 
 def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
-    """Return the value with the start and end of the surrounding brackets or command; entries keep their places."""
+    """Return the value with the start and end, in the text, of the brackets or command around it; its entries are
+    unchanged."""
     return replace(value, start=start, end=end)
 
 

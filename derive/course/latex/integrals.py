@@ -23,7 +23,8 @@ MAX_WAVES = 24
 
 @dataclass
 class Sign:
-    r"""An integral sign in a product: its limits, its place, and (after its differential is read) its variable.
+    r"""An integral sign in a product: its limits, its place in the text, and, after its differential is read, its
+    variable.
 
     The sign applies to all later factors of its product: in `\int_0^h z dz \int_0^z dx` the second is inside the first.
     """
@@ -49,7 +50,7 @@ def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
 
 
 def is_d(token: Token, d_is_a_letter: bool) -> bool:
-    """Return whether a differential may begin here; an upright d is never a letter."""
+    """Return whether the token may be the d of a differential; an upright d is never a letter."""
     if token.text == "mathrm" and token.arguments[0]:
         return [t.text for t in token.arguments[0].tokens] == ["d"]
     return token.kind == "letter" and token.text == "d" and not d_is_a_letter
@@ -74,7 +75,7 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """Evaluate the integrals of a product, beginning with the integral that was opened last."""
+    """Evaluate the integrals of a product, beginning with the innermost integral, whose sign is the last."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
@@ -96,7 +97,7 @@ def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: li
 
 
 def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
-    """Put one more integral around the value; the variable of this integral is replaced by a new letter."""
+    """Return the integral of the value between the limits of the sign; a new letter replaces the variable."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
@@ -131,8 +132,8 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 def _is_elementary(function: Expr, limits: Limits) -> bool:
     """Return whether the integral can be evaluated by `definite`, or by SymPy with elementary rules.
 
-    An integral over a root always counts as elementary: if `definite` cannot evaluate the integral, it is undefined,
-    and its comparison with any value fails.
+    If the integrand or a limit contains a root, the integral always counts as elementary. If `definite` cannot evaluate
+    such an integral, the integral is undefined, and its comparison with any value fails.
     """
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
@@ -146,8 +147,9 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy integrates the product quickly: a power of x, or sines and cosines of one argument. Products
-    of powers and sines, or of sines of different arguments, must have few factors."""
+    """Return whether SymPy integrates the product quickly: a power of x, or sines and cosines of one argument. A
+    product of powers and sines, or of sines of different arguments, must contain at most two sines or cosines and no
+    power above x^3."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
@@ -166,8 +168,8 @@ def _is_short(product: Expr, x: Symbol) -> bool:
 
 
 def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
-    """Return an antiderivative between limits. If no variable is named, the variable is the only letter for which the
-    limits can be substituted."""
+    """Return an antiderivative between limits. If `variable` is None, the variable is the only letter of the
+    antiderivative for which the limits can be substituted."""
     term = reader.scalar_in(inner, "an antiderivative")
     limits = (lower.expr, upper.expr)
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
@@ -181,14 +183,16 @@ def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, varia
 
 
 def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
-    """Return the largest possible size of a value's antiderivative when limits are substituted for x."""
+    """Return bounds for the size and for the number of terms of a value's antiderivative, after the limits replace
+    x."""
     power = _degree(term.expr, x, term.size) + 1
     terms = term.terms * (lower.terms**power + upper.terms**power)
     return term.size * max(lower.size, upper.size) + 1, terms
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """Return the highest power of x after multiplying out; if the power is not visible, return the bound `most`."""
+    """Return the highest power of x after multiplying out; if this power cannot be computed, return the bound
+    `most`."""
     if not expr.has(x):
         return 0
     if expr.is_Add:

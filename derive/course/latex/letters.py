@@ -1,7 +1,7 @@
 """The letters of a document, and the declared names to which they refer.
 
-A name is a letter, Greek or Latin, with its subscript: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot makes the
-letter's rate of change, which `derive.algebra.expressions.rate` names: `theta_dot`.
+A name is a letter, Greek or Latin, with its subscript: `I_{zz}` is `I_zz`, `r_{C,x}` is `r_C_x`. A dot over a letter
+denotes the rate of change of the letter; `derive.algebra.expressions.rate` names it `theta_dot`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ UNIT_VECTORS = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 
 @dataclass(frozen=True)
 class Letter:
-    """A letter of the document before its declared name is found; `hat` and `vector` are its decorations."""
+    """A letter as the document writes it; `hat` and `vector` are its decorations. `Letters` finds its declared name."""
 
     base: str
     start: int
@@ -39,14 +39,14 @@ class Letter:
 
     @property
     def axis(self) -> int | None:
-        """The index of the axis if the letter could be a unit vector: i, j, k in bold or with an arrow; x, y, z only
-        with a hat."""
+        """The index of the axis if the letter could be a unit vector, otherwise None. Unit vectors are i, j, k with a
+        hat, with an arrow or in bold, and x, y, z with a hat."""
         marked = self.hat or (self.vector and self.base in "ijk")
         return UNIT_VECTORS.get(self.base) if marked and not self.subscript and not self.dots else None
 
 
 class Letters:
-    """The names that may be used, identified by letter and subscript without the marks between them."""
+    """The declared names. A name is found by its letter and its subscript; `_` and `,` in the subscript are ignored."""
 
     def __init__(self, declared: Mapping[str, Declared]):
         self.declared = declared
@@ -68,12 +68,13 @@ def _bare(subscript: str) -> str:
 
 
 def dots_of(letter: Letter, declared: Declared) -> int:
-    """Return the number of written dots plus the dots in the declared name of a rate; 0 if no dot is written."""
+    """Return the number of written dots plus the order of the declared rate, such as 1 for `x_dot`; 0 without a written
+    dot."""
     return letter.dots and letter.dots + next(n for n in (3, 2, 1, 0) if declared.symbol.name.endswith(RATES[n]))
 
 
 def term_of(letter: Letter, declared: Declared) -> Term:
-    """Return the letter's value: its symbol, or the symbol of its rate."""
+    """Return the declared symbol with its dimension, or the rate of this symbol if the letter has dots."""
     symbol, dimension, kind = declared.symbol, declared.dimension, declared.kind
     if letter.dots:
         symbol, dimension = rate(symbol, letter.dots), dimension / dimension_of_kind("time") ** letter.dots
@@ -82,7 +83,7 @@ def term_of(letter: Letter, declared: Declared) -> Term:
 
 
 def letter_at(token: Token | None) -> Letter | None:
-    """Return the letter with its decorations and dots if the token is a letter."""
+    """Return the letter with its decorations and dots; None if the token is not a letter."""
     if token is None:
         return None
     if token.kind == "letter":

@@ -1,9 +1,9 @@
 """Quotations of a document in its own letters: prose with formulas between dollar signs.
 
-A quotation is data and never reaches TeX unchanged. Its formulas are split into commands and signs, which must be on a
-list and correctly nested, and are written again; anything unknown is rejected at its place. A quotation may contain
-commands that the grammar does not read, because a garbled formula must be quoted too. Not every command
-of TeX is allowed.
+A quotation is data and never reaches TeX unchanged. The formulas of a quotation are split into commands and signs.
+These must be on a list and correctly nested; then they are written again. Anything unknown is rejected at its place in
+the text. A quotation may contain commands that the grammar does not read, because a garbled formula must be quoted too.
+Not every command of TeX is allowed.
 """
 
 from __future__ import annotations

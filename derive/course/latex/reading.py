@@ -1,4 +1,4 @@
-r"""A formula in LaTeX as a chain of values: `read_latex`.
+r"""`read_latex` reads a formula in LaTeX as a chain of values.
 
 13 M a^2/12                  one side
 \frac{26}{6} a^2 (6a^3\rho) = \frac{13}{3} M a^2      two, with the mark between them

@@ -1,6 +1,6 @@
 """The tokens of a formula and their places: the nodes of pylatexenc as a flat sequence, with groups resolved.
 
-A brace that only groups prints nothing, so it means nothing here either: `{ab}^2` is `ab^2`, as on paper.
+A brace that only groups is not printed and has no meaning here: `{ab}^2` is read as `ab^2`, as it is printed.
 """
 
 from __future__ import annotations
@@ -59,7 +59,8 @@ _MARKS = {
 
 @dataclass(frozen=True)
 class Token:
-    """One token of a formula: number, letter, mark, script, open, close, bar, cell, row, command or matrix.
+    """One token of a formula; `kind` is number, letter, mark, script, open, close, bar, cell, row, word, command or
+    matrix.
 
     Only a command has arguments; only a matrix and an argument contain other tokens.
     """
@@ -109,7 +110,7 @@ def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
         message, help_line = _in_our_words(str(error.msg))
         reader.refuse("latex", message, min(error.pos or 0, len(text) - 1), help=help_line)
     read_to = nodes[-1].pos + nodes[-1].len if nodes else 0
-    if text[read_to:].strip():  # a lone `\` at the end is dropped by the walker
+    if text[read_to:].strip():  # pylatexenc drops a lone `\` at the end
         reader.refuse("latex", "this `\\` has no command after it", read_to)
     tokens = tuple(_joined(reader, list(_Tokens(reader).of(nodes))))
     if len(tokens) > MAX_TOKENS:
@@ -120,7 +121,7 @@ def tokens_of(reader: Arithmetic) -> tuple[Token, ...]:
 
 
 def _check_depth(reader: Arithmetic) -> None:
-    """Check the depth of nesting before the walker begins, because the walker recurses."""
+    """Check the depth of nesting before the text is parsed, because the parser of pylatexenc is recursive."""
     depth = 0
     for found in re.finditer(r"\\begin|\\end|\\?[{}\[\]]", reader.text):
         depth += 1 if found[0][-1] in "{[n" else -1
@@ -227,7 +228,7 @@ class _Tokens:
         return Argument(tokens, node.pos, node.pos + node.len)
 
     def word(self, node: Any) -> Argument:
-        """Return text unchanged, as one token."""
+        """Return the text in the braces after a command, unchanged and as one token."""
         found = tuple(node.nodeargd.argnlist or ()) if node.nodeargd else ()
         if len(found) != 1 or found[0] is None:
             self.reader.refuse("latex", f"`\\{node.macroname}` needs a value in braces", node.pos)

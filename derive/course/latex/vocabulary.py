@@ -90,15 +90,15 @@ REFUSED: Mapping[str, tuple[str, str | None]] = {
     "label": ("a label is not part of the equation", "leave it out"),
     "sec": ("`\\sec` cannot be read", "write `1/\\cos`"),
     "csc": ("`\\csc` cannot be read", "write `1/\\sin`"),
-    "iint": ("a multiple integral sign cannot be read", "write `\\int` with limits for each"),
-    "iiint": ("a multiple integral sign cannot be read", "write `\\int` with limits for each"),
+    "iint": ("a multiple integral sign cannot be read", "write one `\\int` with limits for each variable"),
+    "iiint": ("a multiple integral sign cannot be read", "write one `\\int` with limits for each variable"),
     "oint": ("an integral without limits cannot be read", None),
     "sum": ("a sum over an index cannot be read", "write its terms"),
     "Rightarrow": ("only one formula can be read at a time", None),
     "implies": ("only one formula can be read at a time", None),
-    "ldots": ("an ellipsis cannot be read", "write what it stands for"),
-    "cdots": ("an ellipsis cannot be read", "write what it stands for"),
-    "dots": ("an ellipsis cannot be read", "write what it stands for"),
+    "ldots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
+    "cdots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
+    "dots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
 }
 
 # The arguments of a command: `{` is an argument in braces, `[` is an optional argument in brackets.

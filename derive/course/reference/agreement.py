@@ -110,12 +110,13 @@ def _least_sure(verdicts: Iterable[Verdict]) -> Verdict:
 def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
-    """Compare the document's equation with our equation, multiplied by the factor of the entry if it states one."""
+    """Compare the document's relation with the derived relation. If the entry states a factor, the derived equation is
+    multiplied by this factor before the comparison."""
     sides = statement.sides
     if any(side.shape for side in sides):
         return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
     if len(sides) > 2 or statement.marks[-1] == "~" or any(len(side.branches) > 1 for side in sides):
-        return Verdict(Grade.REFUTED, "this is not one relation")
+        return Verdict(Grade.REFUTED, "this is not a single exact relation")
     if len(sides) == 1:  # an equation may be stated as an expression that vanishes
         sides = (sides[0], replace(sides[0], branches=(((Integer(0), sides[0].entries[0][1]),),)))
     mark = statement.marks[1] if len(statement.sides) == 2 else "="
@@ -145,14 +146,16 @@ def _of_relation(
 
 
 def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, Dimension]:
-    """Return an expression; if it is a number, as on one side of a relation, give it the unit of the entry."""
+    """Return an expression and its dimension. A nonzero number, such as a side of a relation, is multiplied by the unit
+    of the entry."""
     if entry.unit is None or not expr.is_number or expr == 0:
         return expr, dimension
     return expr * entry.unit.factor, dimension * entry.unit.dimension
 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
-    """Return whether the decimal of `S > 28` agrees with the derived decimal, if all else is equal."""
+    """Compare the decimal in a relation such as `S > 28` with the derived decimal. The left sides and the comparison
+    signs must be the same."""
     if stated.left != ours.left or stated.operator != ours.operator or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
     factor = entry.unit.factor if entry.unit else Integer(1)
@@ -244,8 +247,8 @@ def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | N
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Return whether each printed decimal agrees with the derived number within half a unit of its last digit. The
-    letters that these numbers multiply must be the same."""
+    """Return whether each printed decimal agrees with the derived number within half a unit of its last digit. Both
+    expressions must contain the same products of letters."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")

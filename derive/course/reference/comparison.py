@@ -63,13 +63,13 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # compared for the present input of the problem, so that its page may mention the outcome
+    here: bool = True  # the entry is compared for the present input; only then does the page mention it
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
 
     def facts(self) -> dict[str, Any]:
-        """Return the entry of the JSON of a solution."""
+        """Return this comparison as an entry in the JSON of a solution."""
         return {
             "problem": self.problem,
             "part": self.entry.part,
@@ -88,8 +88,9 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Compare every entry about this problem; `known` are the steps for the input in the problem's file. If a group
-    fixes another input, the steps for that input are derived, and calls in `memory` are reused."""
+    """Compare every entry about this problem; `known` are the steps for the input in the problem's file. If the input
+    of a group differs from that in the problem's file, the steps for the input of the group are derived; calls that are
+    stored in `memory` are reused."""
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
 

@@ -164,7 +164,7 @@ def _group(
         faults.error("no-such-problem", f"no problem of this set is called `{name}`", name.place, help=help_line)
     elif f"{problem.set_id}/{name}" == problem.id:
         group = read_record(GroupKeys, node, "a group", faults)
-        # The parts and the words of the problem do not matter here.
+        # The group replaces the input of the problem; the parts and the words of the problem are not used.
         script = problem.script if "given" in group.places else None
         pins = pinned_by(group.symbols, group.values, group.given, group.places, script, faults)
         pinned = replace(problem, places=group.places, **vars(pins))
@@ -266,7 +266,8 @@ class _EntryReader:
         )
 
     def quotes(self, entry: EntryKeys) -> tuple[str, str]:
-        """Return what the document prints and what it should print, in its own letters, if transcribed unchanged."""
+        """Return two formulas between dollar signs: what the document prints, and what it should print. Both texts are
+        empty without `latex:`, and for an entry that is neither an erratum nor a remark."""
         should = entry.erratum.right if entry.erratum else None
         told = [entry.latex, should if entry.latex is not None else None]
         printed, right = (f"${' '.join(x.text.split())}$" if isinstance(x, Scalar) else "" for x in told)
@@ -289,7 +290,7 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
-        """Read the statement of an entry, in either notation; a statement that is an erratum need not be
+        """Read the value that an entry states under `states:` or `latex:`; a value that is an erratum need not be
         homogeneous."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:

@@ -69,7 +69,8 @@ LITTLE = 1e-12
 
 
 def one_of(alone: bool, first: bool) -> Predicate:
-    """Judge whether the result is the only unknown, the first of several unknowns, or a later one."""
+    """Return a predicate for the position of the unknown: the only one (`alone`), the first of several (`first`), or a
+    later one (neither)."""
 
     def is_so(facts: Judged) -> bool:
         count = sum(role.startswith("equation_") for role in facts.inputs)
@@ -108,7 +109,8 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether, at these trial numbers, no other root is possible or this root is not real."""
+    """Whether, at these trial numbers, the unknown cannot have the value of any other root. If another root is
+    possible, return whether this root is complex."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -166,7 +168,8 @@ def absent(facts: Judged) -> bool:
 
 
 def beyond_one(facts: Judged) -> bool:
-    """Whether the cosine is greater than 1 at all trial numbers, or less than -1 at all of them."""
+    """Whether the left side is greater than 1 at all trial numbers if the result is an inequality with >, and less than
+    -1 at all of them for any other result."""
     side = 1 if facts.result.operator == ">" else -1
     return signs_of(side * with_numbers(facts.result.left) - 1) == {1}
 
@@ -186,7 +189,8 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """If a factor is excluded, judge whether the difference divided by this factor still vanishes for the result."""
+    """Judge whether a factor that must not vanish may be divided out of the difference of quantity and bound: the
+    quotient must still vanish for the result. Return True if there is no such factor."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -221,8 +225,8 @@ def always(wanted: bool) -> Predicate:
 
 
 def as_let(equation: bool, reason: bool) -> Predicate:
-    """Judge whether the step is an equation without a symbol, or, if `equation` is false, whether the step is a value
-    with a symbol. The step must state a reason exactly if `reason` is true."""
+    """If `equation` is true, judge whether the step is an equation without a symbol; otherwise, whether the step is a
+    value with a symbol. The step must state a reason exactly if `reason` is true."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -253,7 +257,8 @@ def is_nothing(facts: Judged) -> bool:
 
 
 def goes_as(wanted: int) -> Predicate:
-    """Judge whether the result, which is one power of the small quantity, stays finite, vanishes or diverges."""
+    """Judge whether terms are left out and the result is one power of the small quantity. In the limit the result must
+    stay finite (`wanted` is 0), vanish (1) or diverge (-1)."""
 
     def is_so(facts: Judged) -> bool:
         x, to = facts.inputs["x"], facts.inputs["to"]
@@ -330,8 +335,8 @@ def to_order(wanted: int | None) -> Predicate:
 
 
 def roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
-    """Test this root, the other root and the coefficient b at all trial numbers for which the roots are real. Symbols
-    with a given number keep this number."""
+    """Judge whether `test` accepts this root, the other root and the coefficient b at all trial numbers for which the
+    roots are real. Symbols with a given number keep this number."""
 
     def is_so(facts: Judged) -> bool:
         quadratic = facts.inputs["quadratic"]
@@ -360,8 +365,8 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge whether the discriminant has this sign. If the discriminant is positive, also judge whether the product of
-    the roots is negative exactly if `product` is -1."""
+    """Judge whether the discriminant has this sign. For a positive sign, the product of the roots must also be negative
+    if `product` is -1, and must not be negative otherwise."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -397,7 +402,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the substitution of all stated values in the original gives the result or an equivalent equation.
 
     This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
-    substituted, and the original contains no rate of a replaced coordinate.
+    substituted, and the original contains no rate of a replaced coordinate. Otherwise the substitution is accepted.
     """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
@@ -443,7 +448,7 @@ def for_short_times(facts: Judged, time: Any) -> bool:
 
 
 def goes_to(facts: Judged, place: Any) -> bool:
-    """Whether the limit that the sentence names is the limit of the approach."""
+    """Whether the value that the sentence names is the value to which the symbol goes in the step."""
     approach = facts.inputs["approach"]
     return isinstance(approach, Approach) and is_zero(approach.args[1] - place)
 
@@ -464,7 +469,8 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether the condition for no root is a strict inequality: at equality there is still a root."""
+    """Whether a condition for no root is a strict inequality, because at equality there is still a root; True for other
+    outcomes."""
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 
@@ -489,7 +495,7 @@ def as_asked_for(facts: Judged, outcome: str) -> bool:
 def as_asked(facts: Judged, outcome: str) -> bool:
     is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
-    if not is_letter:  # the symbol of the root must be a sine or a cosine, as the unknown is
+    if not is_letter:  # the root and the unknown must be the same function, sine or cosine
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))
@@ -497,8 +503,8 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=; and whether the sentence
-    compares the quantity with the bound, not the bound with the quantity."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and the sentence compares
+    the quantity with the bound, not the bound with the quantity."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -511,15 +517,15 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the place of an extremum is real exactly where the sentence says so, and lies between the ends of the
-    interval exactly where the sentence says so."""
+    """Whether the conditions in the sentence are exact: the place of an extremum is real, and lies between the ends of
+    the interval, for just those values for which the sentence says so."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends exactly where the sentence says so. Trial numbers are used only if
-    they make the width of the interval positive and the place real."""
+    """Judge whether the place lies between the ends of the interval for just those values for which the sentence says
+    so. Trial numbers are used only if they make the width of the interval positive and the place real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

@@ -23,7 +23,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["combination"]
 
 HALF = Rational(1, 2)
-LARGEST = 200  # in a formula with more operations, factors under roots are not cancelled
+LARGEST = 200  # if a formula has more operations than this, factors under its roots are not cancelled
 
 
 COMBINATION = Rule(

@@ -38,7 +38,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # rule and sign of a condition for real roots
+REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # rule and comparison sign for real roots
 POINTS = 40
 ZERO = Integer(0)
 
@@ -80,8 +80,8 @@ def where(
     for_real whether the quantity is a discriminant and the condition is for real roots
     Check: the sign of quantity minus bound, for an unknown at, just above and just below the right side of the solved
     relation; at random points, the original and the solved relation are both true or both false.
-    A divisor of both sides of an equation must not vanish: the page states this if it is not known. The sign of a
-    divisor of an inequality must be known from the letters, their ranges or their numbers.
+    A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
+    The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
     equal (the two sides are equal, so a requested strict inequality never holds).
     Errors: the relation cannot be solved for that letter; an unknown comparison sign.
@@ -134,14 +134,14 @@ def where(
 
 
 def _by_way_of(criterion: Relation, stands_for: Sequence[Quantity], difference: Expr) -> list[Form]:
-    """Return the line with the condition in the symbols of `stands_for`; the next line has the values of these
-    symbols."""
+    """Return the line with the condition in the symbols of the quantities `stands_for`; in the next line their values
+    are substituted."""
     residual = explicit(with_those(criterion.residual, {q.symbol: q.value for q in stands_for}))
     return [Form(criterion, "solved", nonzero=divided_out(difference, residual, Integer(0)))]
 
 
 def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: Expr, sign: int, key: str) -> Quantity:
-    """Return the step with the relation that is true for all values of the symbols, for a difference of known sign."""
+    """For a difference of known sign, return the step with the relation that is true for all values of the symbols."""
     is_true = holds(sign, mark)
     fact = mark if is_true else {1: ">", -1: "<", 0: "="}[sign]
     return establish(
@@ -206,9 +206,10 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     """Return two vectors that are equal if the solved relation is right.
 
-    The first vector begins with the difference at the right side of the solved relation, and at any distance d > 0
-    above this bound. Its last three entries are 1 or 0: whether the solved relation holds above, at and below the
-    bound. The second vector has the values that the sign of the difference requires.
+    The bound is the right side of the solved relation. The first vector begins with the difference for an unknown at
+    the bound, and for an unknown at any distance d > 0 above the bound. Its last three entries are 1 or 0: whether the
+    solved relation holds above, at and below the bound. The second vector has the values that the sign of the
+    difference requires.
     """
     alone, place = found.sides
     d = Dummy("d", positive=True)

@@ -155,7 +155,7 @@ def limiting_case(
 
 
 def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
-    """Return the symbol of a limit. The result itself must have another symbol."""
+    """Return the symbol of a limit; reject the symbol of the result whose limit is taken."""
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
@@ -165,8 +165,8 @@ def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
 
 
 def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
-    """Return the symbol of the result without the limit. For a series for the same limit, return the symbol of the
-    result that was expanded into this series."""
+    """Return the symbol of the result whose limit is taken. If this result is a series for the same limit, return the
+    symbol of the result that was expanded into the series."""
     is_series = of.step.approximates is not None and dict(of.step.roles).get("approach") == approach
     return of.step.approximates if is_series else name
 

@@ -1,8 +1,8 @@
 """The two roots of a quadratic equation in one formula, the condition under which they are real, and each root.
 
-The coefficients of a x^2 + b x + c = 0 may be general symbols. Their values in this problem are substituted after the
-formula, so the page shows the general roots and the roots of this problem. If a is zero, the equation is linear and has
-one root.
+The coefficients of a x^2 + b x + c = 0 may be general symbols. The values of these symbols in the problem are
+substituted after the formula, so the page shows both the general roots and the roots of the problem. If a is zero, the
+equation is linear and has one root.
 """
 
 from __future__ import annotations
@@ -219,8 +219,8 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write the roots as k (u +- sqrt(u^2 - w)), where u is the product of those factors of -b whose symbols a and c do
-    not contain.
+    """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
+    no symbol of a or c.
 
     For example, u is S if -b = m l^2 S and the other coefficients contain m and l.
     """
@@ -318,7 +318,8 @@ def with_index(name: str, index: str | int) -> str:
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """Return the formula with one of the two signs before the square root, as a product of the same factors."""
+    """Return the formula of both roots with +1 or -1 in place of the double sign; its factors are not multiplied
+    out."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 

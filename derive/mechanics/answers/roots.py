@@ -209,8 +209,8 @@ def _step(
 
 
 def _name(unknown: Expr, letter: str, number: int) -> Expr:
-    """Return the symbol of a root. For the unknown cos(theta), the symbol is the cosine of the given letter, or
-    cos(theta)."""
+    """Return the symbol of a root. For the unknown cos(theta), the symbol is the cosine of `letter`; without a letter,
+    it is cos(theta)."""
     if not isinstance(unknown, Symbol):
         return unknown.xreplace({letter_of(unknown): scalar(letter)}) if letter else unknown
     if not letter and not number:
@@ -219,8 +219,8 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
-    """Return the condition that the divisor does not vanish. Leave out factors that the other condition makes nonzero,
-    such as cos(theta_0) if cos(theta_0) > 0."""
+    """Return the condition that the divisor does not vanish. Leave out factors that `condition` makes nonzero, such as
+    cos(theta_0) if cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
     if excluded is None or condition is None or condition.operator != ">" or not is_zero(condition.right):
         return excluded
@@ -248,7 +248,8 @@ ROOTS_ABSENT = Rule(
 
 
 def _no_root(equation: Quantity, unknown: Expr, every: Sequence[RootOf], real: bool, key: str) -> Quantity:
-    """State that there is no root, since the discriminant is negative or the largest root is not positive."""
+    """State that there is no root, because the discriminant is negative or, for a positive unknown, the largest root is
+    not positive."""
     last = _ascending(list(every))[-1] if real else every[0]
     mark = "=" if real and is_zero(last.value) else "<"
     if real:
@@ -372,7 +373,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
 
 
 def _sum_of_squares(root: RootOf) -> bool:
-    """Whether the product of the roots is known to be negative, so that b^2 - 4 a c is positive."""
+    """Whether the product of the roots is known to be negative; then b^2 - 4 a c is positive."""
     a, _, c = root.coefficients
     return sign_known(a * c) == -1
 

@@ -42,18 +42,19 @@ def _in_results(
 
 
 def _beside(friction: Quantity, letter: Symbol) -> Quantity:
-    """Return the normal force that was derived together with a friction, as a multiplier or at rest."""
+    """Return the normal force that was derived together with the friction, by the same rule from the same inputs."""
     rule, inputs = friction.step.rule, friction.step.inputs
     for each in established():
         if each.symbol == letter and (each.step.rule, each.step.inputs) == (rule, inputs):
             return each
-    message = f"`slips`: `{friction.key}` is a friction in a state, in which the normal force is unknown"
+    message = f"`slips`: `{friction.key}` is a friction in one state, but the normal force in this state is unknown"
     help_line = f"give `slips: {friction.symbol}` with the `results` and `values` of the state"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def _in_state(force: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr], key: str) -> Quantity:
-    """Return the force with the results and values substituted; an earlier step that did so is not repeated."""
+    """Return the force with the results and values substituted. If an earlier step made the same substitution, return
+    this step; if the substitution changes nothing, return the force."""
     kept, state = _with_effect(force, results, values)
     for each in established():
         if each.step.rule == "answers.put_in" and each.symbol == force.symbol and force in each.parents:
@@ -77,7 +78,7 @@ def _with_effect(
 
 
 def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
-    """Return the expression that a result replaces, and its value."""
+    """Return the expression that a result replaces, and the replacement."""
     momentum = result.fact(KeptMomentum)
     if momentum is not None:
         return rate(momentum.coordinate), momentum.turning
@@ -86,7 +87,7 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
 
 
 def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
-    """Reject a result that changes neither force, and a value of a letter that does not occur."""
+    """Reject a result that changes neither force; `check_values_used` rejects values of letters that do not occur."""
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:

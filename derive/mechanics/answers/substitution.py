@@ -81,9 +81,10 @@ def put_in(
     again    an earlier result that this substitution must reproduce
 
     The results are substituted one after another, in the given order; the values follow. If a coordinate is given as a
-    function of other coordinates or of the time, its rates are substituted too. So are the rates of a prescribed
-    function: its value is a function of the time, or a constant if the function does not change.
-    Check: all letters of the original replaced at once by their final values; if `again` is given, the earlier result.
+    function of other coordinates or of the time, its rates are substituted too. If the value of a prescribed function
+    is given, as a function of the time or as a constant, its rates are substituted too.
+    Check: all letters of the original replaced at once by their final values; if `again` is given, also equality with
+    this earlier result.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
     the substitution), again.
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
@@ -226,8 +227,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces. If this symbol does not occur, a root replaces its unknown, and a limit
-    or a series replaces the symbol of the result from which it was derived."""
+    """Return the symbol that a result replaces. If the original does not contain this symbol, a root replaces its
+    unknown, and a limit or a series replaces the symbol of the result from which it was derived."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -346,8 +347,8 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
 
 
 def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
-    """Simplify a value. Sort an equation of motion by its accelerations. In any other relation to zero, drop positive
-    factors."""
+    """Simplify a value. Sort an equation of motion by its accelerations. In a relation to zero that contains no
+    acceleration, drop positive factors."""
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(presented))
     if not isinstance(value, Relation):
@@ -463,7 +464,7 @@ def _in_results(
 
 
 def check_values_used(key: str, values: Values, letters: set[str]) -> None:
-    """Reject a value of a letter that does not occur, unless the letter is a coordinate or a rate of the state."""
+    """Reject a value of a letter that is not among `letters`, unless this letter is a coordinate or a rate."""
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in letters | state):
         message = f"`{key}` does not contain `{name}`, so its value has no effect"

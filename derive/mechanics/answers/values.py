@@ -1,4 +1,4 @@
-"""Steps of plain algebra: the value for particular vectors or symbols, the length of a vector, and `let`."""
+"""Steps of plain algebra: a result with values substituted, the length of a vector, and definitions by `let`."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ AT = Rule(
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
     """Value of a general result for a particular vector.
     general      a result for a vector with unspecified components
-    particular   the vector to substitute, with the same symbol and the same axes
-    Check: the law itself, evaluated with the particular vector from the start.
-    Errors: the general result does not contain the components of that vector; the vector is of another kind, or is a
-    rotation about another point.
+    particular   the vector to substitute; it has the symbol and the axes of the unspecified vector
+    Check: the law of the general result, evaluated with the particular vector from the start.
+    Errors: the general result does not contain the components of the unspecified vector; the two vectors have different
+    kinds, or are rotations about different points.
     Source: none needed: substitution.
     """
     _check_same_kind(general, particular)
@@ -87,7 +87,8 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
 
 
 def _check_same_kind(general: Quantity, particular: Quantity) -> None:
-    """Check that the two vectors are of the same kind and, if both are rotations, about the same point."""
+    """Check that the unspecified and the particular vector have the same kind; two rotations must be about the same
+    point."""
     opened = next((q for q in general.ancestors() if q is not general and q.symbol == particular.symbol), None)
     if opened is None:
         return
@@ -101,7 +102,7 @@ def _check_same_kind(general: Quantity, particular: Quantity) -> None:
 
 
 def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
-    """Replace each name in the value, and keep the terms of its sums separate."""
+    """Substitute the values for the names in an expression, and keep the terms of each sum separate."""
     sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
     outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
     kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
@@ -109,7 +110,7 @@ def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
 
 
 def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
-    """Leave out the terms that vanish."""
+    """Return the terms that do not vanish, or a single zero if all terms vanish."""
     kept = [term for term in terms if explicit(term) != 0]
     return kept or [Integer(0)]
 
@@ -122,11 +123,12 @@ WITH_VALUES = Rule(
 
 
 def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
-    """Value of a general result with values for its letters.
-    general   a scalar in letters, any unit
-    values    quantities for some of its letters
-    Check: the law itself, evaluated with these values from the start.
-    Errors: the general result contains none of these letters.
+    """Value of a general result for given values of some of its symbols.
+    general   a scalar result that contains symbols, in any unit
+    values    quantities; the value of each quantity replaces its symbol in the general result
+    Check: the law of the general result, evaluated with these values from the start.
+    Errors: the general result is an equation or an inequality; it contains none of these symbols, or uses one of them
+    for another quantity.
     Source: none needed: substitution.
     """
     known = {q.symbol: q.value for q in values}
@@ -172,7 +174,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     """Length of a vector, |v| = sqrt(v.v).
 
     of      vector (3), any unit
-    Check: turn the vector until it lies along one axis and read off its component.
+    Check: turn the vector until it lies along one axis and read off the component along this axis.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
@@ -204,7 +206,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     """Square of a vector's length, |v|^2 = v.v.
 
     of      vector (3), any unit
-    Check: turn the vector until it lies along one axis and square its component.
+    Check: turn the vector until it lies along one axis and square the component along this axis.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
@@ -223,7 +225,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
 
 
 def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
-    """Return the fact for d(v.v)/dt = 2 v.dv/dt, if the rate of the vector is known from particles."""
+    """Return the fact that yields d(v.v)/dt = 2 v.dv/dt; an empty list if no particles give the rate of the vector."""
     known = of.fact(RateByParticles)
     return [] if known is None else [RateOfSquare(of.value, known)]
 
@@ -249,18 +251,18 @@ def let(
     kind: str | None = None,
     because: str | None = None,
 ) -> Quantity:
-    """Name for an expression in quantities, or an equation set up by the author: a definition, with its substitution.
+    """Name for an expression in quantities, or an equation between quantities: a definition that the author sets up.
     key          the key of the step
     law          a function of the quantities that returns an expression, or an equation as SymPy's `Eq(left, right)`
-    kind         the kind of the quantity, "force", "time"; by default the result has only a dimension
+    kind         the kind of the result, such as "force" or "time"; by default only the dimension of the result is known
     because      the reason, in the words of the script: "by Newton's second law"
-    The result belongs to the body, the point and the rotation on which all its quantities agree. The result varies in
-    time if it contains a coordinate or the time. If every quantity has mass points and forces, the result has all of
-    them. No check shows that the result has the meaning of its letter, so the page calls an answer from `let` a
-    definition.
+    If all quantities belong to the same body, the result belongs to this body; likewise for the point and the rotation.
+    The result varies in time if it contains a coordinate or the time. If the mass points and forces are known for every
+    quantity, the result is linked to all these mass points and forces. No check shows that the result has the meaning
+    of its letter, so the page calls an answer from `let` a definition.
     Outcomes: generic, because (with the given reason), equation, equation_because.
-    Errors: an unknown kind; an expression that is not a scalar; an equation with a letter or a kind; an equation that
-    always or never holds.
+    Errors: an unknown kind; an expression that is not a scalar; an equation for which a symbol or a kind is given; an
+    equation that always or never holds.
     Source: none needed: a definition.
     """
     if kind is not None and kind not in KINDS:
@@ -321,6 +323,7 @@ def _sort_of(is_equation: bool, has_reason: bool) -> str:
 
 
 def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
-    """Return the mass points and forces of all quantities together; an empty list if one of them has none."""
+    """Return the mass points and forces of all quantities together; an empty list if they are unknown for one
+    quantity."""
     known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
     return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

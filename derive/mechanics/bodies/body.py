@@ -1,7 +1,8 @@
 """Bodies: the region that the mass fills, the density, the centre of mass, and the named points and directions.
 
-Every body has body axes, and its positions have the unit of its sizes. The body axes of a body with perpendicular edges
-are along these edges, with the origin at a corner. A round body has its axis of symmetry along z.
+Every body has body axes. Positions along these axes have the unit of the sizes of the body. The body axes of a body
+with perpendicular edges are along these edges, with the origin at a corner. A round body has its axis of symmetry along
+z.
 """
 
 from __future__ import annotations
@@ -64,15 +65,15 @@ class Body(Placeable, OfParticles):
     other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
-    is_lopsided: ClassVar[bool] = False  # without inversion symmetry, although its particles may have it
+    is_lopsided: ClassVar[bool] = False  # whether the body lacks inversion symmetry, even if its particles have it
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinates in which the limits are known
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinates in which limits are given
 
     def __post_init__(self) -> None:
         self.check_sizes()
 
     def check_sizes(self) -> None:
-        """Reject a mass or a size that is not positive."""
+        """Reject a mass or a size that is known to be zero or negative."""
         require_positive(self.name, "mass", self.mass)
         for role, size in self.measures.items():
             for each in size if isinstance(size, tuple) else (size,):
@@ -91,7 +92,7 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return this body as a part of a larger body; its point `of` is at (x, y), (x, y, z) or a `point`."""
+        """Return this body as a part of a larger body, with the named point `of` at (x, y), (x, y, z) or a `point`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
@@ -202,7 +203,7 @@ class Body(Placeable, OfParticles):
 
     @property
     def size(self) -> Expr:
-        """The volume, area or length of the body as a value."""
+        """The value of the volume, area or length of the body."""
         extent = self.extent
         return extent.value if isinstance(extent, Quantity) else explicit(extent)
 
@@ -326,7 +327,7 @@ class Hollow(Body):
 
     inner: Expr
     outer: Expr
-    power: ClassVar[int]  # the mass of a full body is proportional to this power of its radius
+    power: ClassVar[int]  # the mass of the body without its cavity is proportional to this power of the radius
     is_round: ClassVar[bool] = True
 
     def check_sizes(self) -> None:
@@ -474,13 +475,14 @@ def centre_of_mass(
     """Centre of mass, r_C = (1/M) integral of r dm, measured from a named point of the body.
 
     body         a body with a mass and a region
-    origin       the name of the point, by default of the origin of the body axes
-    coordinates  "cartesian" or "cylindrical", if the body has both
-    Each component that does not vanish by symmetry has its own step: a round body needs one step, a body without
-    inversion symmetry up to three.
+    origin       the name of the point from which to measure; by default the point at the origin of the body axes
+    coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
+    For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
+    step derives each component that is not zero.
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
-    Outcomes: round; generic (a body with inversion symmetry); by_components; there (at the named point itself).
+    Outcomes: round (a round solid); generic (another body with inversion symmetry); by_components (steps derive the
+    components); there (the centre of mass is at the named point).
     Errors: the body has no such point or no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """

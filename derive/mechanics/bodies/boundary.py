@@ -1,6 +1,7 @@
-"""The boundary of a body, as geometry: places along the body axes. A drawing projects this boundary.
+"""The boundary of a body: a geometric shape, described by places in body axes. A drawing projects this boundary.
 
-A body returns one of these records. A body returns None if it consists of parts, or if only its moments are known.
+The `boundary` of a body is one of these records; it is None if the body consists of parts, or if only the moments of
+the body are known.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from sympy.matrices import ImmutableMatrix
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.step import is_zero
 
-Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places, their variable, its first and last value
+Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places as a formula, its variable, first and last value
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class Rim:
     """The closed edge of a flat body in the plane of x and y.
 
     curves   the curves of the edge, in order
-    radius   a straight line whose length is a size of the body: its two ends, and its length
+    radius   the two ends and the length of a straight line whose length is a size of the body
     """
 
     curves: tuple[Curve, ...]
@@ -108,8 +109,8 @@ class Ellipsoidal:
 class Toroidal:
     """A ring of round cross-section about the z axis.
 
-    radius    from the axis to the middle of the cross-section
-    section   radius of the cross-section
+    radius    the distance from the axis to the middle of the cross-section
+    section   the radius of the cross-section
     """
 
     radius: Expr
@@ -142,8 +143,8 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
 
 
 def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
-    """The edge: the curves on which one variable is at a limit. None if a limit is not constant, or if there is a
-    hole."""
+    """The edge: the curves on which one variable is at a limit. The result is None if a limit contains a variable, or
+    if there is a hole."""
     if any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
         return None
     (u, *u_ends), (v, *v_ends) = limits

@@ -19,7 +19,7 @@ DRAWS = 3  # number of draws for one symbol; each further symbol adds FURTHER dr
 FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
 NEAR = 160  # number of sampled points of a body; Newton's method starts at the points closest to the sought place
-STARTS, TURNS = 10, 30  # number of starts, and of iterations from each start, of Newton's method
+STARTS, TURNS = 10, 30  # number of starts of Newton's method; greatest number of iterations from each start
 FAR = 1e6  # an iteration stops when a variable exceeds this multiple of (1 + the largest start value)
 BEYOND = 0.1  # a body may extend beyond the sampled points by this fraction of its width
 CLOSE = 1e-9
@@ -32,8 +32,8 @@ class Chart:
     """A numerical position map.
 
     names    the variables
-    place    the variables -> the place
-    slopes   the variables -> the derivatives of the place with respect to each variable
+    place    a function: values of the variables -> the place
+    slopes   a function: values of the variables -> the derivatives of the place with respect to each variable
     ends     the limits of each variable, as functions of the outer variables
     """
 
@@ -159,7 +159,8 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
     """Values of the symbols for which each lower limit is below the upper limit.
 
-    A symbol whose number the problem states has this number; other symbols have random values, of several scales.
+    A symbol whose number the problem states has this number. Any other symbol has a random value; several such symbols
+    have values on different scales.
     """
     source = Random(len(letters))
     ordered = sorted(letters, key=str)

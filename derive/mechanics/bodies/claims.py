@@ -1,4 +1,4 @@
-"""Predicates of bodies: each decides whether an outcome, or a fact in its sentence, is correct."""
+"""Predicates of bodies: each decides whether an outcome, or a fact in the sentence of an outcome, is correct."""
 
 from __future__ import annotations
 
@@ -62,7 +62,8 @@ def on_the_axis(facts: Judged) -> bool:
 
 
 def is_of_a_ball(facts: Judged) -> bool:
-    """Whether r^2 is a quadratic polynomial in z with the leading coefficient -1, as for a ball."""
+    """Whether the square of the result is a quadratic polynomial in z with the leading coefficient -1, as for a
+    ball."""
     square = explicit(facts.result) ** 2
     along = facts.inputs["along"]
     in_powers = square.as_poly(along)
@@ -82,7 +83,8 @@ def joins_corners(facts: Judged) -> bool:
 
 
 def is_round(facts: Judged) -> bool:
-    """Whether, about the centre, the particles have equal moments about x and y and no products of inertia."""
+    """Whether the moments of inertia of the particles about x and y through the centre of mass are equal, and all
+    products of inertia vanish."""
     body = facts.subject.body
     centre = body.middle
     places = [(m, counted_from(centre, r)) for m, r in body.particles()]
@@ -97,14 +99,15 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the size is not negative, and its square is the result or, for a solid, the square of the result."""
+    """Whether the size is not negative, and the square of the size is the result (for a solid, the square of the
+    result)."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:
-    """Whether det(r_i . r_j) is the result or, for a solid, its square; r_i is the derivative of the place with respect
-    to variable i."""
+    """Whether det(r_i . r_j) is the result (for a solid, the square of the result); r_i is the derivative of the place
+    with respect to variable i."""
     names = [x for x, _, _ in facts.inputs["limits"]]
     slopes = Matrix([[diff(c, x) for x in names] for c in explicit(place)])
     square = explicit(facts.result) ** 2 if len(names) == 3 else explicit(facts.result)
@@ -127,7 +130,8 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the stated cell is positive, and its square is the result, or for a solid the square of the result."""
+    """Whether the stated size of a cell is positive, and its square is the result (for a solid, the square of the
+    result)."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
@@ -140,15 +144,15 @@ def of_filling(filling: str) -> Predicate:
 
 
 def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
-    """Whether the integral of the cross-sectional areas over the height is the volume."""
+    """Whether the result is the integral of the cross-sectional area over the height."""
     body, z = facts.subject.body, Symbol("z_along", real=True)
     sections = integrate(pi * body.radius_at(z) ** 2, (z, *body.ends))
     return is_zero(sections - explicit(facts.result))
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point of the result. If it states x = s cos(theta) and y = s sin(theta), these
-    formulas must give the area element of the integral, and x = s at theta = 0."""
+    """Whether the sentence names the point of the result. If the sentence states x = s cos(theta) and y = s sin(theta),
+    these formulas must give the area element of the integral, and x = s at theta = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:

@@ -1,4 +1,4 @@
-"""Integrals over the mass of a body, step by step, and the components of a centre of mass by such integrals."""
+"""Integrals over the mass of a body, line by line, and the components of a centre of mass by such integrals."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The integral of a function of the position times dm; the density is a step or a formula.
+    """The integral of f dm, where f is a function of the position; the density in dm is a step or a formula.
 
-    weight   the function
+    weight   the function f
     mean     whether to divide the integral by the mass
     """
     rho = body.density
@@ -80,12 +80,12 @@ def centre_component(
     symbol: str = "r_C",
     key: str | None = None,
 ) -> Quantity:
-    """Component of the centre of mass, x_C = (rho/M) integral of x dV; for a thin body sigma dA or lambda dl.
+    """Component of the centre of mass, x_C = (rho/M) integral of x dV, or with sigma dA or lambda dl for rho dV.
 
-    body         of mass M
+    body         a body of mass M
     axis         "x", "y" or "z": the body axis of the component
     origin       the point from which to measure, by default the origin of the body axes
-    coordinates  "cartesian" or "cylindrical", if the body has both
+    coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
     Outcomes: on_axis (the body is a solid that is round about this axis), generic.

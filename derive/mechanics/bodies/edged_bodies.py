@@ -27,7 +27,7 @@ __all__ = ["Cuboid", "Plate", "Tetrahedron", "Triangle", "Wedge"]
 class EdgedBody(Body):
     """A solid with flat faces, or a flat body with straight edges."""
 
-    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # names of corners, from the first corner on
+    corners_called: ClassVar[tuple[str, ...]] = ("corner",)  # names of the first corners, in order
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
@@ -148,7 +148,7 @@ class Cuboid(EdgedBody):
     def particles(self) -> Particles:
         """Six equal particles at the centres of the faces.
 
-        Along each axis two of the particles, at +-side/2, give the second moment 2 (M/6)(side/2)^2 = M side^2/12.
+        Along each axis, the two particles at +-side/2 from the centre give 2 (M/6)(side/2)^2 = M side^2/12.
         """
         found = []
         for axis, end in product(range(3), (0, 1)):
@@ -177,8 +177,8 @@ class Triangle(Cornered):
 
     corners   three places (x, y), lengths
     mass      mass
-    `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h above the middle of
-    the base, or above x = foot. `Triangle.equilateral(a, mass)` has three sides a.
+    `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h, above the middle of
+    the base or, if `foot` is given, above x = foot. `Triangle.equilateral(a, mass)` has three sides of length a.
     Points: first corner, second corner, third corner; centre.
     """
 
@@ -193,7 +193,7 @@ class Triangle(Cornered):
 
     @classmethod
     def on_base(cls, base: Expr, height: Expr, mass: Expr, foot: Expr | None = None) -> Self:
-        """Return a triangle whose top is above the middle of its base, or above x = foot."""
+        """Return a triangle whose top is above the middle of its base or, if `foot` is given, above x = foot."""
         made = cls(((ZERO, ZERO), (base, ZERO), (base / 2 if foot is None else foot + ZERO, height)), mass)
         if tidied(made._signed_area - base * height / 2) != 0:
             raise Unverified(Complaint("unverified", f"{made.name} on a base does not have the area b h/2"))
@@ -244,7 +244,7 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """Variables x and y if the base is on the x axis; otherwise fractions u and v of two sides."""
+        """Variables x and y if the base is on the x axis, from the origin; otherwise fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
             return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
@@ -298,7 +298,8 @@ class Tetrahedron(Cornered):
         return (-sixfold if sixfold.could_extract_minus_sign() or sixfold.is_negative else sixfold) / 6
 
     def map(self) -> Map:
-        """Variables x, y and z if three edges are along the axes; otherwise fractions u, v and s of three edges."""
+        """Variables x, y and z if three edges from the origin are along the axes; otherwise fractions u, v, s of three
+        edges."""
         first, edges = self.corners[0], self._edges_from_first
         if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
             (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)
@@ -320,7 +321,7 @@ class Wedge(Cornered):
     """A uniform right prism with a triangular base: the triangle in the plane of x and y, extended along z.
 
     face     the triangular base, a `Triangle`
-    length   along z, from the origin
+    length   the length along z, from z = 0
     mass     mass
     Points: first corner, second corner, third corner (of the face at z = 0); centre.
     """

@@ -80,12 +80,13 @@ def tensor_at(r: Any) -> ImmutableMatrix:
 
 
 def disc_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A disc perpendicular to the z axis: half of the mass at the centre, an eighth at each end of two diameters."""
+    """A disc perpendicular to the z axis: half of the mass at the centre, an eighth at each end of two perpendicular
+    diameters."""
     return [(mass / 2, column(0, 0, height)), *ring_of_particles(mass / 2, radius, height)]
 
 
 def ring_of_particles(mass: Expr, radius: Expr, height: Expr) -> Particles:
-    """A ring perpendicular to the z axis: a quarter of the mass at each end of two diameters."""
+    """A ring perpendicular to the z axis: a quarter of the mass at each end of two perpendicular diameters."""
     rim = ((radius, 0), (-radius, 0), (0, radius), (0, -radius))
     return [(mass / 4, column(x, y, height)) for x, y in rim]
 
@@ -105,8 +106,8 @@ def sliced(
 ) -> Particles:
     """Slices perpendicular to the z axis at the nodes of Boole's rule; their masses contain the weights of this rule.
 
-    radius   of the slice at z
-    weight   mass of the slice per length, up to a factor: for a solid, the squared radius
+    radius   the radius of the slice at z
+    weight   the mass of the slice at z per length, up to a constant factor; for a solid, the squared radius
     """
     low, high = ends
     at = [(low + part * (high - low), share) for part, share in BOOLE]
@@ -148,7 +149,8 @@ def from_moments(
     """Pairs of particles about the centre of mass, with given second moments.
 
     second         S_ij, the sums of m x_i x_j about the centre of mass
-    about_origin   in place of S: the sums of m x^2, m y^2 and m z^2 about the origin, if the sums of products vanish
+    about_origin   in place of `second`, for a body without products of inertia: the sums of m x^2, m y^2 and m z^2
+                   about the origin
 
     A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
     is at +-L l_k, where L^2 is the trace of S divided by the mass. The rest of the mass, never negative, is at the

@@ -1,6 +1,7 @@
-"""Bodies defined by a position map, that is, by formulas in variables between limits: cells, size, mass, density.
+"""Bodies defined by a position map: their cells, size, mass and density.
 
-A curve has one variable, a surface two, a solid three. The density is uniform, or a formula in the same variables.
+A position map consists of formulas for the position in variables between limits. A curve has one variable, a surface
+two, a solid three. The density is uniform, or a formula in the same variables.
 """
 
 from __future__ import annotations
@@ -95,7 +96,7 @@ class GeneralBody(Body):
         check_map(type(self).__name__, self._position, self._limits, given.xreplace(fresh), mass is None)
 
     def __repr__(self) -> str:
-        """Return the same text in each process: the digest of a problem depends on this text."""
+        """Return a text that is the same in each process, because the digest of a problem depends on this text."""
         given = (self._position, self._limits, self._profile, self.given_mass, self.given_density, self.called)
         return f"{type(self).__name__}{given}"
 
@@ -111,7 +112,7 @@ class GeneralBody(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """No lengths: the position map defines the size of the body."""
+        """Empty, because the position map defines the size of the body, not a set of named lengths."""
         return {}
 
     @property
@@ -127,7 +128,7 @@ class GeneralBody(Body):
 
     @property
     def size(self) -> Expr:
-        """The integral of the density up to a constant factor: for a uniform body, the volume, area or length."""
+        """The integral of the density without its constant factor: for a uniform body, the volume, area or length."""
         return exact(self, self._profile * self._mapped, "size")
 
     @cached_property
@@ -261,11 +262,11 @@ CELL_OF = Rule(
 
 
 def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
-    """Size of a cell of a solid, r_u . (r_v x r_w), or its square: |r_u x r_v|^2 for a surface, |r_u|^2 for a curve.
+    """Size of a cell: r_u . (r_v x r_w) for a solid; its square |r_u x r_v|^2 for a surface and |r_u|^2 for a curve.
 
     body   a body defined by its position map
     Second route: the square of the size is det(r_i . r_j), with scalar products from squared distances of neighbouring
-    points; for a solid also the signed volume that small edges span, numerically.
+    points. For a solid, a numerical check also compares the signed volume that small edges span.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """
@@ -302,8 +303,8 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
 
 def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """Return det(r_i . r_j), where r_i . r_j is half a second derivative of the squared chord to a neighbour, at zero
-    distance."""
+    """Return det(r_i . r_j). Each r_i . r_j is half the second derivative, at zero distance, of the squared chord to a
+    neighbouring point."""
     steps = [scalar(f"delta_{x.name}") for x in names]
     moved = position.xreplace({x: x + s for x, s in zip(names, steps, strict=True)}) - position
     chord = sum((x**2 for x in moved), Integer(0))
@@ -394,7 +395,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """Density of a body of given mass, proportional to a function p of the position: rho = M p/(integral of p dV).
 
     body   a body defined by its position map, its mass and the function p
-    Check: a numerical sum of density times cell gives the mass back.
+    Check: a numerical sum of the density times the size of each cell gives the mass back.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     region, p = body.region(ORIGIN), body.profile

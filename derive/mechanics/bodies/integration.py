@@ -75,7 +75,8 @@ class Nested:
 
 
 def _wrapped(parts: Sequence[Expr], limits: Sequence[OneVariable], inner: Expr) -> Expr:
-    """The inner expression inside integrals, innermost first; each integral also contains its part of the integrand."""
+    """Wrap the integrals around the inner expression, the innermost first; each integral also contains its part of the
+    integrand."""
     for part, limit in reversed(list(zip(parts, limits, strict=True))):
         factors = [Group(f) if isinstance(f, Integral) else f for f in (part, inner) if f != 1]
         whole = factors[0] if len(factors) == 1 else Factors(*factors) if factors else Integer(1)
@@ -104,8 +105,8 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """The term as one integral for each group of variables; constants belong to the first group that the term
-    contains."""
+    """The term as one integral for each group of variables; the constant factors are in the integral of the first group
+    whose variables the term contains."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -130,7 +131,7 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
     """The lines from the innermost integrals outwards: antiderivatives, then their values at the limits."""
     nested = _are_nested(terms)
-    # The split hardly changes a single nested term, so the line appears at full level only.
+    # The split hardly changes a single nested term, so the line of the split then appears at full level only.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
     lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):
@@ -178,8 +179,8 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """The product of a term: first values and integrals of 1, written as upper minus lower limit; then other
-    integrals."""
+    """The product of the factors of a term. In a line with brackets, values and integrals of 1 come first, and each
+    integral of 1 is written as upper minus lower limit."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]
@@ -209,13 +210,14 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord, that is, square roots of the outer variables."""
+    """Whether the innermost limits are the ends of a chord: they contain a square root with a variable other than the
+    first."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 
 
 def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """The lines of an integral over the disc at each height, for any solid of revolution, then along the axis."""
+    """The lines of an integral over a solid of revolution: first over the disc at each height, then along the axis."""
     z_limit, *within = region.limits
     by_chords = _by_chords(region, integrand, front) if region.element == 1 else []
     discs = list(Add.make_args(explicit(Integral(integrand, *reversed(within))).expand()))

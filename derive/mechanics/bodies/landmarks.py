@@ -1,4 +1,4 @@
-"""Check that the named points of a body have the right positions, by the limits of its region.
+"""Check the positions of the named points of a body by means of the limits of its region.
 
 A corner is at a limit of every coordinate. A rim is on the outermost circle. The base is the middle of an end face. The
 apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by integration.
@@ -17,7 +17,7 @@ from derive.steps.step import is_zero
 
 
 def is_where_named(body: Any, point: Point) -> bool:
-    """Whether a point has the position that its name implies, and its axes are orthonormal and right-handed."""
+    """Whether a point has the position that its name implies, if any, and its axes are orthonormal and right-handed."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)

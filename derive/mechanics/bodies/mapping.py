@@ -18,7 +18,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
-TRIES = 40  # greatest number of draws in the search for limits in order
+TRIES = 40  # greatest number of draws until every lower limit is below its upper limit
 LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 
@@ -28,7 +28,7 @@ ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
 def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
-    """Cylindrical coordinates: height, angle about the z axis and distance from it; limits of r may depend on z.
+    """Cylindrical coordinates: height, angle about the z axis and distance from this axis; limits of r may depend on z.
 
     taken   symbols that are not available for the variables
     """
@@ -53,7 +53,7 @@ def spherical(
 
 
 def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
-    """Cartesian coordinates x, y and z, each between two limits.
+    """Cartesian coordinates x, y and z, each between two limits or with a constant value.
 
     taken   symbols that are not available for the variables
     """
@@ -75,7 +75,8 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    A variable that is a length along an axis is measured from the point too, if nothing else depends on this variable.
+    If a variable is itself a coordinate along an axis, this variable is measured from the point as well, unless another
+    coordinate, the weight, or a limit of another such variable depends on it.
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)
@@ -118,7 +119,8 @@ def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[Immu
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The square root, without absolute values; an error if an expression inside one of these changes its sign."""
+    """The square root, with x or -x in place of each absolute value |x|; an error if x changes its sign between the
+    limits."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 
@@ -169,7 +171,7 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
 
 
 def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) -> tuple[ImmutableMatrix, Bounds]:
-    """The position map as stored: with new real variables, and limits that depend only on outer variables.
+    """Return the position map with new real variables; an error if a limit contains any but outer variables.
 
     position   three formulas
     limits     variable -> (lower, upper), outermost first

@@ -1,4 +1,5 @@
-"""Parts of a body: the place of one point of the part, its rotation, and whether the part is a cavity."""
+"""Parts of a larger body: for each part, the place of one of its points, its rotation, and whether the part is a
+cavity."""
 
 from __future__ import annotations
 
@@ -113,7 +114,8 @@ def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
 
 
 def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
-    """Whether each unit vector rotates as v_parallel + v_perp cos(angle) + (n x v) sin(angle) about the axis n."""
+    """Whether the matrix maps each unit vector v to v_parallel + v_perp cos(angle) + (n x v) sin(angle), with the axis
+    n."""
     n = column(*(int(axis == other) for other in "xyz"))
     for k in range(3):
         v = column(*(int(k == i) for i in range(3)))
@@ -124,7 +126,7 @@ def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
 
 
 def name_of_body(called: str) -> str:
-    """Return the name; reject any other name than one or two words of small letters, which keys and indices contain."""
+    """Return a name that keys and indices can contain; reject a name that is not one or two words of small letters."""
     if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
         help_line = 'use one or two words of small letters, "upper rod"'
         raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))

@@ -48,7 +48,7 @@ class PlacedBody:
     rim: tuple[Location, Expr] | None = None
 
     def with_rim(self, centre: Location, radius: Expr) -> PlacedBody:
-        """The body with the circle that bounds it; its centre must move with the body."""
+        """Return the body with the circle that bounds it; the centre of the circle must be fixed in the body."""
         if not self.is_plane:
             raise Rejected(Complaint("wrong-argument", "a body has a `rim` only in a plane of motion"))
         x, y = (centre - self.at).components
@@ -57,7 +57,7 @@ class PlacedBody:
         if coordinates_in(own) or depends_on_time(own):
             message = "the centre of the `rim` does not move with the body"
             help_line = (
-                "give the place of the centre of mass relative to it: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
+                "give the centre of mass from the centre of the rim: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
             )
             raise Rejected(Complaint("no-such-body", message, help=help_line))
         return replace(self, rim=(centre, radius))
@@ -92,7 +92,7 @@ class PlacedBody:
 
     @property
     def is_held(self) -> bool:
-        """Whether the point whose place is known does not move."""
+        """Whether the point whose place is known is at rest."""
         here = ImmutableDenseMatrix(self.at.components)
         return not coordinates_in(here) and not depends_on_time(here)
 
@@ -133,7 +133,7 @@ class PointOfBody(Location):
 
 
 def body_at(place: Any, stated: Any = None) -> Any:
-    """Return the body of a material point, if no other body is stated; `stated` if the place belongs to no body."""
+    """Return the stated body; if none is stated, the body that has a material point at the place, or None."""
     return place.body if stated is None and isinstance(place, PointOfBody) else stated
 
 
@@ -161,10 +161,10 @@ class Placeable:
         cls.name = with_article(cls.id)
 
     def placed(self, turned: Any, centre: Location, across: str | None = None) -> PlacedBody:
-        """Return the body with its centre of mass at a place. Axes give the orientation in space, an angle gives it in
-        a plane.
+        """Return the body with its centre of mass at a place. Axes give the orientation in space; an angle gives the
+        orientation in a plane.
 
-        across   the body axis perpendicular to the plane of motion, if the choice is ambiguous
+        across   the body axis perpendicular to the plane of motion; needed if the shape does not determine this axis
         """
         own: Any = self
         return _placed(own, turned, own.middle, centre, across)
@@ -227,8 +227,8 @@ def _check_turns(body: Any, number: int, angle: Expr) -> None:
 
 
 def _check_flat(body: Any, number: int) -> None:
-    """Reject a default axis perpendicular to the plane along which the body extends, unless all axes of the body are
-    equivalent."""
+    """Reject the default axis perpendicular to the plane if the body extends along this axis, unless all axes of the
+    body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
         message = f"{body.name} extends along its {XYZ[number]} axis, so another axis may be perpendicular to the plane"
         raise Rejected(

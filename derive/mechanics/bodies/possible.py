@@ -21,7 +21,7 @@ from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
-POINTS, TWINS = 40, 6  # number of points sampled in a part, and of places tested for being covered twice
+POINTS, TWINS = 40, 6  # sampled points of a part; sampled places at which other values of the variables are sought
 APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
 
 
@@ -34,7 +34,7 @@ def require_positive(body: str, role: str, value: Any) -> None:
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a body: its name, its sign (1, or -1 for a cavity), its filling, and its position map."""
+    """A part of a body: its name, its sign (1, or -1 for a cavity), what its mass fills, and its position map."""
 
     called: str
     sign: int
@@ -67,7 +67,8 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 
 @dataclass(frozen=True)
 class Fault:
-    """Why no body consists of these parts: a word for the reason, and the names of the parts at one place."""
+    """Why no body can consist of the given parts: a word for the reason, and the names of the parts that meet at one
+    place."""
 
     why: str
     names: tuple[str, ...]
@@ -90,8 +91,8 @@ SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject parts that no body has: a hole that is not inside the body, two holes or two parts that share a volume, an
-    area or a length, holes that leave nothing of the body, and a particle as a hole."""
+    """Reject parts that no body can have: a hole that is not inside the body, two holes or two parts that share a
+    volume, an area or a length, holes that leave nothing of the body, and a particle as a hole."""
     for part in parts:
         if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
             message = "a particle cannot be cut out of a body"
@@ -105,9 +106,10 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _fault(pieces: Sequence[Piece], charts: Sequence[Chart]) -> Fault | None:
-    """Return what is wrong with the parts for one draw of the symbols: at each place at most one part is left.
+    """Return the `Fault` of the parts for one draw of the symbols; None if the parts can form a body.
 
-    At each sampled place the number of parts minus the number of holes must be 0 or 1. A fault needs two such places.
+    At each sampled place the number of parts minus the number of holes must be 0 or 1. The parts are rejected if two
+    places violate this condition in the same way, or if a part remains at no place.
     """
     found: dict[Fault, int] = {}
     left = False
@@ -130,7 +132,8 @@ def _fault(pieces: Sequence[Piece], charts: Sequence[Chart]) -> Fault | None:
 
 
 def _there(place: Sequence[float], own: int, charts: Sequence[Chart]) -> list[int] | None:
-    """Return the parts in whose interior a place of one part is; None if it is on the surface of another part."""
+    """Return the indices of the parts that contain a place of one part; None if the place is on the surface of another
+    part."""
     found = []
     for k, chart in enumerate(charts):
         values = [] if k == own else list(chart.sought(place))
@@ -144,7 +147,7 @@ def _there(place: Sequence[float], own: int, charts: Sequence[Chart]) -> list[in
 def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Expr, negative_is_refused: bool) -> None:
     """Reject a map that covers places twice, and a density that changes its sign in the body.
 
-    negative_is_refused   whether a density that is negative everywhere is rejected too
+    negative_is_refused   whether to reject also a density that is negative everywhere
     """
     names = {x for x, _, _ in limits}
     letters = (position.free_symbols | density.free_symbols) - names
@@ -163,7 +166,8 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return the fault of the first draw of the symbols, if each draw that can be evaluated has a fault."""
+    """Return the `Fault` of the first draw of the symbols, if each draw that can be evaluated has one; otherwise
+    None."""
     found: Fault | None = None
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):
@@ -184,7 +188,7 @@ def _is_between(chart: Chart, at: Place) -> bool:
 
 
 def _covered_twice(chart: Chart) -> bool:
-    """Whether distinct values of the variables give the same place, for at least one sampled place."""
+    """Whether at least one sampled place also belongs to other values of the variables."""
     try:
         return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

@@ -25,7 +25,7 @@ from derive.mechanics.bodies.regions import Bounds
 LETTERS = 2  # number of draws of the symbols
 NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
-DIGITS = 36  # decimal places in differences of positions
+DIGITS = 36  # significant digits in differences of positions
 
 
 @lru_cache(maxsize=8)
@@ -56,7 +56,7 @@ def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
 def over_cells(
     position: ImmutableMatrix, limits: Bounds, values: Sequence[Expr], letters: Sequence[Symbol]
 ) -> Callable[[Mapping[Symbol, Expr]], list[float]]:
-    """A function from values of the symbols to the integrals of the given functions over the body."""
+    """Return a function that computes the integrals of the given functions over the body from values of the symbols."""
     names = [x for x, _, _ in limits]
     ends = [lambdify([*letters, *names[:i]], both, "math") for i, (_, *both) in enumerate(limits)]
     integrand: Callable[..., list[float]] = lambdify(
@@ -89,9 +89,9 @@ def _entries(of: Any) -> list[Any]:
 
 
 def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether an exact value, or each entry of a matrix, agrees with a sum over cells.
+    """Whether an exact value, or each entry of a matrix, agrees with a numerical sum over cells.
 
-    integrands   a function of the variables and the symbols for each entry
+    integrands   for each entry, an expression in the variables and the symbols
     """
     entries, wanted = ([explicit(e) for e in _entries(those)] for those in (value, integrands))
     names = {x for x, _, _ in limits}
@@ -112,7 +112,7 @@ def agrees(value: Any, integrands: Any, position: ImmutableMatrix, limits: Bound
 
 
 def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
-    """Whether a signed volume agrees, including the sign, with the volume that the edges of small cells span.
+    """Whether the signed volume of a cell agrees with the signed volume that the edges of small cells span.
 
     The edges are differences of positions, at random points between the limits: no formula is differentiated.
     """

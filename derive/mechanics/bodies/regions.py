@@ -39,7 +39,7 @@ ALONG = ImmutableDenseMatrix(eye(3))  # the body's own axes
 class Point:
     """A named point of a body, in body axes, and the axes for positions measured from this point.
 
-    axes    columns: the unit vectors of these axes, by components along the body axes
+    axes    a matrix; its columns are the unit vectors of these axes, by components along the body axes
     """
 
     name: str
@@ -65,7 +65,7 @@ class Point:
 class Region:
     """Limits, outermost first, with the position and the volume element in the same coordinates.
 
-    section     the symbol in the limits for the radius of a cross-section, and its value; None without such a symbol
+    section     a symbol in the limits for the radius of a cross-section, and its value; None if there is no such symbol
     """
 
     limits: Bounds
@@ -79,7 +79,7 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether x, y and z each range between opposite constants, so that all coordinate planes are mirror planes."""
+        """Whether x, y and z each range between opposite constants, so all coordinate planes are mirror planes."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
@@ -134,7 +134,8 @@ def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]
 def round_by_chords(
     radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr], point: Point, primed: str = ""
 ) -> Region:
-    """All points within the distance radius_at(z) of the z axis of the body, by x, y and z measured from a point.
+    """The region within the distance radius_at(z) of the z axis of the body, in coordinates x, y, z measured from a
+    point.
 
     ends     the limits of z in body axes
     primed   a mark to put after the symbol of the radius
@@ -152,7 +153,7 @@ def round_by_chords(
 
 
 def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> None:
-    """Reject a radius that may be negative at an end: the ends of a chord would be in the wrong order."""
+    """Reject a radius that may be negative at an end, because the ends of a chord would then be in the wrong order."""
     unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
     if unsure is not None:
         message = f"the radius `{unsure}` may be negative, but Cartesian limits need a positive radius"

@@ -83,8 +83,8 @@ class RoundSolid(RoundBody):
         return replace(found, limits=limits, section=(own, edge))
 
     def _primed(self, point: Point) -> str:
-        """What follows the symbol of the radius: a prime if z is not measured from the origin, and the index of a named
-        body."""
+        """The suffix of the symbol of the radius: a prime if z is not measured from the origin, and an index if the
+        body has a name."""
         index = f"_{self.called.partition(' ')[0]}" if self.called else ""
         return index if point.name == self.reference else f"'{index}"
 
@@ -183,7 +183,8 @@ class Ball(Spherical, RoundSolid):
         return r**2 + z**2, self.radius**2
 
     def particles(self) -> Particles:
-        """A tenth of the mass at each end of three diameters, 2 (M/10) R^2 = M R^2/5; the rest at the centre."""
+        """A tenth of the mass is at each end of three diameters, so each second moment is 2 (M/10) R^2 = M R^2/5; the
+        rest is at the centre."""
         return [(Rational(2, 5) * self.mass, ORIGIN), *on_diameters(Rational(3, 5) * self.mass, self.radius)]
 
 
@@ -336,7 +337,7 @@ class Torus(Body):
     def check_sizes(self) -> None:
         super().check_sizes()
         if sign_known(self.radius - self.section) == -1:
-            message = f"{self.name} needs a cross-section whose radius is not greater than that of the ring"
+            message = f"{self.name} needs a cross-section whose radius is not greater than the radius of the ring"
             raise Rejected(Complaint("sizes", message, help="`section` is the radius of the cross-section"))
 
     @property
@@ -457,7 +458,7 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
 
 
 def _polar_coordinates(region: Region) -> dict[str, tuple[Expr, Expr]]:
-    """x = s cos(theta) and y = s sin(theta), if the region is in cylindrical coordinates."""
+    """The formulas x = s cos(theta) and y = s sin(theta) in cylindrical coordinates; empty in Cartesian coordinates."""
     if region.element == 1:
         return {}
     _, theta, s = region.names

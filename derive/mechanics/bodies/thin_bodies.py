@@ -100,7 +100,7 @@ class _Flat(OfRadius, RoundBody):
 
 
 class Hoop(_Flat):
-    """A thin uniform ring perpendicular to the z axis, its centre at the origin.
+    """A thin uniform ring perpendicular to the z axis, with its centre at the origin.
 
     radius   length
     mass     mass
@@ -121,7 +121,7 @@ class Arc(Body):
     """A thin uniform wire in the shape of a circular arc in the plane of x and y; the x axis bisects the arc.
 
     radius       length
-    half_angle   from the x axis to either end, an angle up to pi: pi/2 for half a circle
+    half_angle   the angle from the x axis to either end, between 0 and pi; pi/2 for half a circle
     mass         mass
     Points: circle_centre (the origin), centre.
     """
@@ -161,7 +161,7 @@ class Arc(Body):
 
 
 class Disc(_Flat):
-    """A thin uniform circular disc perpendicular to the z axis, its centre at the origin.
+    """A thin uniform circular disc perpendicular to the z axis, with its centre at the origin.
 
     radius   length
     mass     mass
@@ -179,7 +179,7 @@ class Disc(_Flat):
 
 @dataclass(frozen=True)
 class Annulus(Hollow):
-    """A thin uniform disc with a round hole, perpendicular to the z axis, its centre at the origin.
+    """A thin uniform disc with a round hole, perpendicular to the z axis, with its centre at the origin.
 
     inner, outer   radii, lengths
     mass           mass
@@ -258,7 +258,7 @@ class SphericalShell(Spherical):
         return spherical(self.letters, self.radius)
 
     def particles(self) -> Particles:
-        """The moments of inertia about three diameters are equal, and their sum is 2 M R^2."""
+        """The moments of inertia about three perpendicular diameters are equal, and their sum is 2 M R^2."""
         return on_diameters(self.mass, self.radius)
 
 
@@ -313,7 +313,7 @@ class CylindricalShell(Cylindrical):
 class ConicalShell(Conical):
     """A thin uniform conical shell without a base, from its apex at the origin to z = height.
 
-    radius   of the rim, length
+    radius   the radius of the rim, length
     height   length
     mass     mass
     Points: tip (the apex), centre.

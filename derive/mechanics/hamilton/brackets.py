@@ -1,4 +1,4 @@
-"""Poisson brackets of functions of coordinates and momenta; with the Hamiltonian, they are rates of change."""
+"""Poisson brackets of functions of coordinates and momenta; brackets with the Hamiltonian give rates of change."""
 
 from __future__ import annotations
 
@@ -55,11 +55,13 @@ def poisson_bracket(
     """Poisson bracket, {f, g} = sum of df/dq dg/dp - df/dp dg/dq.
 
     f, g          functions of coordinates and momenta: steps, or formulas in `x` and `conjugate(x)`
-    coordinates   all coordinates; not needed if f or g is a Hamiltonian or was derived from one
-    among         steps; if the bracket is a number times one of them, the result is shown with the symbol of this step
-    Second route: {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and {u(f), g}, applied to the
-    formulas; if g is a Hamiltonian, the bracket plus the partial derivative of f with respect to time is the rate of f
-    along every motion, with f as a function of t and accelerations from d'Alembert's principle.
+    coordinates   all coordinates; not needed if f or g is a Hamiltonian, or a result derived from a Hamiltonian
+    among         steps; if the bracket is a number times the value of such a step, the last line is written with the
+                  symbol of this step
+    Second route: the bracket of the formulas by {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and
+    {u(f), g}. If g is a Hamiltonian, also: the bracket plus the partial derivative of f with respect to time is the
+    rate of f along every motion. This rate is the derivative of f as a function of t, with accelerations from
+    d'Alembert's principle.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
     Errors: the coordinates are not given; f or g contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
@@ -165,7 +167,7 @@ def _written(value: Expr) -> Expr:
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
-    """Return the line that shows the result as a number times one of these steps; no line if there is no such step."""
+    """Return the line with the result as a number times the symbol of a step; no line if no step has this property."""
     for known in among:
         ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
         if ratio.is_number and ratio != 0:
@@ -174,7 +176,8 @@ def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
 
 
 def _by_rules(f: Expr, g: Expr, pairs: dict[Symbol, Symbol]) -> Expr:
-    """Return the bracket from {q, p} = 1, linearity, the product rule, the chain rule and antisymmetry alone."""
+    """Return the bracket, derived only from {q, p} = 1, linearity, the product rule, the chain rule and
+    antisymmetry."""
     letters = {*pairs, *pairs.values()}
 
     def bracket(f: Expr, g: Expr) -> Expr:

@@ -50,9 +50,10 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt, where F
     are the magnetic forces and the forces with a potential energy. For a given L, the sum of p dH/dp, minus H, is L
     again.
-    Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
-    and H is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
+    Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy
+    (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time); work_energy (H is T + U,
+    but a force outside L does work); work (H is not T + U, and a force outside L does work); given_conserved,
+    given_changing, given_work (the same for a given L, whose T and U are unknown).
     Errors: the momenta do not determine the rates, or too many rates are coupled.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -123,8 +124,8 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     Keys: canonical_ and the name of the coordinate, or of the momentum.
     Second route: with the momenta as functions of the rates, the first equation is q_dot = q_dot, and the second is
     d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
-    Outcomes: rate (the first equation), force (the second), cyclic (the second, if H does not contain q), applied (the
-    second, with Q or constraint forces).
+    Outcomes: rate (the first equation); force (the second equation); cyclic (the second equation, if H does not contain
+    q); applied (the second equation, with Q or constraint forces).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1 and problem 8.4.
     """
     found: list[Quantity] = []
@@ -134,7 +135,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 
 def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """Return the values that a route compares, and 1 if `found` is an equation, otherwise 0."""
+    """Return the values, followed by 1 if `found` is an equation and by 0 otherwise; a route compares this column."""
     return ImmutableDenseMatrix([*values, int(found.operator == "=")])
 
 
@@ -229,7 +230,7 @@ IN_MOMENTA = Rule(
 
 
 def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quantity:
-    """A quantity with its rates in terms of the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
+    """A quantity whose rates are replaced by expressions in the momenta: x p_y - y p_x for m (x y_dot - y x_dot).
 
     quantity   a scalar in coordinates and rates
     of         the Hamiltonian of the same system, J

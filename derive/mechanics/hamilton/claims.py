@@ -1,4 +1,4 @@
-"""Predicates of Hamiltonian mechanics: each judges whether an outcome, or a statement of its sentence, is correct."""
+"""Predicates of Hamiltonian mechanics: each judges whether an outcome, or a statement in its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def is_equation_of(facts: Judged, letter: Symbol) -> bool:
 
 
 def pushed(facts: Judged, beside: bool) -> bool:
-    """Whether the result is an equation for the rate of the momentum. Its right side must have terms in addition to
-    -dH/dq if `beside` is true, and only -dH/dq otherwise."""
+    """Whether the result is an equation for the rate of the momentum. If `beside` is true, the right side of this
+    equation must contain terms in addition to -dH/dq; otherwise the right side must be -dH/dq."""
     H, q = explicit(facts.inputs["hamiltonian"]), facts.inputs["coordinate"]
     more = not is_zero(explicit(facts.result.right) + diff(H, q))
     return is_equation_of(facts, facts.inputs["momentum"]) and more == beside
@@ -47,8 +47,9 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Judge whether constant momenta are used, and whether a prescribed motion causes a kinetic energy where all rates
-    vanish."""
+    """Judge whether the result uses constant momenta exactly if `constants` is true. If `driven` is true, T must also
+    differ from zero where all rates vanish, and the result must differ from U. If `driven` is false, T must vanish
+    there, and the result must be U."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]

@@ -62,7 +62,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.
-    Outcomes: angular (q is an angle), linear (q is a length), other.
+    Outcomes: angular (q is an angle), linear (q is a length), other (neither, or L is not an energy).
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
     constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
@@ -70,7 +70,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     required(of.coordinates, q, "conserved", of)
     L = explicit(of.value)
     if L.has(q.symbol):
-        message = f"`conserved`: `{of.key}` contains {q.symbol.name}, so its momentum is not constant"
+        message = f"`conserved`: `{of.key}` contains {q.symbol.name}, so this coordinate has no constant momentum"
         raise Rejected(Complaint("not-cyclic", message))
     if not L.has(q.rate):
         message = f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, which has no momentum"
@@ -107,12 +107,12 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """Return the generalized force along a coordinate of all forces that the Lagrangian does not contain."""
+    """Return the generalized force, along a coordinate, of all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """Return the coordinates of the Lagrangian without the coordinates of the constant momenta."""
+    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -127,7 +127,7 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
         at_rest = pushed.xreplace({rate(s): ZERO for s in of.coordinates})
         if (pushed if verb == "routhian" else at_rest) != 0:
             message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
-            raise Rejected(Complaint("wrong-argument", message, help="its equation of motion contains that force"))
+            raise Rejected(Complaint("wrong-argument", message, help="use the equation of motion with this force"))
     if not found:
         message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate remains"
         raise Rejected(Complaint("wrong-argument", message))
@@ -240,11 +240,11 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the coordinates that are not cyclic: U_eff = sum of p q_dot - L, summed over the
-    cyclic coordinates, where all other rates vanish.
+    """Effective potential energy of the coordinates that are not cyclic, U_eff = sum of p q_dot - L. The sum is over
+    the cyclic coordinates, and the rates of all other coordinates are zero.
 
     of          the Lagrangian, J, which does not contain the time
-    constants   momenta of cyclic coordinates, results of `conserved`; by default those of all cyclic coordinates
+    constants   momenta of cyclic coordinates, results of `conserved`; by default the momenta of all cyclic coordinates
 
     Without cyclic coordinates U_eff is U - T_0, for example in a prescribed rotation.
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
@@ -256,7 +256,7 @@ def effective_potential(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if depends_on_time(of.value):
-        message = f"`effective_potential`: `{of.key}` contains the time t, so nothing is at rest"
+        message = f"`effective_potential`: `{of.key}` contains the time t, so it has no effective potential energy"
         raise Rejected(Complaint("changes", message))
     constants = constants or _cyclic(of)
     left = _put_aside(of, constants, "effective_potential")
@@ -303,7 +303,7 @@ def effective_potential(
 
 
 def _cyclic(of: Quantity) -> tuple[Quantity, ...]:
-    """Return the momenta of all coordinates that the Lagrangian does not contain."""
+    """Return the momenta of all cyclic coordinates: L does not contain the coordinate, but contains its rate."""
     L = explicit(of.value)
     return tuple(conserved(of, q) for q in coordinates_of(of) if not L.has(q.symbol) and L.has(q.rate))
 

@@ -38,8 +38,8 @@ class SeenWith(Fact):
     matter: Matter
 
     def with_values(self, values: Mapping[Symbol, Expr]) -> SeenWith | None:
-        """Return the same fact with values for the symbols of some momenta; None if a symbol that is not a constant
-        momentum has a value."""
+        """Return the same fact with values substituted for the symbols of constant momenta; None if `values` contains
+        any other symbol."""
         if not isinstance(self.matter, ReducedMatter) or not set(values) <= {p.symbol for p in self.constants}:
             return None
         rates = tuple((v, tidied(bound(found, values))) for v, found in self.matter.rates)
@@ -48,7 +48,7 @@ class SeenWith(Fact):
 
 @dataclass(frozen=True)
 class PhaseSpace(Fact):
-    """A function of coordinates and momenta, and the Lagrangian of these momenta."""
+    """The coordinates and momenta of a function in phase space, and the Lagrangian of these momenta."""
 
     missing = "is not a function of coordinates and their momenta"
     coordinates: tuple[Coordinate, ...]

@@ -22,7 +22,8 @@ MOST_OPERATIONS = 300  # greatest number of operations in the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Return rate -> its expression in the momenta, or None if L does not have this form with a diagonal matrix A."""
+    """Return rate -> its expression in the momenta, or None if L contains rates outside one quadratic form with
+    diagonal A."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]
     beside = [bound(p, at_rest) for p in values]
@@ -57,7 +58,8 @@ def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbo
 
 
 def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
-    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0, or None if SymPy does not find it."""
+    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0; None if the equation is too long or SymPy does
+    not find this root."""
     u = Dummy("u", positive=True)
     equation = g.xreplace({s: u**2 * size}) * u - 1
     if equation.count_ops() > MOST_OPERATIONS:

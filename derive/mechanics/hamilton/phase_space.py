@@ -1,7 +1,7 @@
 """Rates of coordinates in terms of momenta.
 
-In phase space a momentum p_q is a symbol as independent as its coordinate q, so p_q counts as a coordinate too. The
-value of a momentum is a function of coordinates and rates, m l^2 theta_dot.
+In phase space a momentum p_q is a symbol that is independent of its coordinate q, so steps store p_q as a further
+coordinate. The value of a momentum is a function of coordinates and rates, such as m l^2 theta_dot.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from derive.steps.step import Quantity, lettered
 __all__ = ["rates_by_momenta"]
 
 LARGEST = 4  # greatest number of coupled rates
-LARGEST_WITH_ANGLES = 2  # for a coupling with sines or cosines; with three rates, H is a page long
+LARGEST_WITH_ANGLES = 2  # the same if the coupling contains sines or cosines; with three rates, H is a page long
 ZERO = Integer(0)
 
 
@@ -60,7 +60,7 @@ def rates_by_momenta(
     of        the Lagrangian, J
     given     momenta of some coordinates of the Lagrangian; the results contain the symbols of these momenta
     varying   whether these symbols vary in time, as in a Hamiltonian; otherwise they are constant
-    Keys: `key`, _ and the name of the coordinate; for constant momenta also _by_ and their symbols.
+    Keys: `key`, _ and the name of the coordinate; for constant momenta, _by_ and the symbols of the momenta follow.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
     Errors: the momenta do not determine the rates, or too many rates are coupled.

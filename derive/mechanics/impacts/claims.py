@@ -1,4 +1,4 @@
-"""Predicates of impacts: each decides whether an outcome, or a symbol that its sentence names, is correct."""
+"""Predicates of impacts: each decides whether an outcome, or a symbol in the sentence of an outcome, is correct."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from derive.steps.step import is_zero
 
 
 def is_struck(wanted: bool) -> Predicate:
-    """Require that the power of the impulses depends on the rate of the coordinate; if `wanted` is false, that it does
-    not."""
+    """Return a predicate: the power of the impulses depends on the rate of the coordinate exactly if `wanted` is
+    true."""
     return lambda facts: wanted != is_zero(explicit(facts.inputs["slope"]))
 
 

@@ -37,7 +37,7 @@ class Impulse:
 
     components   the components that the law uses
     at           the components of the place, or the angle as the only component
-    of           the body on which the impulse acts; None if this is not stated
+    of           the body on which the impulse acts; None if the body is not stated
     given        the components as the author gave them, for a second route
     """
 
@@ -51,11 +51,12 @@ class Impulse:
 class Collision:
     """A collision of two places; if `start` is None, the place `end` meets an object at rest.
 
-    along         the unit vector of the common normal, along which the impulse acts; empty if the places stay together
+    along         the unit vector of the common normal, along which the impulse acts; empty if there is no normal and
+                  the places stay together
     restitution   the ratio of the speed of separation to the speed of approach
-    letter        the symbol of the impulse; if the places stay together, the symbol of each component also has the
-                  component's axis as an index
-    of            the body or particle of the start, and that of the end; None if it is not stated
+    letter        the symbol of the impulse; without a normal, the symbol of each component of the impulse also has the
+                  axis as an index
+    of            the bodies or particles of the start and of the end; None for one that is not stated
     given         the normal and the restitution as the author gave them, for a second route
     """
 
@@ -69,7 +70,7 @@ class Collision:
 
 
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
-    """A given impulse, the integral of a force over the short time of an impact, at a place, N s.
+    """A given impulse at a place, N s: the integral of a force over the short time of an impact.
 
     of   the body or particle on which the impulse acts; needed if no body or particle moves with the place
     """
@@ -80,7 +81,7 @@ def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
 
 
 def angular_impulse(amount: Any, on: Any) -> Impulse:
-    """A given angular impulse along an angle, the integral of a torque over the short time of an impact, N m s."""
+    """A given angular impulse along an angle, N m s: the integral of a torque over the short time of an impact."""
     if not coordinates_in(as_expr(on)):
         raise Rejected(Complaint("wrong-argument", f"`angular_impulse` needs a moving angle, but {on} does not move"))
     return Impulse((as_expr(amount),), (as_expr(on),), given=(amount,))
@@ -108,7 +109,7 @@ def collision(
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
-        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, the other has three"))
+        raise Rejected(Complaint("wrong-argument", "one place of a collision has two components, and the other three"))
     normal = tuple(as_expr(c) for c in along)
     if normal and (len(normal) != size or all(c == 0 for c in normal)):
         message = f"`collision` needs {size} components as its normal, not all zero"
@@ -171,9 +172,10 @@ class Meeting:
 class Impact:
     """An impact on a system at one instant.
 
-    system   the particles and bodies; in the impact, an impulse maintains each constraint that a force maintains
+    system   the particles and bodies; during the impact, an impulse enforces each constraint for which the
+             system has a force
     acts     given impulses, and collisions
-    at       coordinate -> its value at this instant; coordinates without a value remain general
+    at       coordinate -> its value at this instant; coordinates without a value remain symbols
     before   coordinate -> its rate just before the impact, by default zero
     """
 
@@ -225,12 +227,12 @@ class Impact:
                 asked += [(act, at.components) for at, of in ends if at is not None and of is None]
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
-            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: that place moves with no body"
+            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: the place moves with no body"
             help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
-        """Return the place of the particle on which the impulse acts, as a function of the coordinates."""
+        """Return the place of the material point on which the impulse acts, as a function of the coordinates."""
         if of is None or len(at) < 2:
             return at
         point = material_point("impulse", of, Location(at))
@@ -273,7 +275,7 @@ class Impact:
         return symbol
 
     def there(self, value: Any) -> Expr:
-        """Return the value at the instant of the impact."""
+        """Return an expression at the instant of the impact, with the given values of coordinates substituted."""
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
@@ -285,13 +287,13 @@ class Impact:
         return value
 
     def earlier(self, value: Any) -> Expr:
-        """Return the value just before the impact."""
+        """Return an expression just before the impact, with coordinates and rates at this instant substituted."""
         return self.there(value).xreplace(self.before)
 
     def read_again(self, value: Any, rates: bool = False) -> Expr:
-        """Return the value at the instant of the impact, from the state as the author gave it.
+        """Return an expression at the instant of the impact, with the state substituted as the author gave it.
 
-        rates   whether to substitute the rates just before the impact too
+        rates   whether to substitute also the rates just before the impact, not only the coordinates
         """
         places, speeds = ({getattr(q, "symbol", q): at for q, at in given.items()} for given in self._given)
         found = explicit(value).subs(list(places.items()), simultaneous=True)
@@ -347,7 +349,7 @@ class Impact:
             raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
         if sign == -1:
             message = "the two places move apart before this collision, along its normal"
-            help_line = "reverse the normal, which points from the first place to the second, or the rates in `before`"
+            help_line = "reverse the rates in `before`, or the normal, which points from the first place to the second"
             raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign is None:
             assume(Relation(tidied(speed), ">", Integer(0)))
@@ -367,7 +369,7 @@ class Impact:
         return Meeting(gap, restitution, unknown(letter, "momentum"), what, ends=ends, given=given)
 
     def _check_meet(self, way: Sequence[Expr], along: Vector) -> None:
-        """Require that the two places coincide, or are displaced only along the normal, as the centres of two balls."""
+        """Require that the two places coincide, or are apart only along the normal, like the centres of two balls."""
         across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
         if not all(is_zero(c) for c in across):
             message = "the two places of this collision do not meet"

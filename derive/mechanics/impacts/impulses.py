@@ -53,7 +53,7 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     q         a coordinate of the system
     Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points, and the right side is the
     derivative of the power J . v with respect to q_dot.
-    Outcomes: struck, free (no impulse acts along q).
+    Outcomes: struck (an impulse acts along q), free (no impulse acts along q).
     Errors: q is not a coordinate of the impact.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
     *Mechanics*, section 7.
@@ -212,8 +212,8 @@ def work_of_impulses(
     impact   the system, its state and the impulses
     energy   the kinetic energy T just after the impact, J, from `energy_after`
     after    the rates just after the impact and the unknown impulses, from `rates_after`
-    Second route: the work of each impulse is J . (v + v_before)/2, with the velocity of the place where it acts.
-    Outcomes: zero (no energy is lost), lost, gained, generic.
+    Second route: the work of each impulse is J . (v + v_before)/2, where v is the velocity of its point of action.
+    Outcomes: zero (T does not change), lost (T decreases), gained (T increases), generic (the sign is unknown).
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.
     """
     found = {q.symbol: explicit(q.value) for q in after}

@@ -1,4 +1,4 @@
-"""Predicates of kinematics: each decides whether an outcome, or a fact in its sentence, is correct."""
+"""Predicates of kinematics: each decides whether an outcome, or a fact in the sentence of an outcome, is correct."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ def of_its_coordinate(facts: Judged, fact: OfCoordinate) -> bool:
     """Whether the fact names the coordinate of the result.
 
     A partial derivative must be with respect to this coordinate or its rate; an acceleration must be the acceleration
-    of this coordinate. For any other result, the input `coordinate` must be this coordinate, if there is such an input.
+    of this coordinate. Any other result has the right coordinate if its input `coordinate` is this coordinate, or if
+    there is no such input.
     """
     q, symbol = fact.coordinate.symbol, facts.symbol
     if isinstance(symbol, Partial):

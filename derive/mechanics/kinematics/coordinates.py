@@ -50,7 +50,7 @@ class Coordinate:
 
     symbol: Symbol
     kind: str
-    held_as: ClassVar[str] = "COORDINATE"  # the kind of value of an argument with this type, in `results:`
+    held_as: ClassVar[str] = "COORDINATE"  # the kind of value in `results:` for such an argument
 
     def _sympy_(self) -> Symbol:
         return self.symbol
@@ -120,7 +120,7 @@ def require_all_times(verb: str, quantity: Quantity) -> None:
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """Return a real coordinate with this name; `positive` is for a coordinate that cannot be negative, a distance."""
+    """Return a real coordinate with this name; `positive` is for one that cannot be negative, such as a distance."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
@@ -129,7 +129,7 @@ def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordi
 def function_of_time(name: str, kind: str = "length", positive: bool = False) -> Prescribed:
     """Return a prescribed function of the time, such as the position X(t) of a shaken support, m.
 
-    name      the symbol of the function; its rates are X_dot and X_ddot, `X.rate()` and `X.rate(2)` in a script
+    name      the symbol of the function; for X, the rates are X_dot and X_ddot, in a script `X.rate()` and `X.rate(2)`
     kind      the kind of its values: `length`, `angle`, `force` and so on
     positive  whether its values are known to be positive, as for the length of a string
     A prescribed function is not an unknown: it has no equation of motion, and its derivative with respect to a
@@ -181,7 +181,7 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
         f = Function(q.name)(T)
         replaced.update({Derivative(f, (T, 3)): rate(q, 3), Derivative(f, (T, 2)): rate(q, 2)})
         replaced.update({Derivative(f, T): rate(q), f: q})
-    for derivative_or_function, name in replaced.items():  # from the highest derivatives down
+    for derivative_or_function, name in replaced.items():  # the highest derivatives are replaced first
         expr = expr.xreplace({derivative_or_function: name})
     return expr
 
@@ -189,7 +189,8 @@ def unchanging(expr: Any, coordinates: Iterable[Symbol]) -> Any:
 def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 1) -> Any:
     """Differentiate `order` times with respect to t, with coordinates as functions of t: a second route to `TimeRate`.
 
-    Each coordinate is its Taylor series about the instant t. If `expr` has no Taylor series, SymPy differentiates it.
+    Each coordinate is replaced by its Taylor series about the instant t. If `expr` has no Taylor series, SymPy
+    differentiates it.
     """
     coordinates, expr = list(coordinates), explicit(expr)
     if isinstance(expr, MatrixBase):
@@ -200,7 +201,7 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
         return unchanging(diff(changing(expr, coordinates), T, order), coordinates)
 
 
-@lru_cache(maxsize=64)  # all second routes of one system use the same coordinates
+@lru_cache(maxsize=64)  # the second routes of one system all need the same series
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
     """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; likewise for each rate."""
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
@@ -234,7 +235,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
-    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # a motion x(t) is a function of time
+    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the x of a motion x(t) does not count
 
     def by_time() -> Expr:
         return by_functions_of_time(quantity.value, moving)

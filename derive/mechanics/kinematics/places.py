@@ -21,7 +21,7 @@ __all__ = ["Axes", "Location", "X", "Y", "Z", "point", "space", "t"]
 class Location:
     """A position, or a displacement between two positions: two components in a plane, or three in space, in m.
 
-    components   along fixed axes; the last axis is upwards
+    components   the components along fixed axes; the last axis points upwards
     found        pairs (index, step) for the components that a step has derived
     """
 
@@ -53,7 +53,7 @@ class Location:
         return self if moved == self.components else Location(moved)
 
     def turned(self, angle: Any) -> Location:
-        """Return the displacement rotated in its plane by an angle, counterclockwise from right to up."""
+        """Return the displacement rotated in its plane; a positive angle rotates counterclockwise, from right to up."""
         if len(self.components) != 2:
             message = "`turned` rotates a displacement in a plane, but this one has three components"
             raise Rejected(Complaint("wrong-argument", message, help="for axes in space use `space.turned(Z, phi)`"))
@@ -81,9 +81,9 @@ def point(*components: Any) -> Location:
 
 
 def angle_of(direction: Location) -> Expr | None:
-    """Return the angle of a unit vector in a plane, from right to up; None if the angle is unknown.
+    """Return the angle of a unit vector in a plane, measured from right to up; None if the angle is unknown.
 
-    The angle is a multiple of a right angle plus or minus an angle in the components, or a number.
+    The result is a number, or a multiple of a right angle plus or minus an angle that the components contain.
     """
     x, y = direction.components
     if x.is_number and y.is_number:

@@ -117,7 +117,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """Return v^2 of the damped point, for a point of a body as the sum of the squared components of its velocity."""
+    """Return v^2 of the damped point. For a point of a body, the components of the velocity are evaluated."""
     if not damper.point.held:
         return squares_of_rates(damper.at, moving)
     squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
@@ -133,7 +133,7 @@ def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
 
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
-    """Return the power F . v, where v is the time derivative of the point of action as a function of t."""
+    """Return the power F . v; the velocity v comes from the place of action as a function of t."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 
@@ -243,8 +243,8 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
     A step derives the generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
-    Outcomes: applied (forces without a potential energy), kept (constraint forces), both, free (neither acts along
-    q).
+    Outcomes: applied (forces without a potential energy act along q), kept (constraint forces act along q), both (both
+    kinds act along q), free (neither kind acts along q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.
     """
     matter, moving = of.needed(Matter), list(of.coordinates)
@@ -289,13 +289,14 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Return whether the constraints are between coordinates, between rates, or of both kinds."""
+    """Return what the constraints relate: "coordinates", "rates", or "both" if some relate coordinates and some
+    rates."""
     in_rates = {c.in_rates for c in constraints}
     return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
 
 
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
-    """Return the functions that vanish, f_x = x - R sin(theta).
+    """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
     The index of f is the index of the multiplier, here lambda_x. For multipliers without an index, the functions are
     f_1, f_2 and so on, or f if there is only one constraint. If the gradient of f does not have the length 1, the
@@ -316,19 +317,19 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
-    """Return the multipliers that are forces, with the numbers of their functions; a sentence has room for four."""
+    """Return the multipliers that are forces, by the numbers of their functions; a sentence can name at most four."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 
 def _multiplier_by_work(of: Constraint) -> Expr:
-    """Return the multiplier from the virtual work of the forces at material points, lambda df/dq for a coordinate q."""
+    """Return the multiplier lambda from the virtual work lambda df/dq of the forces at material points."""
     q = next(q for q in of.coordinates if not is_zero(diff(of.residual, q)))
     loads = of.other_loads([q])
     return Add(*(load.work_along(q) for load in loads)) / diff(of.residual, q)
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
-    """Write terms with coordinates or rates on the left, and driving terms and constraint forces on the right."""
+    """Write terms with constraint forces, and terms without coordinates, rates and accelerations, on the right side."""
     whole = explicit(found.left) - explicit(found.right)
     whole = whole.expand()
     letters = [c.force for c in constraints]

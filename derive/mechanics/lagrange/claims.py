@@ -1,4 +1,4 @@
-"""Predicates of Lagrangian mechanics: each judges whether an outcome, or a statement of its sentence, is correct."""
+"""Predicates of Lagrangian mechanics: each judges whether an outcome, or a statement in its sentence, is correct."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from derive.steps.trial_numbers import Point, everywhere, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """Whether the momentum has its conserved value if the rate from this fact is substituted."""
+    """Whether the momentum has its conserved value if the rate that the fact states is substituted."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -45,7 +45,7 @@ def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
 
 
 def with_momenta(facts: Judged, fact: WithMomenta) -> bool:
-    """Whether the equation is free of the rates of all coordinates with conserved momenta."""
+    """Whether the equation contains no rate of a coordinate with a conserved momentum."""
     return not explicit(facts.result).has(*(rate(kept.coordinate) for kept in fact.kept))
 
 
@@ -83,7 +83,7 @@ def _is_energy(facts: Judged) -> bool:
 
 
 def _is_worked_on(facts: Judged) -> bool:
-    """Whether forces that are not in L have a power, so that the rate of the result is not only -dL/dt."""
+    """Whether the power of the forces outside L is not zero; the rate of the result is then not only -dL/dt."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
@@ -188,7 +188,7 @@ def free_bodies(facts: Judged) -> int:
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
-    """Whether the page assumes u > 0 for each distance |u| that a step replaces by u, and the sentence mentions
+    """Whether the page assumes u > 0 for each distance |u| that a step replaces by u. The sentence must mention
     stretched springs exactly if one of these assumptions is about a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
@@ -223,8 +223,9 @@ def has_rates(condition: Expr) -> bool:
 
 
 def is_stretched(facts: Judged) -> bool:
-    """Whether the symbol of the multiplier is not the force: the gradient of the condition with respect to the position
-    of the particle does not have the length by which the multiplier is divided, which is 1 except for curves.
+    """Whether the symbol in the result is a multiplier that differs from the constraint force. The symbol is the force
+    if the gradient of the condition with respect to the position of the particle has the length `gradient`, which is 1
+    except for curves.
 
     The gradient (J J^T)^-1 J a comes from virtual work, and its length is computed numerically."""
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
@@ -276,8 +277,10 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factor of each force in the equation is the derivative of a stated function with respect to the
-    coordinate of the equation, or to its rate, times the stated ratio of the multiplier to the force, if there is one.
-    The generalized force may contain a friction term that is proportional to a multiplier; this term is not counted."""
+    coordinate of the equation; for constraints on rates, with respect to the rate of this coordinate. If the sentence
+    also states a multiplier in terms of its force, the factor contains their ratio. The generalized force may contain a
+    friction term that is proportional to a multiplier; this term is not counted. For constraints of both kinds, the
+    test is only whether the sentence states functions."""
     q = facts.inputs["coordinate"]
     if facts.words["between"] not in ("coordinates", "rates", "both"):
         return False
@@ -298,8 +301,8 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
 
 
 def multiplier_of(i: int) -> Naming:
-    """Return the predicate of the multiplier that a sentence gives to its i-th function: the factor of the multiplier
-    in the equation is the derivative of this function."""
+    """Return the predicate for the multiplier of the i-th function in a sentence: the factor of this multiplier in the
+    equation is the derivative of the function with respect to the coordinate or its rate."""
 
     def is_so(facts: Judged, letter: Any) -> bool:
         q = facts.inputs["coordinate"]

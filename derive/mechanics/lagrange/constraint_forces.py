@@ -107,7 +107,7 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
     matter = found[0].needed(Matter)
     missing = [q.name for q in matter.coordinates if q not in problem.moving]
     if missing or len(set(problem.moving)) < len(problem.moving):
-        what = f"that of {missing[0]} is missing" if missing else "one equation is given twice"
+        what = f"the equation of {missing[0]} is missing" if missing else "one equation is given twice"
         help_line = "`equations_of_motion` returns all equations"
         message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
@@ -328,7 +328,8 @@ def constraint_force(
     Second route: Newton's law along the displacement: N is the sum of m a . dr over the mass points, minus the work of
     all other forces.
     Outcomes: generic, zero.
-    Errors: the forces belong to different systems; another constraint force does work in this displacement.
+    Errors: the forces belong to different systems; a constraint force that is not among `forces` does work in this
+    displacement.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
     """
     kept = [force.needed(ForceOf) for force in forces]
@@ -340,11 +341,11 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # for the second route, not `way`
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route reads this
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
-        message = f"`constraint_force`: {missing[0].force} does work in this displacement too"
+        message = f"`constraint_force`: {missing[0].force} is not given, but does work in this displacement"
         raise Rejected(Complaint("wrong-argument", message, help="give all forces from `multipliers`"))
     acting = {f"force_{i}": f for i, (f, k) in enumerate(zip(forces, kept, strict=True)) if works[k.constraint] != 0}
     factors = [works[f.needed(ForceOf).constraint] for f in acting.values()]
@@ -436,7 +437,8 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
-    """Replace sines, cosines and roots by symbols, so that the entries are rational; return these symbols too."""
+    """Return the matrix with symbols in place of sines, cosines and roots, so that its entries are rational, and
+    a mapping from the replaced functions to these symbols."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}

@@ -63,7 +63,7 @@ MANY = 8  # greatest number of terms in a line with expanded squares; a longer l
 class Mover:
     """A particle, or a body that is not held at a fixed point: its kinetic energy contains (1/2) M v^2.
 
-    letter   the index of the symbol v, empty if there is none
+    letter   the index of the symbol v; empty if v has no index
     """
 
     mass: Expr
@@ -79,7 +79,8 @@ class Mover:
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
     """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
 
-    The name of a body replaces the number. The name of the system and the index of a second Lagrangian follow.
+    If a body has a name, this name replaces the number. The name of the system and the index of the Lagrangian follow,
+    if there are any.
     """
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
@@ -154,8 +155,8 @@ def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the rates of the components that change, if a step derives each of these components and there are
-    several."""
+    """Return the rates of the components that change, if there are several such components and a step derives each;
+    otherwise an empty list."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -249,11 +250,11 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
     system   particles and bodies
 
-    The speed v is that of a particle or a centre of mass, and I is about the centre of mass. A body that is held at a
-    fixed point has no term with v, and its I is about the fixed point.
-    Steps derive the square of each speed, each angular velocity and each inertia.
+    Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. A body that is held at
+    a fixed point has no term with v, and its I is about the fixed point. Steps derive the square of each speed, each
+    angular velocity and each inertia.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
-    Errors: the known moments of inertia of a body are about another point.
+    Errors: the moments of inertia of a body are known only about a point other than the required one.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     moved = movers(system, (symbol or "").partition("_")[2])
@@ -299,7 +300,8 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the level at which the line with substituted values is shown; columns and matrices only at full level."""
+    """Return the level at which the line with substituted values appears; a line with columns or matrices appears only
+    at full level, and without rotations there is no such line."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL

@@ -35,7 +35,7 @@ def beside_potential(
     """Write an energy as a sum of a kinetic part, collected by rates and momenta, and the unchanged potential energy.
 
     of        the Lagrangian
-    letters   symbols of momenta, constant or not
+    letters   symbols of momenta, which may be constant or vary
     moving    coordinates whose rates are in the energy
     sign      the sign of the potential energy: -1 in a Lagrangian
     """
@@ -72,8 +72,8 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """Return the last line of an energy: terms of second degree in the order of these names, then terms without these
-    names, then terms linear in one of them."""
+    """Return the last line of an energy: first terms of second degree in the given names, in the order of the names;
+    then terms without these names; then terms linear in one of the names."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))

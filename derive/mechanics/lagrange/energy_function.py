@@ -44,7 +44,8 @@ __all__ = ["energy_function", "energy_function_rate"]
 
 
 def outcome_of_energy(value: Expr, of: Quantity) -> str:
-    """Return the outcome for an energy function in coordinates and rates: whether it is T + U, and conserved."""
+    """Return the outcome for an energy function in coordinates and rates: whether it is T + U, and whether it is
+    conserved."""
     if energies_of(of) is None:
         return _of_given(of)
     whole = is_zero(value - of.needed(Energies).whole)
@@ -63,7 +64,7 @@ def _of_given(of: Quantity) -> str:
 
 
 def _power_beside(of: Quantity) -> Expr:
-    """Return the power of forces without a potential energy, and of the forces of moving constraints."""
+    """Return the power of the forces without a potential energy, plus the power of the forces of moving constraints."""
     matter = of.needed(Matter)
     loads = [load for load in matter.others if load.multiplier is None]
     works = [rate(q) * load.work_along(q) for q in matter.coordinates for load in loads]
@@ -71,7 +72,7 @@ def _power_beside(of: Quantity) -> Expr:
 
 
 def _constrained(of: Quantity) -> dict[str, str]:
-    """Return the word that constraint forces act and no constraint contains the time, if this is so."""
+    """Return the word "constrained" if constraint forces act and no constraint contains the time; otherwise no word."""
     kept = of.fact(Constrained)
     fixed = kept is not None and not any(depends_on_time(each.residual) for each in kept.constraints)
     return {"constrained": "constrained"} if fixed else {}
@@ -111,11 +112,13 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates; for a given L,
-    the derivative of L with respect to a common factor of all rates, minus L, and the rate of h by the energy identity.
-    Outcomes: energy (conserved, and T + U), conserved (but not T + U), changing_energy (T + U, but L contains the
-    time), changing (neither); work_energy (T + U, but a force outside L does work), work (a force outside L does work,
-    and h is not T + U); given_conserved, given_changing, given_work (the corresponding cases of a given L).
+    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L
+    there are two routes: the derivative of L with respect to a common factor of all rates, minus L; and the rate of h
+    by the energy identity.
+    Outcomes: energy (h is conserved and is T + U); conserved (h is conserved but is not T + U); changing_energy
+    (h is T + U, but L contains the time); changing (h is not T + U, and L contains the time); work_energy (h is T + U,
+    but a force outside L does work); work (h is not T + U, and a force outside L does work); given_conserved,
+    given_changing, given_work (the same for a given L, whose T and U are unknown).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
     """
     moving = coordinates_of(of)
@@ -173,16 +176,16 @@ ENERGY_FUNCTION_RATE = Rule(
 
 
 def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
-    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt - sum of lambda df/dt, where dL/dt
-    and df/dt are partial derivatives with respect to time, for constraints f = 0.
+    """Rate of the energy function along every motion, dh/dt = sum of Q q_dot - dL/dt - sum of lambda df/dt. Here dL/dt
+    and df/dt are partial derivatives with respect to time, and the constraints are f = 0.
 
     of   the energy function h, J
     Steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates replace df/dt.
     Second route: the time derivative of h as a function of t, minus the sum of q_dot (m a - F) . dr/dq, which vanishes
     by d'Alembert's principle.
     Outcomes: conserved (no force outside L does work, and L does not contain the time), changes (only because L
-    contains the time), work (a force outside L does work), lost (the power of this force is never positive),
-    work_and_time (a force outside L does work, and L contains the time).
+    contains the time), work (a force outside L does work), lost (a force outside L does work, and its power is never
+    positive), work_and_time (a force outside L does work, and L contains the time).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4, 2.5 and 2.7.
     """
     L = of.needed(FromLagrangian).lagrangian

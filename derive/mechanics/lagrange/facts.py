@@ -77,7 +77,7 @@ def energies_of(lagrangian: Quantity) -> Energies | None:
 
 @dataclass(frozen=True)
 class Varied(Matter):
-    """The first variations of a given Lagrangian, which take the place of mass points and forces.
+    """The first variations of a given Lagrangian; second routes use them in place of mass points and forces.
 
     function   the Lagrangian
     """
@@ -86,7 +86,7 @@ class Varied(Matter):
 
     def __add__(self, other: Matter) -> Matter:
         if other != self:
-            raise Rejected(Complaint("different-subjects", "these belong to different Lagrangians"))
+            raise Rejected(Complaint("different-subjects", "these quantities belong to different Lagrangians"))
         return self
 
     @property
@@ -108,14 +108,15 @@ class Varied(Matter):
         return slope(self.function, q)
 
     def inertia_along(self, q: Symbol) -> Expr:
-        """Return dp/dt minus the derivative of L with respect to q: minus the variational derivative of the action."""
+        """Return dp/dt minus the derivative of L with respect to q; this is minus the variational derivative of the
+        action."""
         return by_functions_of_time(self.momentum_along(q), self.coordinates) - self.turning_along(q)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
         """Return the second route by the energy identity, which needs no derivative of L with respect to q.
 
-        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate of L with the other coordinates as
-        functions of time, is the power of the forces along q.
+        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate that L would have if q and its rate
+        were constant, is the power of the forces along q.
         """
 
         def power(found: Any) -> tuple[Any, Any]:

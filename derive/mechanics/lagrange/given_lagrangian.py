@@ -37,7 +37,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class WithoutBodies:
-    """The system of a given Lagrangian: the function, its coordinates, and additional forces along them."""
+    """The system of a given Lagrangian: the function, its coordinates, and additional forces along these
+    coordinates."""
 
     function: Expr
     given_forces: tuple[GivenForce, ...] = ()
@@ -75,14 +76,14 @@ def given_lagrangian(
     symbol: str | None = None,
     key: str = "lagrangian",
 ) -> Quantity:
-    """Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise, which is not derived, like a definition.
+    """Lagrangian that is given as a formula, L = f(q, q_dot, t): a premise; like a definition, it is not derived.
 
     function   a formula in coordinates, their rates and the time
     acting     additional forces along coordinates: couples, and drag against a rate
     kind       the kind of L, an energy for a mechanical system
     Expressions under square roots are assumed to be positive, so L is real.
-    Errors: the formula contains no rate of a coordinate, or it contains an acceleration; a force acts along another
-    coordinate.
+    Errors: the formula contains no rate of a coordinate, or it contains an acceleration; a force acts along a
+    coordinate that the formula does not contain.
     Source: Landau, Lifshitz, *Mechanics*, section 2.
     """
     whole = explicit(function)
@@ -123,7 +124,8 @@ def _radicands(whole: Expr) -> set[Expr]:
 
 
 def _take_as_real(base: Expr) -> None:
-    """Assume that an expression under a square root of L is positive, because L is real; the page states this."""
+    """Assume that an expression under a square root of L is positive, because L is real; the page states this
+    assumption."""
     above, below = together(base).as_numer_denom()
     if base.is_nonnegative or sign_within(base) == 1:
         return

@@ -34,8 +34,8 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
     value      the initial value c of the momentum: a premise
     matter     the mass points and forces of the system
     Second route: p_q is the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic
-    fields; its time derivative as a function of t is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
-    principle.
+    fields. The time derivative of p_q as a function of t is the sum of (m a - F) . dr/dq, which vanishes by
+    d'Alembert's principle.
     Errors: the value is not constant; the momentum is not linear in the rate of its coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """

@@ -60,7 +60,8 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
     The index of the symbol is also the index of the energies: T_2 and U_2 for "L_2".
     Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U. If a magnetic field acts, or if a position
-    or U depends explicitly on the time: L + U - sum of q v . A is the kinetic energy of the mass points.
+    or U depends explicitly on the time, the second route is instead: L + U - sum of q v . A is the kinetic energy of
+    the mass points.
     Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
@@ -130,7 +131,7 @@ EQUATION_OF_MOTION = Rule(
 def equation_of_motion(
     of: Quantity, q: Coordinate, key: str = "equation_of_motion", derivatives: bool = True
 ) -> Quantity:
-    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with other forces and constraints, see `forced_equation`.
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with constraints or forces outside L, see `forced_equation`.
 
     of            the Lagrangian, J
     q             one of its coordinates
@@ -211,7 +212,8 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
     """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    A sum with denominators in some terms only, such as a moment of inertia I + M a^2/4, is unchanged.
+    If a factor is a sum with denominators in some terms only, such as a moment of inertia I + M a^2/4, all terms remain
+    unchanged.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:
@@ -263,8 +265,8 @@ def _difference(first: Expr, second: Expr) -> Expr:
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name, with the key of the Lagrangian as a prefix if that key is not the usual
-    one."""
+    """Return the key of a step: the name, with the key of the Lagrangian as a prefix if the Lagrangian does not have
+    the default key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

@@ -1,4 +1,4 @@
-"""Conjugate momenta, p_q = dL/dq_dot: their symbols, kinds and forms."""
+"""Conjugate momenta, p_q = dL/dq_dot: their symbols, their kinds, and how they are written."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
 
 def written_momentum(value: Expr, of: Quantity) -> Expr:
-    """Collect a momentum by rates; for a given Lagrangian, simplify term by term if this is shorter, as with roots."""
+    """Collect a momentum by rates; for a given Lagrangian, simplify each term instead if the result is shorter."""
     forms = [by_rates(value, list(of.coordinates))]
     if energies_of(of) is None:
         forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))

@@ -54,10 +54,10 @@ def noether(
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
     Steps show that L is invariant up to dF/dt, and derive the momenta.
     Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f,
-    which vanishes by d'Alembert's principle; and Q + F is the sum of m v . dr and q A . dr, where epsilon dr is the
+    which vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr and q A . dr, where epsilon dr is the
     displacement of a mass point by the shift.
     Outcomes: symmetry, with_gain (F is not zero).
-    Errors: L is not invariant, and the message shows the difference; the shift contains a rate, or is zero.
+    Errors: L is not invariant (the message shows the difference); the shift contains a rate; the shift is zero.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)

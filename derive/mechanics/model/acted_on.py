@@ -1,4 +1,5 @@
-"""Checks of a system: each force acts on a particle, each reaction has a body, a force can keep each constraint."""
+"""Checks of a system: each force acts on a particle, each reaction acts on a body, and a force can enforce each
+constraint."""
 
 from __future__ import annotations
 
@@ -15,10 +16,10 @@ from derive.mechanics.model.forces import GivenForce
 from derive.steps.step import is_zero
 
 WHERE_IT_ACTS: Mapping[str, str] = {
-    "force": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
-    "drag": "name the body whose particle it acts on, `of: ball`, or write `of: massless` for a part without mass",
-    "spring": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
-    "central force": "end it at a particle or a point of a body, or write `massless: true` for a joint without mass",
+    "force": "name the body on which it acts, `of: ball`, or write `of: massless` for a part without mass",
+    "drag": "name the body on which it acts, `of: ball`, or write `of: massless` for a part without mass",
+    "spring": "attach it to a particle or a point of a body, or write `massless: true` for a joint without mass",
+    "central force": "attach it to a particle or a point of a body, or write `massless: true` for a joint without mass",
 }
 
 
@@ -35,7 +36,8 @@ class ActsOnNothing(Rejected):
 
 
 class WithParts(Protocol):
-    """The interface of a system that these checks use; `acting` has each part with its name and its place."""
+    """The interface of a system that these checks use; `acting` lists each part, the name of its force, and the place
+    of this force."""
 
     @property
     def described(self) -> Described: ...
@@ -50,14 +52,15 @@ class WithParts(Protocol):
 
 
 def check_what_is_acted_on(system: WithParts) -> None:
-    """Reject a place that moves with no particle, friction without a second body, a constraint without a gradient."""
+    """Reject a place that moves with no particle, a constraint without a gradient, and friction without a second
+    body."""
     _check_particles(system)
     _check_gradients(system)
     _check_partners(system)
 
 
 def _check_particles(system: WithParts) -> None:
-    """Require each place to move with a body, a particle or the ground."""
+    """Require each place of a force to move with a body or a particle, or to be fixed to the ground."""
     acting = system.acting
     for i in places_that_move_alone(system.described.description, [place for _, _, place in acting]):
         part, what, place = acting[i]
@@ -67,7 +70,8 @@ def _check_particles(system: WithParts) -> None:
 
 
 def check_ground(system: WithParts, ground: object) -> None:
-    """Require the place that is given as the ground of a rolling body to move with a body or a particle, or to rest."""
+    """Require the place that is given as the ground of a rolling body to move with a body or a particle, or to be at
+    rest."""
     if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
         where = ", ".join(map(str, ground.components))
         message = f"the place ({where}) of the ground moves with no body or particle of the system"
@@ -76,8 +80,8 @@ def check_ground(system: WithParts, ground: object) -> None:
 
 
 def _check_gradients(system: WithParts) -> None:
-    """Reject a constraint whose gradient is zero wherever the constraint holds: the constraint force is along the
-    gradient."""
+    """Reject a constraint whose gradient is zero wherever the constraint holds, because the constraint force is along
+    the gradient."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
         message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
@@ -88,8 +92,8 @@ def _check_gradients(system: WithParts) -> None:
 def _check_partners(system: WithParts) -> None:
     """Require the second body of a force that contains a constraint force, such as friction.
 
-    The opposite force acts on this second body. An input with one body need not state it, nor an input in which these
-    forces add up to zero.
+    The opposite force acts on this second body. The second body need not be stated if the system has only one mass, or
+    if all such forces add up to zero.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

@@ -1,4 +1,4 @@
-"""Predicates of models: each decides whether an outcome, or a fact in its sentence, is correct."""
+"""Predicates of models: each decides whether an outcome, or a fact in the sentence of an outcome, is correct."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def of_a_centre(facts: Judged) -> bool:
 
 
 def of_a_spring(facts: Judged, several: bool) -> bool:
-    """Whether the result is the length of the only spring of the system or, if `several`, of one of its springs."""
+    """Whether the result is the length of the only spring of the system; if `several`, of one of several springs."""
     springs = [each for each in facts.subject.body.between if each.is_spring]
     return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
 

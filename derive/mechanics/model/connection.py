@@ -1,7 +1,7 @@
-"""What connects bodies with each other and with the ground: contacts, strings, massless rods and joints.
+"""Connections of bodies with each other and with the ground: contacts, strings, massless rods and joints.
 
-A connection has no physics of its own. The constraints and forces that it yields act; the connection records which
-forces act on which material points, for drawings.
+A connection itself does not act on a system: it yields constraints and forces, which act. For drawings, the connection
+records which forces act on which material points.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class PointForce:
 
     size   the symbol of a constraint force, or a formula such as mu N for friction
     at     the place where the force acts
-    of     the body or particle on which it acts; None for the ground
+    of     the body or particle on which the force acts; None for the ground
     """
 
     size: Expr
@@ -59,7 +59,7 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle that has a material point there; None for a place in space."""
+    """Return a place, and the body or particle to which it belongs, or None for a place in space."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):
@@ -70,7 +70,7 @@ def end_of(given: Any) -> tuple[Location, Any]:
 
 
 def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]]) -> None:
-    """Require the body or particle of each place that moves with coordinates, because a force acts there."""
+    """Require that each place that moves with coordinates belongs to a body or particle, because a force acts there."""
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
             where = ", ".join(map(str, place.components))

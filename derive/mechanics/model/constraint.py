@@ -42,14 +42,14 @@ class Constraint(Part):
 
     left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
-    force     the multiplier, or the force if `gradient` is not 1
+    force     the symbol of the multiplier; if `gradient` is not 1, the symbol of the force
     in_rates  whether the constraint is linear in the rates
     forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
-    routes use them in place of the derivatives of f
+              routes use these forces in place of the derivatives of f
     enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
-    it is unknown
-    limit     for static friction with a known coefficient: its largest value
-    gradient  for a curve, the length of the gradient of f: the multiplier is `force` divided by it; otherwise 1
+              the enforcer is unknown
+    limit     for static friction with a known coefficient: the largest value of the friction
+    gradient  the length of the gradient of f for a curve, otherwise 1; the multiplier is `force` divided by `gradient`
     """
 
     left: Expr
@@ -74,8 +74,8 @@ class Constraint(Part):
 
     @property
     def by_length(self) -> Expr:
-        """The residual divided by the length of its gradient: the factor of the force in the virtual work is its
-        differential, where the constraint holds."""
+        """The residual divided by `gradient`. Where the constraint holds, the differential of this quotient is the
+        factor of the force in the virtual work."""
         return self.residual / self.gradient
 
     @property
@@ -91,8 +91,8 @@ class Constraint(Part):
         return coordinates_in(self.residual)
 
     def along(self, q: Symbol) -> Expr:
-        """The factor of the force in the force along q: df/dq, or a_q for a constraint on rates; divided by the length
-        of the gradient."""
+        """The factor of `force` in the generalized force along q: df/dq, or a_q for a constraint on rates, divided by
+        `gradient`."""
         return diff(self.residual, rate(q) if self.in_rates else q) / self.gradient
 
     def velocity(self, moving: list[Symbol]) -> Expr:
@@ -116,7 +116,7 @@ class Constraint(Part):
 
     @property
     def kind_of_force(self) -> str | None:
-        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if it is unknown.
+        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if the kind is unknown.
 
         The first term that is a number times a coordinate, or times a rate, determines the kind.
         """

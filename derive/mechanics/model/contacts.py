@@ -1,4 +1,4 @@
-"""Contacts of bodies with surfaces: the normal force and friction, with their forces on the material points of both."""
+"""Contacts of bodies with surfaces: the normal force and friction, on material points of the body and the surface."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Contact(Connection):
 
 @dataclass(frozen=True)
 class LandingSurface(Connection):
-    """A surface that a particle reaches only at the end of a free flight; no force acts on the particle before."""
+    """A surface that a particle reaches only at the end of a free flight, so it exerts no force on the particle."""
 
     surface: Surface
 
@@ -93,7 +93,7 @@ class LandingSurface(Connection):
 
 
 def landing_surface(surface: Any) -> LandingSurface:
-    """A surface on which a free flight ends; it is a part of the drawing.
+    """A surface on which a free flight ends; the drawing shows this surface.
 
     surface   a surface from `plane`
     """
@@ -117,9 +117,10 @@ def contact(
     on         a surface, `plane(...)` or `circle(...)`; or another round body
     normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
                coordinates allow the body to leave the surface
-    rolling    whether the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
-               the surface with the free side on the left. In space, F_x and F_y are its components along axes in the
-               surface; if one axis is not in the surface, the component named after it is perpendicular to the other
+    rolling    True if the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
+               the surface with the free side on the left. In space, the friction has two components along axes in the
+               surface, such as F_x and F_y; if only one horizontal axis is in the surface, the component named after
+               the other horizontal axis is perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
     direction  with `sliding`: the direction in which the material point of the body slips over the surface; with
                `rolling` or `static`: the direction in which the friction on the body is positive; a vector, "right" or
@@ -127,10 +128,10 @@ def contact(
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, N, positive as for `rolling`
-    Equal and opposite forces act on the material points of both. The distance of a round body from the surface is the
-    distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at its lowest point: with
-    the unit vector e along its axis and the unit normal n, the distance is that of the centre minus
-    R sqrt(1 - (n.e)^2).
+    Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
+    from the surface is the distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at
+    its lowest point: with the unit vector e along its axis and the unit normal n, its distance is the distance of its
+    centre minus R sqrt(1 - (n.e)^2).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -158,8 +159,8 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require the body that carries a surface that moves with coordinates, and the motion of a rough surface that
-    rotates."""
+    """Require that a body carries the surface if the surface moves with coordinates, or if it is rough and rotates in
+    time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
@@ -251,7 +252,7 @@ def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
 
 
 def _check_reached(touch: Contact) -> None:
-    """Reject a body that never touches the surface: it is always away from the surface, or partly inside it."""
+    """Reject a body that never touches the surface, because the body is always away from it or partly inside it."""
     sign = sign_known(touch.gap)
     if sign in (1, -1):
         where = "always away from the surface" if sign == 1 else "always partly inside the surface"
@@ -321,13 +322,14 @@ def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Pa
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
     if not isinstance(rolling, str):
-        message = "the coordinates allow the body to leave the surface, so a friction must prevent slipping"
+        message = "the coordinates allow the body to leave the surface, so a friction force must prevent slipping"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
     return _sticking(touch, rolling, direction)
 
 
 def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticLimit | None = None) -> list[Constraint]:
-    """Return the conditions that the material points in contact do not move over each other, with their friction."""
+    """Return the constraints that the material points in contact do not move over each other; friction enforces
+    them."""
     if not symbol:
         message = "static friction needs the symbol of its force"
         raise Rejected(Complaint("missing-key", message, help="give it as `force`, `{static: mu_s, force: F}`"))
@@ -364,8 +366,9 @@ def _frictions(touch: Contact, letter: str, direction: Any) -> dict[Symbol, Loca
 def _ways_along(touch: Contact) -> dict[str, Location]:
     """Return perpendicular unit vectors along a surface in space, by the names of axes.
 
-    Two axes, if they are in the surface; or a horizontal axis in the surface and the unit vector perpendicular to it,
-    which points to the side of the other horizontal axis on a surface that faces upwards.
+    If two axes are in the surface, the vectors are along these axes. Otherwise the first vector is along a horizontal
+    axis in the surface, and the second vector is perpendicular to this axis; if the surface faces upwards, the second
+    vector points to the side of the other horizontal axis.
     """
     n = touch.normal.components
     flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
@@ -405,7 +408,7 @@ def _along(touch: Contact, direction: Any) -> Location:
 
 
 def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> GivenForce:
-    """Return the friction mu N against the velocity of slip, on the material points of both."""
+    """Return the friction mu N on the body, against the velocity of slip; the opposite force acts on the surface."""
     mu = _coefficient(touch, coefficient, letter)
     if touch.surface.is_two_sided:
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
@@ -424,7 +427,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
 
 
 def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
-    """Return a coefficient of friction; require an unknown normal force, by which it is multiplied."""
+    """Return a coefficient of friction; require that the normal force, which it multiplies, is an unknown."""
     mu = as_expr(coefficient)
     require_constant("contact", "coefficient of friction", mu)
     if touch.is_kept:

@@ -1,4 +1,4 @@
-"""The mass points and forces of the system of a Lagrangian; second routes are derived from them.
+"""The mass points and forces of the system of a Lagrangian; second routes start from these points and forces.
 
 A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
 the rotation. Each further point is the end of a unit vector fixed in the body, and its `mass` is a second moment, in
@@ -38,8 +38,8 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a torque, in N m, along an angle.
 
-    held   pairs of a symbol in the place and the value of the symbol; the symbol, such as a component of the position
-    of a particle in its body, is constant in every displacement
+    held   pairs of a symbol in the place, such as a component of the position of a particle in its body, and the value
+           of this symbol; the symbol is constant in every displacement
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
 

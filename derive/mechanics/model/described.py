@@ -1,4 +1,4 @@
-"""The input of the witness: the parts of a system as described, before any condition eliminates a coordinate."""
+"""The input of the witness, an independent check: the parts of a system before a condition eliminates a coordinate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ CONSERVED = "hamilton.conserved"  # the rule of conserved momenta
 
 @dataclass(frozen=True)
 class Described(Witness):
-    """The description of the system to which a quantity belongs; the witness checks the quantity with it."""
+    """The description of the system to which a quantity belongs; the witness checks the quantity against this
+    description."""
 
     missing = "does not belong to a described system"
     description: plain.Description
@@ -41,7 +42,8 @@ class Described(Witness):
 
 @dataclass(frozen=True)
 class Struck(Witness):
-    """The description of the impact from which a quantity follows; the witness checks the quantity with it."""
+    """The description of the impact from which a quantity follows; the witness checks the quantity against this
+    description."""
 
     missing = "does not follow from an impact"
     impact: plain.Impact
@@ -68,7 +70,8 @@ def described(
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
     bodies   the bodies among the parts
-    known    coordinate -> its formula in other coordinates, from a condition; the description keeps this condition
+    known    coordinate -> its formula in other coordinates; the condition behind this formula is a part of the
+             description
     """
     found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
     for part in parts:
@@ -84,7 +87,7 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move, but neither with a body or a particle nor with the ground."""
+    """The indices of the places that move, but are fixed neither to a body or a particle nor to the ground."""
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:

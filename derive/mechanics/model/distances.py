@@ -1,4 +1,4 @@
-"""Steps that name a distance between two places of a system by a symbol, if its formula is long."""
+"""Steps that give a symbol to a distance between two places of a system if the formula of the distance is long."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class _AtPlace(Part):
     """A force at a place, or along a coordinate.
 
     at   the components of the place, or the coordinate as the only component
-    of   the body or particle on which the force acts, or "massless"; None if the script does not state it
+    of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
     """
 
     at: Vector
@@ -269,7 +269,7 @@ def potential(energy: Any) -> StoredEnergy:
         message = f"`potential` must depend on coordinates only, but it depends on the rate of {fast[0].name}"
         raise Rejected(Complaint("wrong-argument", message))
     if not moving:
-        raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy of coordinates, but {given} has none"))
+        raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy in coordinates, but {given} has none"))
     return StoredEnergy(given)
 
 

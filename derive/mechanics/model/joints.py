@@ -39,10 +39,10 @@ class Pin(Connection):
 
 
 def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
-    """A frictionless hinge, which keeps a point of one body at a point of another; in space a ball joint.
+    """A frictionless hinge, which keeps two points together; in space it is a ball joint.
 
-    of, to   points of bodies, particles, or a place in space
-    force    the symbol of the force on `of`; its components are R_x, R_y (and R_z), N
+    of, to   the two points: points of bodies, particles, or fixed places
+    force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z
     The opposite force acts on `to`.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
     """
@@ -62,14 +62,14 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
             found.append(Constraint(gap, ZERO, letter, forces=pair, enforcer="joint"))
     if not found:
         message = "the coordinates keep the two points together, so the force of the joint does not appear"
-        help_line = "place one of the bodies by coordinates of its own, so that the joint keeps it there"
+        help_line = "give one of the bodies coordinates of its own, so that the joint keeps the points together"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     fixed = there if other is None else here
     return Pin(tuple(force for each in found for force in each.forces), fixed), *found
 
 
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
-    """A rigid joint in a plane: a hinge that also keeps the angle between the two bodies, by a couple.
+    """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
 
     of, to   points of bodies, as for `pin`
     force    as for `pin`
@@ -90,7 +90,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
 
 @dataclass(frozen=True)
 class Motor(Connection):
-    """A motor that gives an angle a prescribed value, by a torque.
+    """A motor, whose torque keeps an angle equal to a prescribed function of time.
 
     angle    the angle
     torque   the symbol of the torque
@@ -104,9 +104,9 @@ class Motor(Connection):
 
 
 def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
-    """A motor that gives an angle a prescribed value at each time, by a torque.
+    """A motor, whose torque keeps an angle equal to a prescribed function of time.
 
-    on      the angle, a coordinate or a formula in coordinates
+    on      the angle: a coordinate, or a formula that contains coordinates
     turns   the value of the angle, a function of time such as `Omega*t`
     torque  the symbol of the torque of the motor, N m; positive in the sense in which the angle increases
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
@@ -118,9 +118,9 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 
 @dataclass(frozen=True)
 class DragAlong(Damper):
-    """Drag -c d_dot along a distance d. Second routes use the two forces on the material points at its ends.
+    """Drag -c d_dot along a distance d. Second routes use the forces on the material points at both ends.
 
-    ends   the two places, each with its body or particle; None for the ground
+    ends   two pairs: a place, and the body or particle at this place; in place of the body, None for the ground
     """
 
     ends: tuple[tuple[Location, Any], tuple[Location, Any]] = ((Location(()), None), (Location(()), None))
@@ -131,7 +131,10 @@ class DragAlong(Damper):
         return replace(super().moved(known), ends=ends)
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """The forces c (u.v) u and -c (u.v) u, where u is the unit vector and v the relative velocity of the ends."""
+        """The forces c (u.v) u on the start and -c (u.v) u on the end.
+
+        The unit vector u points from the start to the end; v is the velocity of the end relative to the start.
+        """
         points = [material_point("dashpot", of, place) for place, of in self.ends]
         start, end = ([explicit(TimeRate(c, *moving)).xreplace(point.values) for c in point.place] for point in points)
         way = [b - a for a, b in zip(self.ends[0][0].components, self.ends[1][0].components, strict=True)]
@@ -160,7 +163,7 @@ class Dashpot(Connection):
 
 
 def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
-    """A dashpot between two points: it opposes the rate of their distance d by the force c d_dot on both.
+    """A dashpot between two points at the distance d: it acts on each of them with the force c d_dot, against d_dot.
 
     constant     c, kg/s
     start, end   particles, bodies, points of bodies, or places

@@ -31,9 +31,9 @@ INTEGRATED = Rule(
 
 
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
-    """Integral of a condition on rates with constant factors: s = R theta from s_dot = R theta_dot.
+    """Integral of a linear relation between rates with constant coefficients: s = R theta from s_dot = R theta_dot.
 
-    condition   a step of `no_slip` that expresses one rate as a linear combination of other rates with constant factors
+    condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients
     The constant of integration is zero: it is assumed that all coordinates are zero in one position of the system.
     Check: the time derivative of the result is the condition; if all coordinates are zero, the result is zero.
     Errors: the condition cannot be integrated.
@@ -68,11 +68,12 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     """Components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
 
     of           a body that is placed or held, or a place, m
-    conditions   steps of `no_slip`; a coordinate that a condition expresses by others is replaced by this expression
-    names        names of the components and keys of their steps; by default x, y, or x, y, z; the last axis is upwards
-    If a `point` has these components, speeds and energies contain the symbols of the components.
+    conditions   steps of `no_slip`: each expresses a coordinate by other coordinates; this expression is substituted
+    names        the names of the components, which are also the keys of their steps; by default x and y, or x, y and z.
+                 The last axis points upwards
+    If you make a `point` from these components, speeds and energies contain the symbols of the components.
     Check: the time derivative of the result is the velocity of the place, with the conditions substituted for rates.
-    If all coordinates are zero, the result is equal to the component before the substitution.
+    Another check: where all coordinates are zero, the result is equal to the component before the substitution.
     Outcomes: centre (of a body), place.
     Errors: a condition cannot be integrated; the numbers of names and components differ.
     Source: Taylor, *Classical Mechanics*, section 7.3.

@@ -1,7 +1,7 @@
 """Material points: the particle of a body that is at a given place, and the motion of this particle.
 
-Some places, such as the point of contact of a sliding ball, move differently from every particle. A force on a body
-acts on the particle that is at the place of the force.
+A place need not move with a particle: the point of contact of a rolling ball moves along the floor, but no particle of
+the ball does. A force on a body acts on the particle that is at the place of the force.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ GROUND, MASSLESS = "ground", "massless"
 
 @dataclass(frozen=True)
 class MaterialPoint:
-    """A particle of a body; its place is a formula that contains symbols for its constant position in the body.
+    """A particle of a body: its place, with symbols for the constant position of the particle in the body.
 
-    place   to be differentiated with these symbols constant
-    held    pairs of a symbol and its value, to be substituted after differentiation
+    place   the components of the place; the symbols are constant when the components are differentiated
+    held    pairs of a symbol and its value; the values are substituted after differentiation
     """
 
     place: Vector
@@ -57,8 +57,9 @@ def at_rest_in(axes: Axes, at: Location) -> MaterialPoint:
 def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
     """The material point on which a force at a place acts.
 
-    of   for a placed body, the result is the particle of the body at this place; for a particle, the particle itself,
-    wherever it is; for None or "massless", a point that moves with the place
+    of   the object on which the force acts. For a placed body, the result is the particle of the body at `at`. For a
+         particle, the result is this particle, even if it is not at `at`. For None or "massless", the result is a
+         point that moves with `at`
     """
     if of is None or of == MASSLESS:
         return MaterialPoint(at.components)
@@ -67,4 +68,5 @@ def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
     if hasattr(of, "mass") and isinstance(getattr(of, "at", None), Location):
         return MaterialPoint(of.at.components)
     message = f"`{verb}` acts on a particle or on a body that is placed or held"
-    raise Rejected(Complaint("wrong-argument", message, help='give one of these as `of=`, or "massless"'))
+    help_line = 'give the particle or the body as `of=`, or give "massless"'
+    raise Rejected(Complaint("wrong-argument", message, help=help_line))

@@ -45,13 +45,15 @@ def no_slip(
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
     ground   a place on the surface, if the surface moves without rotation; the axes in which the surface is at rest,
-    such as those of a turntable; or the body that carries the surface; by default the surface is at rest in space
-    fixes    the coordinate whose rate to isolate, if possible; by default the coordinate of the last rotation
+             such as those of a turntable; or the body that carries the surface; by default the surface is at rest in
+             space
+    fixes    the coordinate whose rate is isolated, if possible; by default the coordinate of the last rotation
     There is one condition for each rate that can be isolated. A condition that can be integrated may be a part of a
-    `System`; it then expresses one coordinate by other coordinates.
-    Second route: the path of the particle at the contact, whose position in the body is constant, is differentiated.
-    If all conditions hold, this particle has the velocity of the surface; each condition follows from this fact.
-    Errors: the particle at the contact is always at rest, or the body cannot roll.
+    `System`; such a condition expresses one coordinate by other coordinates.
+    Second route: differentiate the place of the particle at the contact, with a constant position in the body.
+    If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
+    velocity, each condition is satisfied.
+    Errors: the particle at the contact is always at rest; the body cannot roll at this place.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
@@ -64,7 +66,7 @@ def no_slip(
 def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
-    """Conditions of rolling as constraints, each enforced by a force: F, or F_1 and F_2 for two conditions."""
+    """Conditions of rolling as constraints, each with the symbol of its force: `force`, or F_1 and F_2 for two."""
     conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
@@ -74,9 +76,10 @@ def rolling_constraint(
 
 
 def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
-    """The components of the slip velocity along perpendicular directions; multipliers are then components of friction.
+    """Return the components of the slip velocity along perpendicular directions.
 
-    The slip velocity is a sum over the conditions, each times a vector. Orthogonalization of these vectors gives the
+    With these components as constraints, the multipliers are the components of the friction. The slip velocity is a sum
+    over the conditions: the left side of each condition times a vector. Orthogonalization of these vectors yields the
     directions.
     """
     vectors: list[ImmutableMatrix] = []
@@ -98,7 +101,10 @@ def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr
 
 
 def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
-    """The sum of the conditions, each times its share, collected by rates; one condition with share 1 is unchanged."""
+    """Return the sum of the left sides of the conditions, each times its share, collected by rates.
+
+    If only one share is not zero, and this share is 1, the left side of its condition is returned unchanged.
+    """
     parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
     if len(parts) == 1 and parts[0][0] == 1:
         return parts[0][1]
@@ -109,7 +115,11 @@ def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
 
 
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
-    """Check that the constraints are components of the slip velocity, and vanish exactly if this velocity does."""
+    """Check that the constraints are components of the slip velocity.
+
+    The constraints must vanish exactly if the slip velocity vanishes, and the sum of their squares must be the square
+    of this velocity.
+    """
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
     ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
@@ -186,12 +196,13 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
             and not isinstance(place, Axes | PlacedBody)
             and (not isinstance(place, Location) or len(place.components) != len(body.at.components))
         ):
-            raise Rejected(Complaint("wrong-argument", "`no_slip` needs a contact in the plane or space of the body"))
+            message = "`no_slip` needs places with as many components as the place of the body"
+            raise Rejected(Complaint("wrong-argument", message))
     _check_reaches(body, at)
 
 
 def _check_reaches(body: PlacedBody, at: Location) -> None:
-    """Reject a place of contact whose distance from the centre of a round body is greater than the radius."""
+    """Reject a contact in a plane whose distance from the centre is constant and greater than the radius."""
     radius = getattr(body.body, "radius", None)
     if not isinstance(radius, Expr) or not body.is_plane:
         return
@@ -222,8 +233,8 @@ def contact_velocity(body: PlacedBody, at: Location, ground: Ground | None) -> I
 def velocity_at(of: Any, at: Location) -> Location:
     """Velocity of the material at a place, m/s.
 
-    of   a body: v + omega x (r_place - r); rotating axes in which the material is at rest: R_dot R^T r, which is
-    omega x r; a place or a particle that moves with the material; None for material at rest
+    of   a body, axes, a place or a particle that moves with the material; None if the material is at rest
+    For a body the result is v + omega x (r_place - r); for rotating axes it is R_dot R^T r, which is omega x r.
     """
     if of is None:
         return Location((ZERO,) * len(at.components))
@@ -249,7 +260,10 @@ def velocity_at(of: Any, at: Location) -> Location:
 
 
 def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
-    """The components of the velocity that must vanish; only one if all are multiples of one expression in the rates."""
+    """Return the components of the velocity that are not identically zero.
+
+    If all of them are multiples of one expression in the rates, return only this expression.
+    """
     parts = [_rates_alone(component) for component in velocity if component != 0]
     if parts and all(is_zero(part - parts[0]) or is_zero(part + parts[0]) for part in parts):
         return parts[:1]
@@ -257,7 +271,7 @@ def _conditions(velocity: ImmutableMatrix) -> list[Expr]:
 
 
 def _rates_alone(component: Expr) -> Expr:
-    """Return the product of the factors that contain a rate; if there is no such factor, the component itself."""
+    """Return the product of the factors of a component that contain a rate; if no factor does, the component itself."""
     fast = {s for q in coordinates_in(component) for s in (rate(q),)}
     kept = [f for f in Mul.make_args(factor(component)) if f.free_symbols & fast]
     return Mul(*kept) if kept else component
@@ -279,13 +293,13 @@ def _solved(
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that all conditions together bring the particle at the contact to rest on the surface."""
+        """Check that the particle at the contact is at rest on the surface if all conditions are satisfied."""
         velocity = velocity_of_particle(body, at, ground)
         known = {**_all_rates(body, at, ground, fixes), relation.left: relation.right}
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows from the particle at rest: this further row does not increase the rank."""
+        """Check that the condition follows if the particle is at rest: as another row it does not increase the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 
@@ -354,9 +368,9 @@ def velocity_of_particle(body: Any, at: Location, ground: Ground | None, foot: L
     """Velocity of the particle at the contact relative to the surface, by differentiation with respect to t.
 
     body   a placed body or a particle; None for a fixed place
-    foot   the place of the particle of the surface; by default the place of the particle of the body
+    foot   the place of the particle of the surface; by default `at`
 
-    The position of the particle in the body is constant.
+    During differentiation, the position of the particle in the body is constant.
     """
     point = material_point("no_slip", body, at)
     fast = [by_functions_of_time(c, list(coordinates_in(c))).subs(point.values) for c in point.place]

@@ -1,6 +1,6 @@
 """The interface of a part of a system: places, masses, forces, and the places at which the forces act.
 
-A system loops over its parts and does not distinguish sorts of parts.
+A system obtains most of its quantities from its parts through this interface.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Vector = tuple[Expr, ...]
 
 
 class Part:
-    """A part without places, masses or forces; each subclass overrides the properties that differ."""
+    """A part of a system, without places, masses or forces; subclasses override the properties for these."""
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         """Return the same part with expressions substituted for some coordinates."""
@@ -45,12 +45,12 @@ class Part:
 
     @property
     def acts_by(self) -> Vector:
-        """The expressions in forces or conditions; their coordinates must already be coordinates of the system."""
+        """Expressions in forces or conditions; each of their coordinates must be in `depends_on` of some part."""
         return ()
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The name of the part and a place, for each place at which the part does not state on what it acts."""
+        """Pairs of the name of the part and a place; it is not stated on which object the part acts there."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
@@ -67,7 +67,7 @@ class Part:
         return ()
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """Field of a `derive.witness.description.Description` -> the entries that this part adds to the field.
+        """Return a mapping from fields of a `derive.witness.description.Description` to entries for this part.
 
         bodies   the bodies of the system; forces refer to a body by its index in this list
         """
@@ -80,5 +80,5 @@ def moved(thing: Any, known: Mapping[Symbol, Expr]) -> Any:
 
 
 def number_of(thing: Any, bodies: Sequence[Any]) -> int | None:
-    """The index of a body in the list; None for other objects."""
+    """The index of an object in the list of bodies; None if the list does not contain the object."""
     return next((i for i, body in enumerate(bodies) if body is thing or body == thing), None)

@@ -27,7 +27,7 @@ __all__ = ["angular_velocity"]
 
 Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
 MANY_TERMS = 20
-_SQUARES = (lambda value: value, TR5, TR6)  # unchanged; squares of sines by cosines; squares of cosines by sines
+_SQUARES = (lambda value: value, TR5, TR6)  # unchanged; sin^2 becomes 1 - cos^2; cos^2 becomes 1 - sin^2
 
 
 ANGULAR_VELOCITY = Rule(
@@ -55,7 +55,8 @@ def angular_velocity(
     along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
     body    the body that rotates with the axes, if it has a name
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
-    Outcomes: body (components along the axes themselves), following (along the axes before the last rotations), space.
+    Outcomes: body (components along the axes themselves), following (along the axes before the last rotations), space
+    (along fixed axes).
     Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -116,7 +117,7 @@ def _minuses_below(value: Expr) -> int:
 
 
 def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
-    """The unit vector of the axis of rotation i, by components along the axes after `count` rotations."""
+    """The unit vector of the axis of rotation i, in components along the axes after `count` rotations."""
     about = column(*(int(k == axes.turns[i][0]) for k in range(3)))
     if i < count:
         return ImmutableDenseMatrix(after(axes.turns[i + 1 : count]).T * about)
@@ -144,7 +145,7 @@ def _is_symmetric(inertia: ImmutableMatrix, axis: int) -> bool:
 
 
 def turning_rate_of(placed: PlacedBody) -> Expr:
-    """The angular speed of a body in a plane, up to its sign."""
+    """The rate of the angle of a body in a plane, with the sign chosen so that the expression has no leading minus."""
     angle: Any = placed.turned
     found: Expr = tidied(TimeRate(angle, *coordinates_in(as_expr(angle))))
     return -found if found.could_extract_minus_sign() else found
@@ -168,7 +169,7 @@ def _at_centre(placed: PlacedBody) -> bool:
 
 
 def inertia_of(placed: PlacedBody) -> Inertia:
-    """The tensor of a body in space, or the moment of a body in a plane about the perpendicular axis.
+    """The inertia tensor of a body in space; for a body in a plane, the moment about the axis normal to the plane.
 
     Errors: the given moments are about the wrong point.
     """
@@ -185,7 +186,10 @@ def inertia_of(placed: PlacedBody) -> Inertia:
 
 
 def _check_moments(placed: PlacedBody) -> None:
-    """Reject moments about the pivot if the body is not held there, or if their steps are about the centre of mass."""
+    """Check moments that are given about the pivot.
+
+    Reject the moments if the body is not held at the pivot, or if the step of one moment is about the centre of mass.
+    """
     body = placed.body
     if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
         where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"

@@ -47,8 +47,8 @@ class Pulley(Connection):
 class Line(Connection):
     """A string or a massless rod.
 
-    through   its ends and the pulleys between them, in order: places, or pulleys with a radius
-    is_rod    whether it is a rod, which can also push
+    through   one end, the pulleys in order, and the other end; each is a place, or a pulley with a radius
+    is_rod    whether the line is a rod, which can push as well as pull
     """
 
     through: tuple[Location | Pulley, ...]
@@ -66,7 +66,7 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class Wire(Connection):
-    """A smooth wire on which a particle is threaded; it has the shape of the curve on which its coordinate moves it."""
+    """A smooth wire on which a particle is threaded; the wire is the curve on which the particle moves."""
 
     of: Any
 
@@ -83,7 +83,7 @@ class Piece:
     of: tuple[Any, Any]
 
     def pulls(self, tension: Symbol) -> tuple[PointForce, PointForce]:
-        """The forces on the two ends: the tension, towards each other."""
+        """The forces on the two ends: each is the tension, directed towards the other end."""
         along = direction_between(self.start, self.end)
         return (
             PointForce(tension, along.components, self.start, self.of[0]),
@@ -94,7 +94,7 @@ class Piece:
 def pulley(at: Location, radius: Any) -> Pulley:
     """A massless frictionless pulley with its centre at a place.
 
-    radius   m; a string leaves the pulley along a tangent
+    radius   the radius, m; a string leaves the pulley along a tangent
     """
     if not isinstance(at, Location):
         raise Rejected(Complaint("wrong-argument", "`pulley` needs the place of its centre"))
@@ -104,15 +104,16 @@ def pulley(at: Location, radius: Any) -> Pulley:
 
 
 def wire(of: Any) -> Wire:
-    """A smooth wire on which a particle is threaded. Its place must depend on exactly one coordinate.
+    """A smooth wire on which a particle is threaded. The place of the particle must depend on exactly one coordinate.
 
     of   the particle
     """
     place = getattr(of, "at", None)
     moving = coordinates_in(ImmutableDenseMatrix(place.components)) if isinstance(place, Location) else {}
     if len(moving) != 1:
-        message = f"a particle on a `wire` has one coordinate, but this one has {len(moving)}"
-        raise Rejected(Complaint("wrong-argument", message, help="leave the wire out, or give the curve as a place"))
+        message = f"a particle on a `wire` has one coordinate, but this particle has {len(moving)}"
+        help_line = "leave the wire out, or give the place of the particle as a function of one coordinate"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return Wire((), of)
 
 
@@ -123,12 +124,12 @@ def string(
 
     start, end   particles, points of bodies, or places in space
     length       the length of the straight pieces, m; it may be a function of the time, for a string that is pulled in
-    over         the pulleys or holes between the ends: pulleys; or places, particles or points of bodies, where the
-                 radius of the pulley is negligible
-    tension      the symbol of the tension, N; positive if the string pulls. Needed, together with the length, if the
-                 coordinates allow the length to change
-    The tension is the same everywhere in the string. It pulls the ends along the string, and each pulley along both
-    parts of the string.
+    over         the pulleys or holes between the ends. For a hole, or for a pulley of negligible radius, give a place,
+                 a particle or a point of a body
+    tension      the symbol of the tension, N; positive if the string pulls. The symbol and the length are required if
+                 the coordinates allow the length to change
+    The tension is the same everywhere in the string. The string pulls each end along the string, and each pulley along
+    the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
     return _of_length("string", (start, *over, end), length, tension)
@@ -139,16 +140,19 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
 
     start, end   particles, points of bodies, or places in space
     length       the length, m
-    force        the symbol of the force in the rod, N; positive in tension. Needed, together with the length, if the
-                 coordinates allow the length to change
+    force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
+                 the coordinates allow the length to change
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
     return _of_length("massless_rod", (start, end), length, force)
 
 
 def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tuple[Line | Constraint, ...]:
-    """Return the line and, with a symbol of its force, the constraint l - (length of the line) = 0, whose multiplier is
-    this force."""
+    """Return the line.
+
+    If the symbol of its force is given, also return the constraint l - (length of the line) = 0, whose multiplier is
+    this force.
+    """
     whole = as_expr(length) if length is not None else None
     if whole is not None:
         require_no_coordinate(verb, "length", whole)
@@ -167,7 +171,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
         message = f"the coordinates keep the length {kept}, so the force `{letter}` does not appear"
-        help_line = "leave out the force, or give the end a coordinate along the string, so that the tension keeps it"
+        help_line = "leave out the force, or give the end a coordinate along the string, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
     force = scalar(letter)
@@ -188,8 +192,7 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
 
 
 def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
-    """Return the ends of the straight piece between two ends or pulleys; at a pulley, the piece is parallel to an
-    axis."""
+    """Return the ends of the straight piece between two neighbours; a piece at a pulley must be parallel to an axis."""
     if not isinstance(one, Pulley) and not isinstance(other, Pulley):
         return end_of(one)[0], end_of(other)[0]
     for k in (0, 1):
@@ -200,7 +203,7 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
     place = next(each.at for each in (one, other) if isinstance(each, Pulley))
     where = ", ".join(map(str, place.components))
     message = f"no horizontal or vertical string is tangent to the pulley at ({where}) on the way to its neighbour"
-    help_line = "put the end of a vertical string at the distance of the radius beside the centre of the pulley"
+    help_line = "put the end of a vertical string beside the centre of the pulley, at a distance equal to the radius"
     raise Rejected(Complaint("no-contact", message, help=help_line))
 
 
@@ -217,9 +220,9 @@ def _touched(each: Any, k: int) -> list[Location]:
 
 
 def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    """Return the length of all pieces, if the coordinates and time do not change it.
+    """Return the total length of the pieces if it contains neither coordinates nor the time; otherwise None.
 
-    The length of a piece on a fixed line is u or -u; one choice of the signs must give a constant sum.
+    The length of a piece on a fixed line is u or -u. All choices of the signs are tried until the sum is constant.
     """
     lengths = []
     for piece in pieces:
@@ -233,11 +236,11 @@ def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
 
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
-    """Require that the coordinates keep the length of a line without a symbol for its force."""
+    """Check a line without a symbol for its force: its length must be constant, and equal to a given length."""
     what = "rod" if verb == "massless_rod" else "string"
     key = "force" if verb == "massless_rod" else "tension"
     if kept is None:
-        message = f"the coordinates allow the length of the {what} to change, so a force must keep it"
+        message = f"the coordinates allow the length of the {what} to change, so a force must keep it constant"
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
     if whole is not None and not is_zero(kept - whole):
         raise Rejected(Complaint("sizes", f"the coordinates keep the length {kept} of the {what}, not {whole}"))
@@ -248,10 +251,10 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
     without slipping.
 
     end      a particle, a point of a body, or a place in space
-    on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches its rim at the
-    height of its axis, or straight above or below the axis
+    on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches the rim at the
+             height of the axis, or straight above or below the axis
     tension  the symbol of the tension of this piece, N; positive if the string pulls
-    The particle of the rim at the string has the velocity of the string along the string.
+    Along the string, the rim at the point of contact and the string have the same velocity.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 6.7.
     """
     if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
@@ -272,7 +275,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
 
 
 def _rim(place: Location, on: PlacedBody) -> Location:
-    """Return the point of the rim at which a string from a place is tangent: the string is parallel to an axis."""
+    """Return the point at which a string from a place is tangent to the rim; the string must be parallel to an axis."""
     radius, way = radius_of(on), place - on.hub
     for k, c in enumerate(way.components):
         if is_zero(tidied(c**2 - radius**2)):

@@ -39,12 +39,13 @@ Ground: TypeAlias = Location | Axes | PlacedBody
 
 @dataclass(frozen=True)
 class Surface(ABC):
-    """A surface with a free side, where the bodies that touch it are.
+    """A surface; the bodies that touch it are on its free side.
 
-    of      the body or particle that carries the surface; None if no described body does
-    moves   the motion of the material of the surface, if no body carries it: the axes in which it is at rest, as for a
-            turntable, or a place that moves with it, as for a belt; None if it is at rest
-    is_two_sided   whether it holds bodies on both sides, like a rail; the normal force then has either sign
+    of      the body or particle of the system that carries the surface; None if the system has no such body
+    moves   if `of` is None, the motion of the material along the surface: the axes in which the material is at rest, as
+            for a turntable; a place that moves with the material, as for a belt; None if there is
+            no such motion
+    is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
 
     of: Any
@@ -61,7 +62,7 @@ class Surface(ABC):
 
     @abstractmethod
     def normal(self, at: Location) -> Location:
-        """The unit vector perpendicular to the surface, towards the free side, on the normal through a place."""
+        """The unit vector that is normal to the surface at a place and points towards the free side."""
 
     @abstractmethod
     def height(self, at: Location, normal: Location) -> Expr:
@@ -69,7 +70,7 @@ class Surface(ABC):
 
     @abstractmethod
     def foot(self, at: Location, normal: Location) -> Location:
-        """The place on the surface that is nearest to a place."""
+        """The point of the surface that touches a body at a place; for a plane or a curve, this place itself."""
 
     @property
     @abstractmethod
@@ -78,7 +79,7 @@ class Surface(ABC):
 
     @property
     def ground(self) -> Ground | None:
-        """What gives the velocity of the material of the surface; None if it is at rest."""
+        """The body, place or axes with which the material of the surface moves; None if the material is at rest."""
         if self.of is not None:
             return self.of if isinstance(self.of, PlacedBody) else self.of.at
         if isinstance(self.moves, Axes):
@@ -179,7 +180,7 @@ class Curve(Surface):
         return -above if self.below else above
 
     def height(self, at: Location, normal: Location) -> Expr:
-        """The distance of a place from the tangent to the curve vertically below it."""
+        """The distance of a place from the tangent to the curve at the point with the same x."""
         x, _ = (at - self.through).components
         beneath = self.through + Location((x, self._at(self.formula, at)))
         return dot(normal, at - beneath)
@@ -206,11 +207,11 @@ def plane(
     """A plane surface through a place.
 
     normal   a vector perpendicular to the plane, towards the free side; its length has no effect
-    along    in a plane of motion, in place of `normal`: a vector along the surface; the free side is on its left, so it
-             is above a surface from left to right
+    along    in a plane of motion, instead of `normal`: a vector along the surface. The free side is on the left of this
+             vector; for a vector to the right, the free side is above
     of       the body or particle that carries the surface
-    moves    the axes in which the surface is at rest, or a place that moves with it; by default it is at rest
-    is_two_sided   whether it holds bodies on both sides, like a rail; the normal force then has either sign
+    moves    the axes in which the surface is at rest, or a place that moves with the surface at a constant velocity
+    is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
     if (normal is None) == (along is None):
         raise Rejected(Complaint("wrong-argument", "`plane` needs either `normal` or `along`"))
@@ -221,12 +222,12 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Require one motion of the material: a constant velocity along the plane, axes in space, or that of a body."""
+    """Require that the material moves with a body, with axes in space, or at a constant velocity along the plane."""
     if surface.of is not None and surface.moves is not None:
         message = "the body that carries the surface determines its motion"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))
     if isinstance(surface.moves, Axes) and len(surface.through.components) == 2:
-        message = "a surface rotates with axes only in space; this system moves in a plane"
+        message = "a surface can rotate with axes only in space, but this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
     if isinstance(surface.moves, Location):
         velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
@@ -251,15 +252,15 @@ def circle(
     """A circular surface in a plane of motion, or a spherical surface in space.
 
     inside   whether the free side is inside, as in a bowl; by default it is outside
-    of       as for `plane`; without it, the material moves with the centre
-    moves    the axes in which the sphere is at rest
-    is_two_sided   whether it holds bodies on both sides, like a hoop; the normal force then has either sign
+    of       as for `plane`; by default the material moves with the centre
+    moves    the axes in which the sphere is at rest, for a sphere that rotates
+    is_two_sided   whether the surface can push bodies to both sides, like a hoop; the normal force may have either sign
     """
     if isinstance(moves, Location):
         message = "a circle has no `velocity`: its material moves with its centre, or with the body that carries it"
         raise Rejected(Complaint("wrong-argument", message, help="give `centre` as a function of time, or `of`"))
     if isinstance(moves, Axes) and len(centre.components) == 2:
-        message = "a surface rotates with axes only in space; this system moves in a plane"
+        message = "a surface can rotate with axes only in space, but this system moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: body`"))
     return Circle(of, moves, centre, as_expr(radius), inside, is_two_sided=is_two_sided)
 
@@ -277,10 +278,10 @@ def curve(
 
     x        the symbol for the horizontal distance from `through`, m
     height   f(x), the height above `through`, m
-    through  the place from which x and y are measured; by default the particle that carries the curve, or the origin.
-             The material of the curve moves with it
+    through  the place from which x and y are measured; by default the centre of the body or particle that carries the
+             curve, or the origin. The material of the curve moves with this place
     below    whether the free side is below the curve; by default it is above
-    of       the body or particle that carries the curve; the curve moves with it without rotation
+    of       the body or particle that carries the curve; the curve moves with this object, without rotation
     is_two_sided   as for `plane`
     The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The condition y - f(x) = 0 has
     a gradient of the length sqrt(1 + f'^2), so its multiplier is N/sqrt(1 + f'^2).
@@ -325,7 +326,7 @@ def dot(u: Location, v: Location) -> Expr:
 
 
 def vector(verb: str, given: Any, like: Location) -> Location:
-    """Return a vector with as many components as a place has."""
+    """Return a given vector as a `Location`; it must have as many components as the place `like`."""
     components = given.components if isinstance(given, Location) else tuple(given)
     if len(components) != len(like.components):
         message = f"`{verb}` needs a vector of {len(like.components)} components, as many as its place has"
@@ -343,7 +344,7 @@ def unit(verb: str, along: Location) -> Location:
 
 def _left_of(along: Location) -> Location:
     if len(along.components) != 2:
-        message = "`plane` has a direction `along` it only in a plane of motion"
+        message = "`plane` accepts `along` only in a system that moves in a plane"
         raise Rejected(Complaint("wrong-argument", message, help="give its `normal`"))
     x, y = along.components
     return Location((-y, x))
@@ -356,7 +357,10 @@ def distance_between(start: Location, end: Location) -> Expr:
 
 
 def raw_distance(start: Location, end: Location) -> Expr:
-    """Return the distance between two places, m; on a fixed line parallel to an axis, with a sign."""
+    """Return the distance between two places, m.
+
+    If the places differ in one component only, return this difference, which may be negative.
+    """
     lengths = [tidied(c) for c in (end - start).components if c != 0]
     return lengths[0] if len(lengths) == 1 else sqrt(factor(tidied(Add(*(c**2 for c in lengths)))))
 
@@ -368,7 +372,11 @@ def direction_between(start: Location, end: Location) -> Location:
 
 
 def _positive(length: Expr) -> Expr:
-    """Return u or -u for a distance |u|: the one that is positive for all values, or where all coordinates are zero."""
+    """Return u or -u for a distance |u|, whichever is positive for all values of its symbols.
+
+    If the sign depends on the values, return the one that is positive where all coordinates are zero, and assume that
+    it stays positive.
+    """
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
                     if not depends_on_time(term)))  # fmt: skip
@@ -383,7 +391,7 @@ def _positive(length: Expr) -> Expr:
 
 
 def _help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
-    """Return the line that would decide the sign: a coordinate or a function that is positive, or a relation."""
+    """Return the help for an unknown sign: a range for a coordinate, a positive function, or a relation to assume."""
     if not changing:
         more, less = sides_without_minus(length)
         return f"{DECIDES} {less} < {more}"

@@ -1,8 +1,8 @@
 """Mechanical systems: particles and bodies, the forces on them, and the conditions on their motion.
 
 Places are formulas in the coordinates, so geometric constraints between particles are built into the places. The
-energies are derived only from the places. The same is true of the mass points and forces of second routes (d'Alembert's
-principle).
+energies are derived from the places; for second routes (d'Alembert's principle), the mass points and the forces on them
+are also derived from the places.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ class MovingBody(Part):
         return [point for point in points if point.mass != 0]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """The body for the witness: the place of its given point, its centre relative to this point, second moments."""
+        """The body for the witness, with the place of its given point, and its centre relative to this point."""
         placed = self.placed
         axes = placed.in_plane if placed.is_plane else (0, 1, 2)
         arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
@@ -142,9 +142,9 @@ class Weight(Part):
 
 @dataclass(frozen=True)
 class Central(Part):
-    """A potential energy U(r), J, of the distance r between two places, and the force dU/dr along their line, N.
+    """A potential energy U(r), J, of the distance r between two places, and the attractive force dU/dr, N.
 
-    branch   for places on a fixed line, where r = |u|: u or -u, if the system has chosen the sign; None otherwise
+    branch   u or -u, if r = |u| on a fixed line and the system has chosen the sign; None otherwise
     """
 
     start: Location
@@ -161,7 +161,7 @@ class Central(Part):
 
     @cached_property
     def along(self) -> Expr | None:
-        """The u of a distance |u|, if the line between the two places has a fixed direction; None otherwise."""
+        """The expression u, if the distance is |u| along a line with a fixed direction; None otherwise."""
         components = [c for c in (self.end - self.start).components if c != 0]
         if len(components) == 1 and _is_sum_of_letters(components[0]):
             return components[0]
@@ -199,7 +199,7 @@ class Central(Part):
         return {"pairs": [pair]}
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """The forces at the two ends; they attract if the energy increases with the distance."""
+        """The forces on the two ends, which are attractive if the energy increases with the distance."""
         way = (self.end - self.start).components
         size = self.pull.xreplace({self.distance: self.length})
         pull = tuple(size * c / self.length for c in way)
@@ -241,7 +241,7 @@ PartOfSystem: TypeAlias = Part | PlacedBody | Quantity
 
 @dataclass(frozen=True)
 class KnownCoordinate(Fact):
-    """A coordinate that a condition expresses by other coordinates, with this expression."""
+    """A coordinate, and the expression in other coordinates that a condition yields for it."""
 
     missing = "is not a condition that expresses a coordinate by others"
     coordinate: Symbol
@@ -364,12 +364,12 @@ class System:
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """The parts that do not state on what they act; each with its name and its place."""
+        """The parts with an end whose body or particle is not stated; each with its name and the place of this end."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
     def described_bodies(self) -> list[PlacedBody]:
-        """The bodies as described, in the order that the witness uses."""
+        """The bodies before coordinates are eliminated, in the order that the witness uses."""
         return [part.placed for part in self._described if isinstance(part, MovingBody)]
 
     @cached_property
@@ -397,17 +397,17 @@ def _as_part(part: Part | PlacedBody) -> Part:
 def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     found = condition.fact(KnownCoordinate)
     if found is None:
-        message = f"`{condition.key}` does not express a coordinate by others, so the energies cannot use it"
+        message = f"`{condition.key}` does not express one coordinate by others, so it cannot be a part of a `System`"
         help_line = Spelled(
             "enforce a rolling condition that cannot be integrated: `*rolling_constraint(...)`",
-            "enforce it by a force: add `force: F` under `rolling`",
+            "enforce the condition by a force: add `force: F` under `rolling`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function
 
 
 def _check_kept(condition: Quantity) -> None:
-    """Check that the expression for the coordinate satisfies the condition, for all rates if it contains rates."""
+    """Check that the expression for the coordinate satisfies the condition, whatever the values of the rates are."""
     q, function = _known_by(condition)
     value = explicit(condition.value)
     if isinstance(value, Relation):
@@ -420,7 +420,7 @@ def _check_kept(condition: Quantity) -> None:
 
 
 def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
-    """Whether any part depends on the coordinate that the condition expresses by others."""
+    """Whether any part depends on the coordinate that the condition expresses by other coordinates."""
     known = dict([_known_by(condition)])
     return any(part.moved(known) != part for part in parts)
 
@@ -430,9 +430,9 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 
     A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length
     there, or all forces with a potential energy balance there. The coordinates are then displacements from this
-    position, as for carts at x_1 and d + x_2, and the page states that u keeps its sign. Otherwise neither side is
-    special, as for a cart at x with a spring to a wall at d: |x - d| remains, and equations for x are solved for both
-    sides.
+    position, as for carts at x_1 and d + x_2, and the page states that u keeps its sign. Otherwise no branch is
+    chosen, as for a cart at x with a spring to a wall at d: |x - d| remains, and equations for x are solved for both
+    signs.
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
@@ -447,8 +447,8 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 def _near_rest(each: Central) -> Central | None:
     """The potential with the branch that is positive where all coordinates are zero.
 
-    The potential is unchanged if the line has no fixed direction. The result is None if no branch is known to be
-    positive there.
+    If the line between the two places has no fixed direction, the potential is unchanged. If neither u nor -u is known
+    to be positive there, the result is None.
     """
     if each.along is None:
         return each
@@ -480,5 +480,5 @@ def _undriven(way: Expr) -> Expr:
 
 
 def _is_sum_of_letters(way: Expr) -> bool:
-    """Whether the expression is a sum of symbols, each with a sign but no other factor."""
+    """Whether the expression is a sum of symbols, each with the factor 1 or -1."""
     return way.is_Add and all(term.is_Symbol or (-term).is_Symbol for term in way.args)

@@ -1,1 +1,1 @@
-"""First integrals, motion in one dimension, steady motions, loss of contact."""
+"""First integrals, motion in one dimension, steady motions, static friction, loss of contact and free flight."""

@@ -1,4 +1,4 @@
-"""Predicates of motions: each decides whether an outcome, or an expression that its sentence names, is correct."""
+"""Predicates of motions: each checks an outcome, or an expression in the sentence of an outcome."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def released(at_rest: bool) -> Predicate:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """Whether the acceleration is, or is not, proportional to the coordinate."""
+    """Whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
 
     def is_so(facts: Judged) -> bool:
         q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
@@ -73,7 +73,7 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Whether, numerically, the force at the start is positive (zero if `later`), and the stated condition is right."""
+    """Whether the force at the start is positive (zero if `later`) numerically, and the stated condition is correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -103,9 +103,9 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before the force vanishes, or exactly there.
+    """Whether, numerically, the motion turns back before the place where the force vanishes, or exactly at this place.
 
-    At the place the force is zero, and the squared rate is negative (zero if the result is N >= 0). At the start
+    At this place the force is zero, and the squared rate is negative (zero if the result is N >= 0). At the start
     the force is positive, and the squared rate is not negative.
     """
     just_there = facts.result.operator == ">="
@@ -130,7 +130,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the fact has the constant values that the sentence states, and the result is a condition of the fact."""
+    """Whether the steady motion has the constant values of the sentence, and the result is one of its conditions."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
@@ -156,7 +156,7 @@ def _constraint_of(force: Quantity) -> Constraint | None:
 
 
 def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the friction on the body is opposite to the sense in which the sentence says it slips."""
+    """Whether, numerically, the friction on the body is opposite to the sense of the slip that the sentence states."""
     if "sense" not in facts.words:
         return True
     constraint = _constraint_of(facts.quantities["friction"])
@@ -173,9 +173,10 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Whether, numerically, |F| <= mu_s N exactly where the result holds; or, if `wanted`, always, or if not, never.
+    """Whether, numerically, |F| <= mu_s N exactly where the result holds.
 
-    A result for one of two senses claims nothing about forces in the other sense; then F must have both signs.
+    For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
+    for one of two senses, forces in the other sense are not tested, and F must have both signs.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -211,7 +212,7 @@ def _room(facts: Judged, at: Expr, point: Point) -> Expr | None:
 
 
 def _turns_back_within(facts: Judged, begin: Expr, end: Expr, point: Point) -> bool:
-    """Whether the squared rate is negative at one of several places between the two places, or at the second."""
+    """Whether the squared rate is negative at `end`, or at one of several places between `begin` and `end`."""
     q, squared = facts.inputs["coordinate"], with_numbers(facts.inputs["squared"])
     way = (begin + (end - begin) * Rational(n, 7) for n in range(1, 8))
     return any(sign_at(squared, {**point, q: here}) == -1 for here in way)
@@ -224,7 +225,7 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive up to the place, and zero there; and the conditions are right."""
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero there, under the stated conditions."""
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)
     conditions, told = assumptions_about(letters), facts.inputs.get("starts")
@@ -259,7 +260,7 @@ def slips_at_once(facts: Judged) -> bool:
 
 
 def never_slips(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive wherever the motion gets."""
+    """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
     told = facts.inputs.get("starts")
 
@@ -277,7 +278,7 @@ def never_slips(facts: Judged) -> bool:
 
 
 def start_of_motion(facts: Judged, place: Any) -> bool:
-    """Whether a motion from which the forces were derived starts there."""
+    """Whether a motion from which the friction or the normal force was derived starts at this place."""
     forces = (facts.quantities["friction"], facts.quantities["normal"])
     found = (ancestor.fact(ByEnergy) for force in forces for ancestor in force.ancestors())
     return any(known.coordinate == place.left and is_zero(known.start - place.right) for known in found if known)
@@ -304,7 +305,7 @@ def pushes_there(facts: Judged, place: Any) -> bool:
 
 
 def force_vanishes_there(facts: Judged, place: Any) -> bool:
-    """Whether the force is zero at this place, which the motion does not reach."""
+    """Whether the force is zero at the named place."""
     return place.operator == "=" and is_zero(
         value_of_role(facts, "force").xreplace({place.left: explicit(place.right)})
     )
@@ -313,7 +314,7 @@ def force_vanishes_there(facts: Judged, place: Any) -> bool:
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
     """Whether dL/dq = 0, with the constant coordinates and rates that the sentence states, is equivalent to the result.
 
-    For a condition from an equation of motion, the values are substituted in this equation instead.
+    For a condition from an equation of motion, the same values substituted in this equation must yield the result.
     """
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.operator != "=" or relation.left == relation.right:
@@ -331,7 +332,7 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Whether, as `wanted`, no terms without a highest rate exist ("plain"), such terms "cancel", or some "remain"."""
+    """Whether the terms without a highest rate are absent ("plain"), "cancel" or "remain", as `wanted` states."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -389,18 +390,18 @@ handed_on_by(Steady, steady)
 # --- free flight ---
 
 ON_THE_WAY = tuple(Rational(n, 12) for n in range(1, 12))  # fractions of the time of a flight
-LATER = (Rational(1, 50), Rational(1, 3), Integer(1), Integer(4), Integer(50))  # times, as far as a flight is followed
+LATER = (Rational(1, 50), Rational(1, 3), Integer(1), Integer(4), Integer(50))  # times in units of speed/acceleration
 
 
 def is_the_place_of_departure(facts: Judged) -> bool:
-    """Whether the relation is the place at which contact is lost, with the symbol in place of the coordinate."""
+    """Whether the relation states the place at which contact is lost, with the new symbol instead of the coordinate."""
     lost, q, letter = facts.inputs["lost"], facts.inputs["coordinate"], facts.inputs["letter"]
     back = facts.result.left.xreplace({letter: q})
     return bool(q not in facts.result.free_symbols and back == lost.left) and is_zero(facts.result.right - lost.right)
 
 
 def speeds_up(wanted: bool) -> Predicate:
-    """Whether a force acts along the axis of this component of the flight."""
+    """Whether a force acts along the axis of this component; for `wanted=False`, whether no force acts along it."""
 
     def is_so(facts: Judged) -> bool:
         bend = diff(facts.result, TIME, 2)
@@ -412,9 +413,9 @@ def speeds_up(wanted: bool) -> Predicate:
 def in_flight(facts: Judged, fact: InFlight) -> bool:
     """Whether the fact describes a free flight from the curve on which the particle was.
 
-    At t = 0 the particle is at the place that the coordinates have at the departure, its velocity does not change the
-    constraint, its speed is that of the energy, and it moves away from the start. Afterwards the mass times the
-    acceleration is the sum of all forces except the one of the constraint.
+    At t = 0 the particle is at the place of the departure. Its velocity is along the curve and away from the start, and
+    its speed follows from conservation of energy. Afterwards the mass times the acceleration is the sum of all forces
+    except the constraint force.
     """
     q, angle = fact.coordinate
     before = [fact.in_given_letters(c) for c in fact.path]
@@ -453,7 +454,7 @@ def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
 
 
 def _trials(value: Expr, fact: InFlight) -> list[Point]:
-    """Trial numbers for which the constraint is lost."""
+    """Trial numbers that satisfy the conditions under which the constraint is lost."""
     letters = letters_of(value)
     return trial_points(letters, *assumptions_about(letters), *map(with_numbers, fact.conditions))
 
@@ -464,14 +465,14 @@ def _sense(change: Expr, fact: InFlight) -> int:
 
 
 def _opposed(velocity: Expr, expected: Expr, fact: InFlight) -> bool:
-    """Whether, numerically, a component of the velocity is somewhere opposite to the expected direction."""
+    """Whether, for some trial numbers, a component of the velocity has the sign opposite to the expected sign."""
     product = with_numbers(velocity * expected)
     return not signs(product, _trials(product, fact)) <= {1, 0, None}
 
 
 def _away(fact: InFlight, target: Any) -> Expr:
-    """The distance from the plane as a function of the time; without a plane, how far the particle is on the free side
-    of the circle that it left."""
+    """The distance from the plane as a function of the time; without a plane, the distance from the circle that the
+    particle left. The distance is positive on the free side."""
     x, y = fact.path
     if target is not None:
         (px, py), (nx, ny) = target.through.components, target.unit_normal.components
@@ -505,7 +506,7 @@ def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
 
 
 def lands(outcome: str) -> Predicate:
-    """Whether, numerically, the particle is on the free side before this time, and on the plane or the circle then."""
+    """Whether, numerically, the particle reaches the plane or the circle at this time, from the free side."""
 
     def is_so(facts: Judged) -> bool:
         fact, target, time = facts.inputs["flight"], facts.inputs["target"], explicit(facts.result)
@@ -537,8 +538,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition vanishes just if the height at the time above or below the place is that of the place, and
-    whether this time is, numerically, positive."""
+    """Whether the condition is equivalent to y(t) = Y for a place (X, Y), where x(t) = X, and whether this time t is
+    numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

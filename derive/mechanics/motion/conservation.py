@@ -1,4 +1,4 @@
-"""The rate of change of a quantity by the equations of motion, and whether it is conserved.
+"""The rate of change of a quantity by the equations of motion, and whether the quantity is conserved.
 As in a textbook, each equation is multiplied by a factor, the products are added, and the sum turns out to be the rate
 of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations: dQ/dt is
 linear in the highest rates, and the sum of the products must have the same coefficients.
@@ -43,10 +43,11 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
 
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
-    Each equation times its factor is a step. The sum of several products is a step too.
-    Second route: differentiate Q as a function of time and substitute the highest rates from the equations. Without
-    this substitution, subtract the sum of the products from dQ/dt. Integrate one motion numerically. If Q belongs to a
-    body, also sum the contributions of its particles, and repeat this for an inertia tensor that is not diagonal.
+    One step derives the product of each equation and its factor; if there are several products, another step adds them.
+    Second route: differentiate Q as a function of time and substitute the highest rates from the equations. Also
+    subtract the sum of the products from dQ/dt without substituting the highest rates. Integrate one motion
+    numerically. If Q belongs to a body, also sum the contributions of its particles, and repeat this sum for an inertia
+    tensor that is not diagonal.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -186,7 +187,7 @@ def _sum(
 ) -> Quantity:
     """Sum of the products, with like terms collected.
 
-    Outcomes: plain, cancel (the terms without a highest rate), remain.
+    Outcomes: plain (no term without a highest rate), cancel (such terms cancel), remain (some of them remain).
     """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])
@@ -239,7 +240,7 @@ def _added(sides: Sequence[Expr]) -> list[Expr]:
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """Return the outcome: no terms without a highest rate ("plain"), these terms "cancel", or some of them "remain"."""
+    """Return whether the terms without a highest rate are absent ("plain"), "cancel", or "remain" in the sum."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"

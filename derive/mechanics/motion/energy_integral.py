@@ -67,11 +67,11 @@ def speed_from_energy(
     q            the coordinate
     start        value of q at the start
     start_rate   value of q_dot at the start, by default 0, for a release from rest
-    motion       the equation of motion, or q_ddot from it; needed if no mass points and forces belong to the energy
+    motion       the equation of motion, or q_ddot from it; needed if the forces behind the energy are unknown
     A separate step states that the energy has its initial value.
-    Second route: q_ddot comes from `motion`, or from d'Alembert's principle for the mass points. It is half the
-    derivative of q_dot^2 with respect to q, and leaves the energy constant. At the start the rate has the given value.
-    Errors: the energy is not conserved, contains another coordinate, or is not of this form.
+    Second route: half the derivative of q_dot^2 with respect to q is q_ddot from `motion`, or from d'Alembert's
+    principle for the mass points. With this q_ddot the energy is constant. At the start the rate has the given value.
+    Errors: the energy is not conserved, contains another coordinate, or is not of the form m(q) q_dot^2/2 + V(q).
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
     value = explicit(energy.value)
@@ -233,9 +233,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
     known = squared.needed(ByEnergy)
     q, amplitude, value = known.coordinate, known.start, explicit(squared.value)
     if not isinstance(amplitude, Symbol) or known.start_rate != 0:
-        message = (
-            f"`period_by_energy` needs a release from rest at a symbol, the amplitude, but `{squared.key}` has none"
-        )
+        message = f"`period_by_energy` needs a release from rest at a symbol for the amplitude, unlike `{squared.key}`"
         raise Rejected(Complaint("wrong-argument", message))
     if not is_zero(value.subs(q, -q) - value):
         message = f"`period_by_energy`: `{squared.key}` is not the same at {q.name} and -{q.name}"
@@ -318,18 +316,18 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
 
 
 def _swings(found: Expr, point: Mapping[Any, Any]) -> bool:
-    """Whether the period is positive for these numbers, which means that the force is restoring."""
+    """Whether the period is positive for these numbers; only then is the force restoring."""
     return bool(found.subs(point).evalf().is_positive)
 
 
 @in_results(
     "speed",
-    "its squared rate, from a conserved energy",
+    "the squared rate of a coordinate, from a conserved energy",
     energy="speed: a conserved energy",
     q="for: a coordinate",
     start="start",
     start_rate="start_rate: 0 by default",
-    motion="results: its equation of motion, if the energy does not suffice",
+    motion="results: the equation of motion, if the energy does not suffice",
 )
 def _in_results(
     energy: Quantity,

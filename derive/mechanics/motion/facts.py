@@ -54,15 +54,15 @@ class Orbit:
 class InFlight(Fact):
     """The free motion of a particle after it left a surface, or after its string went slack.
 
-    path           the components of its place as functions of the time since then, m
-    matter         the particle and the forces on it; the force of the lost constraint is still among them
+    path           the components of the place of the particle as functions of the time since the departure, m
+    matter         the particle and the forces on it, including the force of the lost constraint
     lost           the relation `unknown = place` at which the constraint is lost
-    force          the force that vanishes there
-    squared        the squared rate of the coordinate before, by conservation of energy
-    start          the value of the coordinate at the start of the motion before
-    kept           the constraint that held before, a formula that was zero
-    coordinate     the coordinate of the motion before, and its value at the start of the flight
-    letter         the symbol that the author gave to this value, if there is one
+    force          the constraint force, which vanishes where the constraint is lost
+    squared        the squared rate of the coordinate before the departure, by conservation of energy
+    start          the value of the coordinate at the start of the motion before the flight
+    kept           the constraint on the motion before the flight
+    coordinate     the coordinate of the motion before the flight, and its value at the departure
+    letter         the symbol that the author gave to the value at the departure; None without a symbol
     orbit          the circle on which the particle was; None if it was not on a circle
     conditions     the conditions on the symbols under which the constraint is lost
     """
@@ -81,5 +81,5 @@ class InFlight(Fact):
     conditions: tuple[Relation, ...] = ()
 
     def in_given_letters(self, value: Expr) -> Expr:
-        """Replace the symbol of the value of the coordinate by this value."""
+        """Replace the symbol `letter` by the value of the coordinate at the departure."""
         return value if self.letter is None else value.xreplace({self.letter: self.coordinate[1]})

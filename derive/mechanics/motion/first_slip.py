@@ -1,4 +1,4 @@
-"""Where |F| = mu_s N along a motion of one coordinate, and which of these places the motion reaches first."""
+"""The places where |F| = mu_s N along a motion of one coordinate, and the first of them that the motion reaches."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from derive.steps.known_numbers import with_numbers
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
-PARTS, BEYOND = [Rational(n, 16) for n in range(1, 16)], Rational(101, 100)  # of the distance to a place
+PARTS, BEYOND = [Rational(n, 16) for n in range(1, 16)], Rational(101, 100)  # fractions of a distance
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,8 @@ def places_of_limit(motion: Motion) -> tuple[list[Expr], bool]:
 def index_of_first(motion: Motion, places: Sequence[Expr]) -> int | None:
     """Return the index of the place that the motion reaches first; None if it reaches none of them.
 
-    Numbers decide, which must agree. Numbers with which the body slips at the start do not count.
+    The index is found for several sets of numbers. All sets with which the motion reaches a place must yield the same
+    index; sets with which the body slips at the start are skipped.
     """
     seen: set[int | None] = set()
     for point in numbers_for(motion.letters, motion.contact.F):
@@ -153,7 +154,7 @@ def is_first(motion: Motion, place: Expr) -> Verdict:
 
 
 def is_never_reached(motion: Motion) -> Verdict:
-    """Check numerically that |F| < mu_s N wherever the motion gets from its start."""
+    """Check numerically that |F| < mu_s N at all places tried that the motion reaches from its start."""
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
         begin = value_at(motion.start, point)
@@ -166,7 +167,7 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return a condition, but None if it always holds: a > b sqrt(c) for positive a with a^2 > b^2 c."""
+    """Return the condition; None if it is always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

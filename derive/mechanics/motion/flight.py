@@ -53,8 +53,8 @@ class Departure:
     """The state in which a particle leaves a surface, or its string goes slack.
 
     lost    the relation for the place, from `leaves`
-    speed   the squared rate of the coordinate before, by conservation of energy
-    letter  the symbol for the value of the coordinate there; None if its value is used
+    speed   the squared rate of the coordinate before the departure, by conservation of energy
+    letter  the symbol for the value of the coordinate at the departure; None if the value itself is used
     """
 
     lost: Quantity
@@ -63,17 +63,17 @@ class Departure:
 
     @property
     def force(self) -> Quantity:
-        """The force that vanishes there."""
+        """The constraint force, which vanishes at the departure."""
         return self.lost.parents[0]
 
     @property
     def conditions(self) -> tuple[Relation, ...]:
-        """The conditions under which the motion gets there, as the step `lost` states them."""
+        """The conditions under which the motion reaches the departure, as the step `lost` states them."""
         return tuple(value for role, value in self.lost.step.roles if role in ("reached", "existing"))
 
     @property
     def original(self) -> Quantity:
-        """This force as a function of the place and of the rate, before the rate was eliminated."""
+        """The constraint force as a function of the place and of the rate, before the rate was eliminated."""
         return next(each for each in self.force.ancestors() if each.fact(ForceOf) is not None)
 
     @property
@@ -105,7 +105,7 @@ class Departure:
 
     @cached_property
     def value(self) -> Expr:
-        """The value of the coordinate there, in the symbols of the problem."""
+        """The value of the coordinate at the departure, in the symbols of the problem."""
         (found,) = meaning(*self.lost.value.sides).values()
         return explicit(found)
 
@@ -115,7 +115,7 @@ class Departure:
 
     @cached_property
     def held(self) -> dict[Symbol, Expr]:
-        """The other coordinate and its value during the motion before."""
+        """The other coordinate, with the constant value that it has before the departure."""
         others = [each for each in self.matter.coordinates if each != self.q]
         found = solved_for_letter(explicit(self.kept.residual), others[0]) if len(others) == 1 else None
         if found is None or found.has(self.q):
@@ -126,7 +126,7 @@ class Departure:
 
     @cached_property
     def curve(self) -> Vector:
-        """The place of the particle as a function of the coordinate, during the motion before."""
+        """The place of the particle before the departure, as a function of the coordinate."""
         x, y = (explicit(c).xreplace(self.held) for c in self.matter.points[0].place)
         return x, y
 
@@ -148,7 +148,7 @@ class Departure:
         return x, y
 
     def _sense(self) -> int:
-        """Whether the coordinate increases or decreases on the way to this place."""
+        """Return 1 if the coordinate increases on the way to the departure, -1 if it decreases."""
         known = self.speed.needed(ByEnergy)
         own = sign_known(known.start_rate)
         found = signs_of(self.value - known.start) - {None}
@@ -160,7 +160,7 @@ class Departure:
 
     @cached_property
     def square(self) -> Expr:
-        """The squared speed: the force vanishes at this place and speed."""
+        """The squared speed with which the constraint force vanishes at the place of the departure."""
         mark = mark_for(rate(self.q) ** 2)
         still = {rate(s): ZERO for s in self.held}
         force = with_unknown(explicit(self.original.value), rate(self.q) ** 2, mark).xreplace({**self.held, **still})
@@ -172,12 +172,12 @@ class Departure:
 
     @cached_property
     def square_by_energy(self) -> Expr:
-        """The squared speed by conservation of energy, in the symbols of the problem."""
+        """The squared speed at the departure by conservation of energy, in the symbols of the problem."""
         return (squared_by_energy(self.speed) * self.scale**2).xreplace({self.q: self.value})
 
     @cached_property
     def acceleration(self) -> Vector:
-        """The acceleration of the particle under all forces except the one that has vanished."""
+        """The acceleration of the particle under all forces except the constraint force."""
         x, y = (tidied(c / self.matter.points[0].mass) for c in self.other_forces)
         return x, y
 
@@ -188,7 +188,7 @@ class Departure:
 
     @cached_property
     def orbit(self) -> Orbit | None:
-        """The circle on which the particle was: its centre is at rest at P + R^2 P''/|P'|^2."""
+        """The circle P(q) on which the particle was, with the centre P + P''; None if P + P'' depends on q."""
         centre = [tidied(c + diff(c, self.q, 2) * self._bend) for c in self.curve]
         radius = tidied(sqrt(tidied(Add(*((c - m) ** 2 for c, m in zip(self.curve, centre, strict=True))))))
         if any(c.has(self.q) for c in [*centre, radius]):
@@ -200,12 +200,11 @@ class Departure:
 
     @property
     def _bend(self) -> Expr:
-        """The factor of P'' in the vector from the place to the centre, if the coordinate is proportional to the
-        length of the arc."""
+        """The factor of P'' in P + P'': 1 if |P'| is constant, otherwise 0, so that no circle is found."""
         return Integer(1) if not self.scale.has(self.q) else ZERO
 
     def flight(self, path: Vector) -> InFlight:
-        """The fact of a flight along this path, for later steps."""
+        """Return the fact about a flight along this path that later steps need."""
         known = self.speed.needed(ByEnergy)
         return InFlight(
             path=path,
@@ -231,7 +230,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
         raise Rejected(Complaint("no-flight", message, help="ask for the flight only if the contact is lost"))
     speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
-        message = f"`flight`: the speed before is unknown, since `{lost.key}` was found without conservation of energy"
+        message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
         raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
     _check_alone(found)
@@ -246,7 +245,7 @@ def _checked_letter(letter: Any, q: Symbol) -> Symbol:
 
 
 def _check_alone(departure: Departure) -> None:
-    """Require one particle in a plane, a constant force on it, and no other constraint."""
+    """Require one particle in a plane, one constraint, and no force except the weight and the constraint force."""
     matter = departure.matter
     why = ""
     if len(matter.points) != 1 or len(matter.points[0].place) != 2:
@@ -281,18 +280,18 @@ DEPARTURE = Rule("motion.departure", source=SOURCE, outcomes={"generic": claims.
 
 def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Quantity, ...]:
     """Free flight of a particle after it leaves a surface, or after its string goes slack:
-    r(t) = r_1 + v_1 t + F t^2/(2 m), where F is the sum of all other forces, such as the weight.
+    r(t) = r_1 + v_1 t + F t^2/(2 m), where F is the weight.
 
     lost   the place where contact is lost, from `leaves_contact`
-    at     a symbol for the value of the coordinate at this place, such as theta_1; by default its value is used
+    at     a symbol for the value of the coordinate at the departure, such as theta_1; by default the value itself
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
     the particle was. The conditions under which contact is lost are assumed.
     Second route: Lagrange's equations for the coordinates of the system, with the force of constraint zero. Checks:
-    Newton's second law, and the place and velocity at the start, by conservation of energy. Witness: the described
-    system is followed until the force vanishes, and then without its constraint.
+    Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
+    the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
-    Errors: contact is not lost; the system is not one particle in a plane under a constant force.
+    Errors: contact is not lost; the system is not one particle in a plane under its weight.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
@@ -391,7 +390,7 @@ def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quant
         return [found if k == i else c for k, c in enumerate(path)]
 
     def start(found: Expr) -> tuple[Any, Any]:
-        """Check the place at t = 0, and the velocity there, by conservation of energy."""
+        """Check the place at t = 0, and by conservation of energy also the velocity at t = 0."""
         before = departure.curve[i]
         there = {departure.q: departure.value}
         ends = found.xreplace({TIME: ZERO}), diff(found, TIME).xreplace({TIME: ZERO}) ** 2
@@ -454,22 +453,23 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
 
 
 def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "landing") -> tuple[Quantity, ...]:
-    """Time, place and speed at which a free flight ends: on a plane, or where the particle meets the circle that it
-    left, and its string becomes taut again.
+    """Time, place and speed at which a free flight ends: on a plane, or on the circle that the particle left.
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
     The distance from the plane is a polynomial of second order in the time; the flight ends at the first time after the
-    departure at which it vanishes. For the circle, the squared distance from the centre minus the squared radius is
-    t^3 (a t + b): the departure is a triple zero, because the speed, its direction and the force there are those of the
-    circle. If a t + b has no zero at a positive time, the particle does not meet the circle again. Before a landing on
-    a plane, the particle must not meet the circle.
-    Second route: the place is on the orbit without the time; the speed by conservation of energy is that of the
-    derivatives of the components. Check: at this time the particle is on the plane or the circle. Numerically, it is on
-    the free side until then. Witness: the free flight of the described system is followed until it ends.
-    Outcomes: of the time: on_plane, taut (of a string), back (on the surface that it left); clear (it does not meet the
-    circle again); misses (it does not reach the plane).
-    Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle meets the circle first.
+    departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
+    radius is t^3 (a t + b). The departure is a triple zero, because the particle is on the circle there, moves along
+    the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
+    circle again. Before a landing on a plane, the particle must not meet the circle.
+    Second route: the place satisfies the equation of the orbit, in which the time is eliminated; the speed also follows
+    from the derivatives of the components. Check: at the end the particle is on the plane or the circle. Numerically,
+    the particle is on the free side before the end. Witness: the free flight of the described system is followed to
+    the landing.
+    Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
+    particle does not meet the circle again), misses (the particle does not reach the plane).
+    Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle may meet the circle before the
+    plane.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
@@ -503,7 +503,7 @@ def _both(flight: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
     found = [each for each in flight if each.fact(InFlight) is not None]
     if len(found) != 2 or len(flight) != 2:
         names = ", ".join(f"`{each.key}`" for each in flight)
-        message = f"this needs both components of a flight, but it is {names}"
+        message = f"`lands` and `passes` need both components of a flight, not {names}"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `flight`"))
     return found[0], found[1]
 
@@ -553,7 +553,7 @@ def _distance(place: Sequence[Expr], target: Plane) -> Expr:
 
 
 def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
-    """The place of the particle at a time, or the derivatives of its components."""
+    """The components of the place of the particle at a time, or their derivatives of the given order."""
     return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
 
 
@@ -564,7 +564,7 @@ def _above(known: InFlight, target: Plane) -> list[Expr]:
 
 
 def _time_to(known: InFlight, target: Plane) -> Expr | None:
-    """Return the first time after the departure at which the distance from the plane vanishes; None if it does not."""
+    """Return the first time after the departure at which the particle is on the plane; None if it misses the plane."""
     h, v, a = _above(known, target)
     side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
     if side not in (0, 1):
@@ -582,7 +582,8 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     if towards == -1 and bend == 1 and sign_known(inside) == 1:
         return presented(tidied((-v - sqrt(inside)) / (2 * a)))
     message = "`lands`: it is not known whether the particle reaches the plane"
-    raise Rejected(Complaint("not-decided", message, help="state with `assume:` when it does, or give numbers"))
+    help_line = "state with `assume:` when the particle reaches the plane, or give numbers"
+    raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
 STAYS_CLEAR = Rule(
@@ -604,7 +605,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
     (cx, cy), radius = orbit.centre, orbit.radius
 
     def distance(found: Relation) -> tuple[Any, Any]:
-        """Check the distance by its derivatives at the departure."""
+        """Check the squared distance by its Taylor series at the departure."""
         whole = _beyond(known.path, orbit)
         series = [diff(whole, TIME, n).xreplace({TIME: ZERO}) * TIME**n / factorial(n) for n in range(5)]
         return found.residual, Add(*series)
@@ -641,7 +642,7 @@ def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quant
     least = presented(h - v**2 / (4 * a)) if sign_known(v) == -1 else presented(h)
 
     def distance(found: Relation) -> tuple[Any, Any]:
-        """Check the distance at the time at which it is least."""
+        """Check the distance from the plane at the time at which the distance is least."""
         turned = -v / (2 * a) if sign_known(v) == -1 else ZERO
         return found.residual, _distance(_at(turned, known), target)
 
@@ -674,7 +675,7 @@ def _landed(
     key: str,
     parents: Sequence[Quantity],
 ) -> tuple[Quantity, ...]:
-    """The time at which the flight ends, then the place and the speed there.
+    """The time at which the flight ends, and the place and the speed at this time.
 
     Outcomes: on_plane, taut, back.
     Source: the same as for `landing`.
@@ -710,7 +711,7 @@ def _landed(
 
 
 def _where(known: InFlight, target: Plane | None, x: Symbol, y: Symbol) -> dict[str, tuple[Relation, Relation]]:
-    """The condition that the landing satisfies, as a sentence states it."""
+    """The equation of the plane or the circle for x and y at the landing, as the sentence states it."""
     if target is None:
         orbit = _orbit_of(known)
         (cx, cy), radius = orbit.centre, orbit.radius
@@ -730,7 +731,7 @@ LANDING_PLACE = Rule("motion.landing_place", source=SOURCE, evidence={"orbit": R
 def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quantity:
     """A component of the place where the flight ends.
 
-    Second route: the orbit without the time, v_x^2 (y_2 - y_1) = v_x v_y (x_2 - x_1) + a (x_2 - x_1)^2/2.
+    Second route: the equation of the orbit, v_x^2 (y_2 - y_1) = v_x v_y (x_2 - x_1) + a (x_2 - x_1)^2/2.
     Source: the same as for `landing`.
     """
     known = path.needed(InFlight)
@@ -740,7 +741,7 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
         dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
-        across = v[0] * dy - v[1] * dx  # perpendicular to the first velocity
+        across = v[0] * dy - v[1] * dx  # perpendicular to the velocity at the departure
         return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
 
     return establish(
@@ -801,7 +802,8 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the height at this time. Numerically, this time is positive.
+    Check: the height of the particle at the time at which it is above or below the place; numerically, this time is
+    positive.
     Errors: the particle passes through the place in any case or never, or it is not known whether the place is ahead.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
@@ -859,7 +861,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
 
 
 def _check_before_circle(known: InFlight, place: Vector) -> None:
-    """Require that a place is inside the circle, if the particle flies inside: the flight ends on the circle."""
+    """If the particle flies inside its circle, require a place inside too, because the flight ends on the circle."""
     if known.orbit is None or not known.orbit.inside:
         return
     if sign_known(tidied(_beyond(place, known.orbit))) != -1:
@@ -874,7 +876,7 @@ def _check_before_circle(known: InFlight, place: Vector) -> None:
     "flight",
     "the free motion after a contact is lost or a string goes slack, `flight_x` and `flight_y`",
     lost="flight: a result of `leaves`",
-    at="at: a symbol for the value of the coordinate where it begins",
+    at="at: a symbol for the value of the coordinate where the flight begins",
 )
 def _flight(lost: Quantity, key: str, at: Letter = None) -> tuple[Quantity, ...]:
     return checked(free_flight)(lost, at, key=key)

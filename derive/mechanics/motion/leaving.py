@@ -160,7 +160,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
 
 def _enforcer(force: Quantity) -> str:
-    """Return what exerts the force: "surface", "string" or another sort; empty if it is unknown."""
+    """Return the word for the object that exerts the force, such as "surface" or "string"; empty if unknown."""
     known = (each.fact(ForceOf) for each in (force, *force.ancestors()))
     return next((found.constraint.enforcer for found in known if found is not None), "")
 

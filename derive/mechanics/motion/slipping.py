@@ -63,7 +63,7 @@ SLIPS = Rule(
 
 
 def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str = "slips") -> tuple[Quantity, ...]:
-    """Condition for static friction to suffice, |F| <= mu_s N, solved for one letter; or the place where it ends.
+    """Condition for static friction to suffice, |F| <= mu_s N, solved for one letter; or the place of the first slip.
 
     friction   the friction F of a contact with a coefficient mu_s of static friction, N
     normal     the normal force N of the same contact in the same state, N
@@ -76,7 +76,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false; along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
     Outcomes: sticks, always, cannot (the condition is never true); needs_none (F = 0); slips, slips_squared (solved
-    after squaring), at_once (at the start |F| > mu_s N), stays (the motion does not reach such a place).
+    after squaring), at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
     Errors: no coefficient of static friction; the surface does not push; no solution in closed form; the place depends
     on the values of the symbols.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.4.
@@ -98,7 +98,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
 
 
 def _speed_behind(forces: Sequence[Quantity], unknown: Expr) -> Quantity | None:
-    """Return the step q_dot^2 = f(q), by conservation of energy, if q is the letter of the unknown; or None."""
+    """Return the step q_dot^2 = f(q) from which a force was derived, if the unknown contains q; otherwise None."""
     q, behind = letter_of(unknown), (ancestor for force in forces for ancestor in force.ancestors())
     return next((each for each in behind if (known := each.fact(ByEnergy)) and known.coordinate == q), None)
 
@@ -120,7 +120,7 @@ def _needs_none(contact: Friction, key: str) -> Quantity:
 
 
 def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: bool) -> Quantity:
-    """Return the condition for the body not to slip in one sense: side F <= mu_s N."""
+    """Return the condition for the body not to slip in one sense: side F <= mu_s N, where `side` is 1 or -1."""
     excess = contact.excess(side)
     known = sign_for_all(excess)
     mark = ">" if known == 1 else "<="

@@ -45,11 +45,11 @@ class Friction:
         return {"friction": self.friction, "normal": self.normal, "coefficient": self.limit.coefficient}
 
     def excess(self, side: int) -> Expr:
-        """How much the friction, in one sense, exceeds its largest value, N."""
+        """The excess of the friction in one sense over its largest value, side F - mu_s N, in N."""
         return tidied(side * self.F - self.limit.coefficient * self.N)
 
     def sense(self, side: int) -> dict[str, str]:
-        """Return in words where the body would slip, if F has this sign: against the friction on the body."""
+        """Return the word for the direction of the slip if F has this sign: opposite to the friction on the body."""
         force = next((each for each in self.constraint.forces if each.of is not None), None)
         signs = [sign_known(-side * c) for c in force.direction] if force is not None else []
         if len(signs) == 2 and signs[1] is not None and (signs[1] != 0 or signs[0]):
@@ -59,7 +59,7 @@ class Friction:
 
 
 def static_friction(friction: Quantity) -> Constraint:
-    """Return the constraint whose force is this friction, with its largest value."""
+    """Return the constraint whose force is this friction; the constraint contains the limit mu_s N."""
     for ancestor in friction.ancestors():
         kept = ancestor.fact(Constrained)
         for each in kept.constraints if kept is not None else ():
@@ -80,7 +80,7 @@ def friction_of(friction: Quantity, normal: Quantity) -> Friction:
 
 
 def condition_to_push(N: Expr) -> Relation | None:
-    """Return the condition for the surface to push; None if it always does."""
+    """Return the condition for the surface to push; None if the surface always pushes."""
     unsure = [each.as_base_exp() for each in Mul.make_args(N) if sign_known(each) != 1]
     if unsure and all(power.is_even for _, power in unsure):
         return Relation(Mul(*(base for base, _ in unsure)), "!=", 0)
@@ -97,7 +97,7 @@ def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> 
 
 
 def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
-    """Return the last line; it differs from the line before by a factor that does not vanish, such as N > 0."""
+    """Return the solved line; the line before it has an additional factor that does not vanish, such as N > 0."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
         pushing = Mul.make_args(contact.N)
@@ -108,7 +108,7 @@ def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
 
 
 def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
-    """Return a value with the same sign that contains the unknown; for tan(alpha), divide by powers of cos(alpha)."""
+    """Write a value with the unknown, without a change of sign: for tan(alpha), divide by powers of cos(alpha)."""
     if not isinstance(unknown, tan) or sign_known(cos(unknown.args[0])) != 1:
         return value
     c, t = Dummy("c", positive=True), mark_for(unknown)
@@ -116,7 +116,7 @@ def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
     divided = [each.expand().collect(c) for each in together(with_cosines).as_numer_denom()]
     powers = [[term.as_independent(c)[1] for term in Add.make_args(each)] for each in divided]
     if any(len(set(each)) > 1 for each in powers):
-        return value  # not the same power of the cosine in each term
+        return value  # the terms contain different powers of the cosine
     above, below = (each.xreplace({c: Integer(1), t: unknown}) for each in divided)
     return above / below
 
@@ -139,7 +139,7 @@ def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr
 
 
 def sampled(is_so: Callable[[Mapping[Symbol, Expr]], bool | None], letters: set[Symbol], of: Expr) -> Verdict:
-    """Return the verdict on a statement at random points; None means that the statement has no meaning at a point."""
+    """Return the verdict on a statement at random points; `is_so` returns None where the statement has no meaning."""
     seen = 0
     for point in numbers_for(letters, of):
         try:

@@ -16,7 +16,7 @@ from sympy import Expr, Rational, Symbol, lambdify
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
-FIGURES = 10  # of 15 figures, the number to which the change and the integral of the rate must agree
+FIGURES = 10  # the change and the integral of the rate must agree to this number of figures, out of 15
 STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until change and integral agree
 PARTS = range(2, 18, 2)  # numbers of parts into which a step is divided, for the extrapolation to zero length
 
@@ -28,7 +28,7 @@ def followed(value: Expr, its_rate: Expr, motion: Mapping[Symbol, Expr]) -> Verd
     """Whether Q(1) - Q(0) is the integral of dQ/dt from t = 0 to t = 1 along one motion.
 
     value, its_rate   Q and the claimed dQ/dt
-    motion            highest rate -> its value by the equations of motion
+    motion            a mapping from each highest rate to its value by the equations of motion
     """
     state = _state(motion)
     onwards = [motion.get(rate(s), rate(s)) for s in state]

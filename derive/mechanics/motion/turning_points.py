@@ -1,4 +1,4 @@
-"""Test whether a motion of one coordinate reaches a place or, by conservation of energy, turns back before it."""
+"""Test by conservation of energy whether a motion of one coordinate reaches a place or turns back before it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from derive.steps.record import assume, assumed
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity
 
-TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # fractions of a distance
+TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # PARTS of a distance
 
 
 def squared_by_energy(speed: Quantity) -> Expr:
@@ -30,15 +30,15 @@ def squared_by_energy(speed: Quantity) -> Expr:
 def condition_to_reach(
     of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None
 ) -> Relation | None:
-    """Return the condition on the symbols under which a motion reaches a place; None if it always does.
+    """Return the condition on the symbols under which a motion reaches a place; None if it always reaches the place.
     of        the result that refers to the place, for messages
     speed     the squared rate of a coordinate by conservation of energy, f(q)
     unknown   the coordinate q, or a function of q such as cos(q)
     place     the value of `unknown` at the place, which may be infinite
-    there     f at the place, if f has only a limit there; by default f is evaluated at `place`
-    The motion turns back where f = 0. It reaches the place if f is not negative at the place, nor between the start and
-    the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the start and
-    the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
+    there     the limit of f at the place, if f has no value there; by default f is evaluated at `place`
+    The motion turns back where f = 0. The motion reaches the place if f is not negative at the place, nor between the
+    start and the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the
+    start and the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
     Errors: the motion turns back before the place, always or for some values of the symbols.
     """
     q = speed.needed(ByEnergy).coordinate
@@ -53,14 +53,14 @@ def condition_to_reach(
 
 
 def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None) -> None:
-    """Assume that the motion reaches a place; the page states the condition for this."""
+    """Assume that the motion reaches a place; the page states under which condition this is true."""
     condition = condition_to_reach(of, speed, unknown, place, there)
     if condition is not None:
         assume(Relation(condition.left, ">=", condition.right))
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that f is positive between start and place; at the place f must not be negative."""
+    """Whether algebra shows that f is positive between start and place, if f is not negative at the place."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):
@@ -74,7 +74,7 @@ def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
 
 
 def _put(squared: Expr, unknown: Expr, place: Expr) -> Expr:
-    """Return f at this value of the unknown; if q occurs outside the unknown too, the value of q is substituted."""
+    """Return f at this value of the unknown; if f also contains q outside the unknown, substitute the value of q."""
     found = with_unknown(squared, unknown, place)
     return squared.xreplace(meaning(unknown, place)) if left_over(found, unknown) else found
 

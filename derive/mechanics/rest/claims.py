@@ -1,4 +1,4 @@
-"""Predicates that check the outcomes of equilibria and stability, and the expressions that their sentences name."""
+"""Predicates of equilibria and stability: each checks an outcome, or an expression in the sentence of an outcome."""
 
 from __future__ import annotations
 
@@ -74,7 +74,10 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _is_there(facts: Judged, point: Point) -> bool:
-    """Whether the equilibrium exists for trial numbers: it is real, distances are positive, and no force remains."""
+    """Whether the equilibrium exists for these trial numbers.
+
+    The coordinates must be real, distances among them positive, and forces that contain a distance |u| must vanish.
+    """
     entries, distances = _entries(facts.result), {int(i) for i in facts.inputs["distances"]}
     signs = [sign_at(entry, point) for entry in entries]
     if None in signs or not all(signs[i] == 1 for i in distances):
@@ -108,7 +111,7 @@ def several(facts: Judged) -> bool:
 def under_its_condition(facts: Judged) -> bool:
     """Whether the equilibrium exists exactly where the condition holds.
 
-    Some trial numbers must satisfy the condition, and some must not.
+    Some sets of trial numbers must satisfy the condition, and some must violate it.
     """
     if "exists" not in facts.inputs:
         return False
@@ -118,7 +121,7 @@ def under_its_condition(facts: Judged) -> bool:
 
 
 def _can_be_counted(sought: Sequence[Symbol]) -> bool:
-    """Whether equilibria can be counted: there is one coordinate, and it never reaches an end of its range."""
+    """Whether equilibria can be counted: there is one coordinate, and its range does not include its ends."""
     known = range_of(sought[0])
     return len(sought) == 1 and not (known is not None and any(known.closed))
 
@@ -182,7 +185,7 @@ def signs(facts: Judged) -> set[int]:
 
 
 def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
-    """Return the sign of the energy to second order.
+    """Return the sign of the change of the energy near the equilibrium, to second order.
 
     The sign is 1 if the energy rises in all directions, and -1 if it falls in at least one direction. Otherwise the
     energy is constant in at least one direction, and the sign is 0. No formula is differentiated: differences of the
@@ -233,8 +236,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is never negative; only then is a minimum of U stable. Trial numbers without a meaning
-    are skipped."""
+    """Whether the kinetic energy is never negative; only then is a minimum of U stable. Trial numbers that do
+    not satisfy the assumptions of positivity are skipped."""
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
@@ -260,8 +263,8 @@ def _at_rest(facts: Judged) -> dict[Any, Expr]:
 
 
 def higher(kind: str) -> Predicate:
-    """Judge whether the first nonzero derivative of the energy gives this verdict; the second derivative must
-    vanish."""
+    """Judge whether the second derivative of the energy vanishes, and the first nonzero derivative yields the verdict
+    `kind`."""
 
     def is_so(facts: Judged) -> bool:
         if not all(is_zero(entry) for entry in _entries(facts.result)):
@@ -343,9 +346,9 @@ def higher_lasts(facts: Judged) -> bool:
 
 
 def sides_as_told(facts: Judged) -> bool:
-    """Whether the sentence mentions a side exactly if a side is assumed.
+    """Whether the sentence states signs of distances u exactly if such signs are assumed.
 
-    If a step states every assumed side in words, the sentence says that springs are stretched.
+    If a step states every assumed sign in words, the sentence says instead that the springs are stretched.
     """
     sides = [
         each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])
@@ -357,8 +360,8 @@ def sides_as_told(facts: Judged) -> bool:
 def level_as_told(facts: Judged) -> bool:
     """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate.
 
-    The force is a polynomial in functions of the coordinate. The force vanishes at all values of the coordinate if a
-    common factor of the coefficients is zero.
+    The numerator of the force is a polynomial in functions of the coordinate. The force vanishes at all values of the
+    coordinate if a common factor of the coefficients of this polynomial is zero.
     """
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:
@@ -373,7 +376,7 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # largest ratio of an energy to a difference of energies; values have 60 digits
+DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies; values have 60 digits
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
@@ -410,7 +413,7 @@ def curvature(facts: Judged, fact: Extreme) -> bool:
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
-    """Whether the result is the curvature at the equilibrium, and vanishes on the boundary."""
+    """Whether the result is the curvature at the equilibrium; it must vanish on the boundary, if there is one."""
     q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     if energy.has(Abs):
@@ -457,7 +460,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge a shape by the first nonzero derivative, found by differentiation; the step itself uses a series."""
+    """Judge whether the first nonzero derivative yields this shape, by differentiation; the step uses a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]
@@ -506,7 +509,7 @@ def level_there(role: str) -> Naming:
 
 
 def _vanishes_as_assumed(slope: Expr) -> bool:
-    """Whether the slope vanishes numerically under the assumptions of the page, such as the side of a spring's end."""
+    """Whether the slope vanishes numerically under the assumptions of the page, such as u > 0 for a distance |u|."""
     letters = letters_of(slope)
     return signs_of(slope, *assumptions_about(letters)) == {0}
 
@@ -574,8 +577,8 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls a motion steady only where coordinates were eliminated with conserved momenta. Where
-    the energy itself results from such an elimination, a sentence about one coordinate must do so.
+    """Whether the sentence calls a motion steady only if coordinates were eliminated with conserved momenta. If the
+    potential energy itself results from this elimination, a sentence about one coordinate must do this.
 
     The eliminated coordinates still move, so the state is a steady motion and not an equilibrium at rest.
     """

@@ -17,7 +17,7 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the symbols
-HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; fraction below which a force must decrease at a zero
+HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; at a zero, the force must decrease below this fraction
 LITTLE = 1e-9
 
 
@@ -63,16 +63,16 @@ def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:
-    """Whether the value is real, and positive for a distance; otherwise no equilibrium exists for these numbers."""
+    """Whether the value is real, and is positive if q is positive; otherwise it is not an equilibrium."""
     return bool(value.is_real and (value > 0 or not q.is_positive))
 
 
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
     """Return the values of the coordinate at which the force is evaluated.
 
-    If the force is periodic in a full turn, the grid covers one turn. Its ends are chosen so that the force is unlikely
-    to vanish there. Otherwise, as for a twisted wire, the grid covers the whole axis and is finest at the scale of the
-    expected zeros.
+    If the force is periodic in a full turn, the grid covers one turn. The ends of the grid are chosen so that the
+    force is unlikely to vanish there. For any other force, such as that of a twisted wire, the grid covers the whole
+    axis and is finest at the scale of the expected zeros.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
@@ -89,7 +89,8 @@ def _grid_within(known: Range) -> list[float]:
 def _vanishes_between(curve: Any, low: float, high: float) -> bool:
     """Whether the force vanishes where it changes its sign.
 
-    Otherwise the force diverges, as between two charges, or jumps, as for a spring whose length is zero there.
+    A force can also change its sign where it diverges, as between two charges, or where it jumps, as for a spring whose
+    length is zero there.
     """
     sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
     for _ in range(HALVINGS):

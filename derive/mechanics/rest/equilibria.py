@@ -2,7 +2,7 @@
 exist.
 
 The forces come from a potential energy, or from a Lagrangian with the rates set to zero: then V = -L is an effective
-potential energy. Two or more coordinates are solved for one after the other, or together if the forces are linear.
+potential energy. Several coordinates are found one after the other, or together if the forces are linear.
 """
 
 from __future__ import annotations
@@ -150,7 +150,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
     Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
-    Keys: condition_ and the name of the coordinate; rest_1, rest_2, ... for the equilibria.
+    Keys: for the conditions, `condition_` and the name of the coordinate; for the equilibria, rest_1, rest_2, ..., or
+    `rest` if there is only one.
     Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
     force are counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
@@ -241,7 +242,7 @@ def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
-    """Return the values at which all forces vanish, solving one force after another; empty if there are none."""
+    """Return all states in which the forces vanish, by solving one equation after another; empty if there are none."""
     left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
     if any(not force.has(*unknown) for force in left):
         return []
@@ -338,7 +339,7 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """Return the coordinate that is constant in a steady motion; empty if no momenta are constant."""
+    """Return the single coordinate as `steady` if U contains conserved momenta; otherwise an empty mapping."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -369,7 +370,7 @@ def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
 def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Symbol, list[Symbol]]:
     """Return the symbols of the equilibria: theta_0, or theta_1, theta_2, ... for several.
 
-    If a given quantity has such a symbol, the symbols are theta_eq, or theta_eq_1, theta_eq_2, ...
+    If a given quantity already has one of these symbols, the symbols are theta_eq, or theta_eq_1, theta_eq_2, ...
     """
     taken = {s.name for s in explicit(potential.value).free_symbols} | given_letters()
 
@@ -383,8 +384,8 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor without q is zero. If such a factor is zero, every value of q is an
-    equilibrium."""
+    """Return the condition that no factor of the force without q is zero. If a factor without q is zero,
+    every value of q is an equilibrium."""
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:

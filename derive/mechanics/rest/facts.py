@@ -35,7 +35,8 @@ class RestOf(Fact):
 def matter_behind(potential: Quantity) -> Matter | None:
     """Return the mass points and forces behind a potential energy.
 
-    For an effective potential energy, coordinates are eliminated from them with constant momenta.
+    For an effective potential energy, the mass points and forces do not contain the coordinates that were eliminated
+    with constant momenta.
     """
     seen, own = potential.fact(SeenWith), potential.fact(Matter)
     return seen.matter if seen is not None else own if own is not None and own.is_known else None

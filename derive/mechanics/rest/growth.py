@@ -1,4 +1,4 @@
-"""Decide numerically whether a motion grows about an equilibrium, from the exponents of the linearised motion.
+"""Decide numerically whether displacements from an equilibrium grow, from the exponents of the linearised motion.
 
 For small motions the virtual work of m a - F of the mass points along each coordinate is linear in displacements, rates
 and accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
@@ -54,7 +54,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
                 return True
             if not _grows(*motion):
                 return False
-            if not _is_turned(*motion):  # then it grows for any values of the other symbols
+            if not _is_turned(*motion):  # then the displacement grows for any values of the other symbols
                 tried += 1
                 break
         if tried >= FEW:
@@ -98,8 +98,8 @@ def _motion(
     """Return M, C and K, the derivatives of m a - F with respect to accelerations, rates and coordinates, at rest.
 
     falling   whether the values of the symbols that the energy does not contain decrease from one symbol to the next
-    The result is None, and nothing is judged, if the coordinates are singular, like the angles of an upright top, or if
-    the numbers have no meaning.
+    The result is None if the coordinates are singular, like the angles of an upright top, or if the numbers do not
+    satisfy the assumptions of positivity.
     """
     letters, left = _left_over(matter)
     count = len(matter.coordinates)

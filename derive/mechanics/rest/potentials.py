@@ -24,7 +24,7 @@ from derive.steps.step import Form, Level, Quantity, compared_with, is_zero
 
 __all__ = ["extreme_value", "leading_order", "slope"]
 
-HIGHEST = 8  # the highest order that may decide
+HIGHEST = 8  # the highest order of the derivatives that are tried
 
 
 SLOPE = Rule(
@@ -229,13 +229,13 @@ def leading_order(
 def _check_border(value: Expr, q: Symbol, place: Expr, potential: Quantity, where: Relation | None) -> None:
     """Check that the curvature of this potential vanishes on the boundary."""
     if where is not None and not is_zero(derivative(value, q, 2).xreplace({q: place})):
-        message = f"the curvature of `{potential.key}` does not vanish at {where}, so it is not a boundary"
+        message = f"the curvature of `{potential.key}` does not vanish at {where}, so this value is not a boundary"
         help_line = "omit `where`, or give the symbol with its value on the boundary"
         raise Rejected(Complaint("wrong-border", message, help=help_line))
 
 
 def _first_that_decides(value: Expr, q: Symbol, place: Expr) -> tuple[int, Expr]:
-    """Return the lowest order from 2 to 8 whose coefficient is not zero, with this coefficient; (0, 0) if none is."""
+    """Return the lowest order from 2 to 8 with a nonzero coefficient, and this coefficient; (0, 0) if all vanish."""
     for n in range(2, HIGHEST + 1):
         coefficient = tidied(_coefficient(value, q, place, n))
         if coefficient != 0:

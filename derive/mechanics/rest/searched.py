@@ -32,7 +32,7 @@ Motion: TypeAlias = Callable[..., Sequence[float]]
 
 
 def none_is_missing(forces: Forces, sought: tuple[Symbol, ...], angles: tuple[Symbol, ...], states: States) -> bool:
-    """Whether all equilibria that the search finds are among the states.
+    """Whether all equilibria that the search finds are among the known states.
 
     forces   dU/dq for each coordinate
     angles   coordinates whose period is a full turn

@@ -15,7 +15,7 @@ from derive.solving.zeros import Unsolved
 from derive.steps.record import assumed, assumed_in_words
 from derive.steps.signs import sign_for_all, sign_where
 
-MOST = 4  # largest number of distances for which both sides are tried
+MOST = 4  # largest number of distances for which both signs are tried
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class SidesOpen(Unsolved):
 
 
 def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
-    """Yield each choice of u or -u for every distance |u| in the forces; at u = 0 the force has no direction."""
+    """Yield each choice of u or -u for every distance |u| in the forces; `on_its_side` excludes u = 0."""
     sizes = sorted({size for f in forces.values() for size in f.atoms(Abs) if size.has(*forces)}, key=str)
     if len(sizes) > MOST:
         raise Unsolved(Mul(*sizes))
@@ -65,7 +65,11 @@ def keeps_sides(state: State) -> bool:
 
 
 def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:
-    """Return the word for the assumed sides: "stretched" for springs, "one_side", or "any" if none is assumed."""
+    """Return the word for the assumed signs of distances.
+
+    The word is "any" if no sign is assumed, "stretched" if a step states all assumed signs in words, and "one_side"
+    otherwise.
+    """
     taken = _sides_taken(coordinates)
     if not taken:
         return "any"

@@ -41,15 +41,15 @@ from derive.witness.facts import Rest
 __all__ = ["stability"]
 
 HIGHEST = 8  # the highest order that is tried on a boundary
-FEW = 5  # number of coordinates up to which every direction with entries 0, 1 and -1 is tried
-SHORT = 80  # number of operations up to which a curvature is shown before the equilibrium is substituted
+FEW = 5  # largest number of coordinates for which all directions with entries 0, 1 and -1 are tried
+SHORT = 80  # largest number of operations in a curvature that is shown before the equilibrium is substituted
 ZERO = Integer(0)
 BY_FIRST_ORDER = Spelled(
     "decide with the equations of motion to first order: `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
 STEADY = Spelled(
     "`steady_motion` finds a steady motion there, and `frequency_squared_about` determines its stability",
-    "such a motion is steady: under `results`, `steady` gives its condition and `frequency` its stability",
+    "such a motion is steady: under `results`, `steady` gives the condition and `frequency` the stability",
 )
 
 
@@ -133,7 +133,7 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
 
 
 def _potential(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Quantity:
-    """Return the potential energy from which an equilibrium was found."""
+    """Return the potential energy from which an equilibrium was found; for given values, use `potential_at_rest`."""
     if not isinstance(at, Quantity):
         return potential_at_rest(of)
     return next((parent for parent in at.parents if parent.step.kind == "energy"), of)
@@ -349,7 +349,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.operator, -place.exists.left))
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Compare with the minors from the energy, to second order, of a displacement in an arbitrary direction."""
+        """Compare with the minors that follow from the second-order energy of an arbitrary displacement."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
@@ -396,8 +396,8 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
     """Return a direction in which the energy falls for all values of the symbols; None if no such direction is found.
 
-    The direction is a null vector of the part of the matrix that is proportional to one symbol. For example, a spring
-    is not stretched by a displacement in such a direction.
+    The direction is a null vector of the part of the matrix that is proportional to one symbol. If the symbol
+    is a spring constant, for example, a displacement in this direction does not stretch the spring to first order.
     """
     for letter in sorted(matrix.free_symbols, key=str):
         share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))

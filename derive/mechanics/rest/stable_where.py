@@ -39,11 +39,11 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which an equilibrium is stable: S >= S_0, or S > S_0 if it is not stable on the boundary.
+    """Condition under which an equilibrium is stable: S >= S_0, or S > S_0 if S_0 is not known to be stable.
 
-    of   the stability, as `stability` yields it if it depends on the symbols
-    Check: the sign of the second derivative a little above and below the boundary; numerically, the energy has a
-    minimum at the equilibrium exactly where the condition holds, a little above and below the boundary.
+    of   a result of `stability` that depends on a condition on the symbols
+    Check: above and below the boundary, the condition holds exactly if the second derivative is positive. Numerically,
+    the energy has a minimum at the equilibrium exactly where the condition holds.
     Outcomes: with_border, without_border, open (no order decides at the boundary).
     Errors: the stability does not depend on a condition, or depends on a condition for several coordinates.
     Source: Taylor, *Classical Mechanics*, section 4.6.

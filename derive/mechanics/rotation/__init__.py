@@ -1,1 +1,1 @@
-"""Inertia tensors, principal axes, angular velocity and angular momentum, Euler's equations, perturbed rotations."""
+"""Inertia tensors, principal axes, angular velocity and angular momentum, Euler's equations and perturbed rotations."""

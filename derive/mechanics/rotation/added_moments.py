@@ -41,16 +41,16 @@ MOMENT_OF_PARTS = Rule(
 def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
     """Moment of inertia of a composite body about an axis through a point, I = sum of I_part + m d^2 over its parts.
 
-    body    a composite body; cavities count as negative
-    axis    the direction of the axis: "x", "y" or "z"
+    body    a composite body; the moments of cavities are subtracted
+    axis    the body axis that is parallel to the axis of the moment: "x", "y" or "z"
     point   a point on the axis
     A step derives the moment I_part of each part about the parallel axis through its centre of mass, at the distance d.
-    The result is None if some part has no body axis parallel to the axis. It is also None if some part is composite and
-    its parallel body axis has another name.
+    The result is None if some part has no body axis parallel to the axis. The result is also None if some part is
+    composite and its parallel body axis has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
-    Outcomes: moved (the centre of some part is off the axis), on_axis (all centres are on the axis), alone (also on the
-    axis, and only one part has a moment).
+    Outcomes: moved (the centre of some part is off the axis), on_axis (all centres are on the axis), alone (all
+    centres are on the axis, and only one part has a nonzero moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
@@ -94,11 +94,12 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
 def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity:
     """Moment of inertia of a part about an axis through its centre of mass.
 
-    About a diameter of a flat round part, it is half of the moment about the symmetry axis, because I_x + I_y = I_z.
+    About a diameter of a flat round part, this moment is half of the moment about the symmetry axis, because
+    I_x + I_y = I_z and I_x = I_y.
     body     the part
     axis     a body axis of the part
-    letter   the symbol of the moment; the index is the axis of the whole body that is parallel to this axis, if such an
-             axis exists
+    letter   the symbol of the moment without its index; the index is the parallel axis of the whole body, or "axial" if
+             the whole body has no parallel axis
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.

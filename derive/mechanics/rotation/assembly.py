@@ -2,7 +2,7 @@
 orientation, and cavities.
 
 The tensor of each part about its centre of mass is rotated to the axes of the whole and shifted by the parallel-axis
-theorem. Then the tensors of all parts are added, and the tensors of cavities are subtracted.
+theorem. The shifted tensors of the parts are added; those of cavities are subtracted.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class PointMass(Body):
 
 
 def minus(part: Body | PlacedPart) -> PlacedPart:
-    """Return a part as a cavity of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
+    """Return a part with the opposite sign, as a cavity of a body: `Composite(ball, minus(Ball(r, m).at(0, 0, d)))`."""
     placed = part if isinstance(part, PlacedPart) else _placed(part)
     return replace(placed, sign=-placed.sign)
 
@@ -98,8 +98,8 @@ class Composite(Body):
     """A composite body: `Composite(Rod(l, m).at(0, 0, -l/2), Ball(R, M).at(0, 0, -l), points={"pivot": (0, 0)})`.
 
     parts    bodies. `.at(x, y, z)` moves the centre of mass of a body to this position; `.at(x, y, z, of="end")` moves
-             the point "end" of the body there. `.turned("x", angle)` rotates the body about the point that `.at` moved.
-             `minus(part)` is a cavity
+             the point "end" of the body to this position. `.turned("x", angle)` rotates the body about the point that
+             `.at` moved. `minus(part)` is a cavity
     mass     the mass of a uniform whole, whose parts have masses in proportion to their sizes
     points   names for positions in the whole, such as a pivot
     Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
@@ -173,8 +173,10 @@ class Composite(Body):
 
     @property
     def density(self) -> Quantity:
-        """In place of a density, the step for the mass of the first part if one mass is given for the whole; otherwise
-        the step for the total mass."""
+        """A step for a mass, because a composite body has no single density.
+
+        If one mass is given for the whole, the step derives the mass of the first part, otherwise the total mass.
+        """
         return self.shares[0] if self.shares else self.whole_mass
 
     def derived_centre(self, start: Point, symbol: str, key: str) -> Quantity:
@@ -204,7 +206,7 @@ def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
         twice = next((name for name, times in Counter(taken).items() if times > 1), None)
         if twice is not None:
             message = f"two parts are both called `{twice}`"
-            help_line = 'give them names whose first words differ: Rod(l, m).named("upper rod")'
+            help_line = 'give the parts names whose first words differ: Rod(l, m).named("upper rod")'
             raise Rejected(Complaint("parts", message, help=help_line))
     return tuple(found)
 
@@ -356,7 +358,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
     """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
 
     body    the whole, with its parts
-    point   the point of the tensor, with the axes there
+    point   the point of the tensor; `point.axes` are the axes of the components
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -422,7 +424,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     body    the whole
     part    one of the parts of the whole; R is the rotation of the part, and d is the displacement of its centre of
             mass from the point
-    point   the point of the tensor, with the axes there
+    point   the point of the tensor; `point.axes` are the axes of the components
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part.
     Outcomes: turned_there (the centre of the part is at the point), moved, turned_moved.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).

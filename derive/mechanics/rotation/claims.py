@@ -1,4 +1,4 @@
-"""Predicates of rotation: each judges whether an outcome, or a statement of its sentence, is correct."""
+"""Predicates of rotation: each checks an outcome, or a statement in the sentence of an outcome."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def is_away_from_the_centre(facts: Judged) -> bool:
 
 
 def entry(*pairs: str, round_body: bool = False) -> Predicate:
-    """Judge whether the result is one of these entries of a tensor, by the index of its symbol. With `round_body`, the
-    particles must also show that the body is round."""
+    """Judge whether the index of the result's symbol is one of these pairs, so that the result is this entry of a
+    tensor. With `round_body`, the particles must also show that the body is round."""
 
     def is_so(facts: Judged) -> bool:
         return facts.symbol.name[-2:] in pairs and (not round_body or is_round(facts))
@@ -44,7 +44,7 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """Whether the result is a diagonal entry, and integrals over the mass that are odd in x, in y or in z vanish."""
+    """Whether the result is a diagonal entry, and integrals over the mass of functions odd in x, y or z vanish."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -92,7 +92,10 @@ def moments(different: int, diagonal: bool) -> Predicate:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """Judge the number of distinct moments, and whether the moment of this axis differs from two equal moments."""
+    """Judge whether the number of distinct moments is `different`.
+
+    If `alone` is given, also judge whether the moment of this axis differs from both other moments, as `alone` states.
+    """
 
     def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
@@ -192,7 +195,10 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the component along the axis is negative (`wanted` is "left") or not negative (any other word)."""
+    """Judge whether the component of the result along the axis is negative, for the word "left".
+
+    For any other word, judge whether this component is not negative.
+    """
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -202,8 +208,10 @@ def turns(wanted: str) -> Predicate:
 
 
 def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
-    """Judge whether the cosine is 1 (parallel), -1 (opposite) or 0 (perpendicular), or for None whether it is none of
-    these."""
+    """Judge whether the cosine is `wanted`: 1 (parallel), -1 (opposite) or 0 (perpendicular).
+
+    For `wanted=None`, judge whether the cosine differs from 1, -1 and 0.
+    """
 
     def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
@@ -221,8 +229,11 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Judge whether the rate vanishes in space and in the body, as stated. For `in_space=None`, judge whether the rate
-    in the body was not substituted."""
+    """Judge whether the rate in space vanishes exactly if `in_space`, and the rate in the body exactly if `in_body`.
+
+    For `in_body=None`, the rate in the body may have any value. For `in_space=None`, judge whether the rate in the body
+    is not among the inputs.
+    """
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -236,8 +247,8 @@ def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
 def euler(torque: bool, coupled: str) -> Predicate:
     """Judge whether a torque acts, and where products of components of omega remain.
 
-    coupled   "here": in this equation; "elsewhere": only in another equation; "nowhere"; empty if the equations of
-              these products do not matter
+    coupled   "here": in this equation; "elsewhere": in another equation, but not in this one; "nowhere": in no
+              equation; empty: the products are not examined
     """
 
     def is_so(facts: Judged) -> bool:
@@ -256,7 +267,7 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 
 def given_as(sort: str) -> Predicate:
-    """Judge whether the name of the function in the script begins with this word, and the result has the given
+    """Judge whether the name of the function in the script begins with the word `sort`, and the result has the given
     components."""
 
     def is_so(facts: Judged) -> bool:
@@ -311,7 +322,7 @@ def part_of_sign(sign: int) -> Predicate:
 
 
 def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
-    """Whether all limits of the Cartesian coordinates are constant, if the sentence mentions edges."""
+    """Whether all limits of the Cartesian coordinates are constant; true if the sentence does not mention edges."""
     if "edged" not in facts.words:
         return True
     body = facts.subject.body
@@ -406,7 +417,7 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
     the shift begins at the centre of mass."""
     if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
         return False
-    if "entry" not in facts.quantities:  # a product of inertia that vanishes about the centre of mass
+    if "entry" not in facts.quantities:  # no step derives the entry: a product of inertia that is zero
         return outcome == "outward"
     point = facts.quantities["entry"].subject.point
     return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")

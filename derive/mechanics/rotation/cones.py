@@ -228,7 +228,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
-    Check: after a cyclic permutation of the axes, which is a rotation, the component is the first.
+    Check: a cyclic permutation of the axes, which is a rotation, makes the component the first component.
     Outcomes: generic, zero.
     Errors: `of` is not a vector; there is no such axis.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.

@@ -78,7 +78,7 @@ class RigidBody(Placeable, OfParticles):
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
               centre of mass if `centre` is zero, otherwise the pivot
-    look      a body whose shape is drawn in place of this body, with its centre at the centre of mass
+    look      a body whose shape is drawn for this body, with the centre of the shape at the centre of mass
     """
 
     mass: Expr | None = None
@@ -259,9 +259,10 @@ def rate_in_space(
 
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
-    in_body    the rate of L in the body by the equations of motion; without it, the rates of omega remain unknown
+    in_body    the rate of L in the body by the equations of motion; by default the rates of omega remain unknown
     Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
-    the rate of L . n for a direction n that is fixed in space. For such a direction, n_dot = -omega x n in the body.
+    the rate of L . n for a direction n that is fixed in space. The direction n has
+    n_dot = -omega x n in the body.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
     Errors: an argument is a quantity of another kind.
@@ -316,8 +317,8 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Return the outcome: whether L is constant in space, and in the body too; `generic` if the equations of motion are
-    not substituted."""
+    """Return the outcome: whether L is constant in space, or in space and in the body; `generic` if the equations of
+    motion are not substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):

@@ -48,7 +48,7 @@ class Disturbed(Fact):
 
     @property
     def across(self) -> tuple[int, int]:
-        """The two other axes, in right-handed order."""
+        """The indices of the two axes perpendicular to the axis of the rotation, in right-handed order."""
         return (self.axis + 1) % 3, (self.axis + 2) % 3
 
     @property
@@ -86,8 +86,8 @@ class RateByParticles(Fact):
 
     def rate(self) -> Any:
         """Return the rate as a sum over the particles, from their accelerations."""
-        raise NotImplementedError  # each subclass defines it; an abstract class could not be asked for as a fact
+        raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class
 
     def in_any_axes(self, torque: Any) -> Any:
-        """Return the rate for this torque along any body axes: the tensor may have products of inertia."""
-        raise NotImplementedError  # each subclass defines it; an abstract class could not be asked for as a fact
+        """Return the rate under this torque, along arbitrary body axes: the tensor may have products of inertia."""
+        raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class

@@ -73,10 +73,10 @@ def inertia_tensor(
 
     body         a body with mass M
     about        a named point of the body: "centre", "corner", "apex", ...
-    coordinates  "cartesian" or "cylindrical", if the body has both
-    The axes are the body axes. A step derives each of the six entries. For a body that is round about z, steps derive
-    only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three axes, steps
-    derive only the moments.
+    coordinates  the coordinates of integration, "cartesian" or "cylindrical", if the body has both
+    The axes are the body axes. In general, a step derives each of the six entries. For a body that is round about z,
+    steps derive only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three
+    axes, steps derive only the moments.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
     mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
@@ -326,8 +326,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """For a moment, return the squared distance from the axis, with |e x r|^2 as the same formula by another route; for
-    a product of inertia, return nothing."""
+    """For a moment, return the squared distance from the axis, and the same distance from |e x r|^2; for a product of
+    inertia, return an empty mapping."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
@@ -348,11 +348,12 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     """Inertia tensor about the centre of mass, I = J - M (c.c 1 - c c), from J about another point of the body.
 
     tensor_there    tensor J (3, 3), kg m^2, about a point of the body
-    centre          vector c (3), m: the position of the centre of mass relative to that point, along the same axes
+    centre          vector c (3), m: the position of the centre of mass relative to the point of J, along the same axes
     Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
     the integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
-    Errors: the tensor is already about the centre of mass; the centre is measured from another point.
+    Errors: the tensor is already about the centre of mass; the centre is not measured from the point of
+    the tensor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = tensor_there.needed(OfBody).body
@@ -516,8 +517,8 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
 
     found   tensor (3, 3), kg m^2
     again   the tensor of the same body about the same point by another derivation, possibly along rotated axes
-    Check: the other tensor, rotated to the axes of the first, is equal to the first.
-    Outcomes: generic (the axes are the same), turned (the axes of the other tensor are rotated by half a turn about x).
+    Check: `again`, rotated to the axes of `found`, is equal to `found`.
+    Outcomes: generic (the axes are the same), turned (the axes of `again` are rotated by half a turn about x).
     Errors: the tensors belong to different bodies or points.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """

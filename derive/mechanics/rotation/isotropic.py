@@ -103,7 +103,7 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """Return the first symbol of `letter` for which the equation has one positive root, this root, and the power."""
+    """Return the first symbol of `letter` with exactly one positive root, this root, and the power of the symbol."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:
@@ -140,7 +140,7 @@ def _letters_only(factor: Expr) -> Expr:
 
 
 def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, Any]:
-    """Return the tensor and a moment times the unit tensor, with the root substituted; nan if there is no equation."""
+    """Return the tensor and a moment times the unit tensor, with the root substituted; nan for an inequality."""
     if found.operator != "=":
         return nan, nan
     letter, bound = found.sides

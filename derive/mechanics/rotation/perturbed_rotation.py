@@ -34,8 +34,8 @@ def linearised_rotation(
     equations   Euler's equations in the order x, y, z, without torque
     axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       the constant rate omega of the steady rotation, 1/s
-    Second route: half the difference of the sum of m r x a over the particles of the body between opposite
-    perturbations.
+    Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations; half of
+    the difference contains the terms of first order.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
     no such axis.
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
@@ -336,7 +336,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
 
 
 def _root_of(square: Expr) -> Expr:
-    """Return the root with square factors in front of it."""
+    """Return the square root of an expression, with square factors in front of the root."""
     return tidied(sqrt(tidied(square)))
 
 

@@ -53,7 +53,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
-    The moments of a diagonal tensor are its diagonal, in the order of the axes; other moments are in increasing order.
+    The moments of a diagonal tensor are in the order of the axes; other moments are in increasing order.
     Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor; for a diagonal
     tensor, also I e = I_k e for the unit vector e of each axis.
     Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
@@ -108,7 +108,7 @@ def principal_axes(
     If two moments are equal, their axes contain a free angle; if all three are equal, any three perpendicular axes are
     principal axes.
     Check: each vector satisfies I e = I_k e; the vectors have length 1, are perpendicular and right-handed.
-    Outcomes: single (the axis of the moment that differs from two equal ones), symmetry (the same for a round body),
+    Outcomes: single (the axis of the moment that differs from two equal ones), symmetry (this axis of a round body),
     free (an axis of one of the two equal moments), any (all three moments are equal), distinct.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
@@ -296,8 +296,9 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
     """Return the unit eigenvectors.
 
-    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. The last
-    eigenvector, and one of two with equal moments, follow from vector products.
+    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. If two moments
+    are equal, the first of their eigenvectors is any unit vector perpendicular to the eigenvector of the third moment.
+    The last eigenvector is the vector product of the other two.
     """
     alone = lone_moment(moments)
     first = alone if alone is not None else 0

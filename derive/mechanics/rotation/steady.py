@@ -1,4 +1,4 @@
-"""Angular velocities given by their components along the body axes: constant ones, or values at one instant."""
+"""Angular velocities given by their components along the body axes: constant, or known at one instant only."""
 
 from __future__ import annotations
 

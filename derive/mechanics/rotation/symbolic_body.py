@@ -1,7 +1,7 @@
 """Symbolic bodies: symbols for the mass, the distance of the centre of mass, and the principal moments about a point.
 
-A result for a symbolic body is true for every body with these quantities. `put_in(result, *body.values)` substitutes
-the values of the given body.
+A result for a symbolic body is true for every body whose centre of mass is on a principal axis through the point.
+`put_in(result, *body.values)` substitutes the values of the given body.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class LetteredBody(RigidBody):
 
 
 def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
-    """Return a symbolic body with the mass M, the distance l of the centre of mass from a point on the z axis, and the
-    principal moments about this point; steps derive the values.
+    """Return a body with symbols for its mass, the distance of its centre of mass from a point on the z axis, and the
+    principal moments about this point. Steps derive the values of the symbols.
 
     body     a body whose axes at the point are principal axes, with its centre of mass on the z axis
     about    the point, which is the "pivot" of the result
@@ -55,7 +55,10 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
     beside = [sum((m * r[k] for m, r in seen), Integer(0)) for k in (0, 1)]
     products = [sum((m * r[i] * r[j] for m, r in seen), Integer(0)) for i, j in ((0, 1), (0, 2), (1, 2))]
     if not all(map(is_zero, (*beside, *products))):
-        message = f"`symbolic_body`: the axes of {body.name} through its {about} are not principal, or miss its centre"
+        message = (
+            f"`symbolic_body`: the axes of {body.name} through its {about} are not principal axes,"
+            " or the centre of mass is not on the z axis"
+        )
         raise Rejected(Complaint("wrong-axis", message))
     squares = [sum((m * r[k] ** 2 for m, r in seen), Integer(0)) for k in (0, 1)]
     is_symmetric = is_zero(squares[0] - squares[1])
@@ -100,7 +103,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
     body    a composite body, or a body with a known centre of mass
     point   the point from which l is measured
     mass    the step of the mass of the whole body, if there is one
-    Second route: about the centre of mass, the sum of m (z - l) over equimomental particles is zero.
+    Second route: the sum of m (z - l) over equimomental particles is zero, with z measured from the point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     parts = [(part.mass, point.seen(part.centre)[2]) for part in getattr(body, "parts", ())]

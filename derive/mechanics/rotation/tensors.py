@@ -1,6 +1,6 @@
 """Quantities derived from an inertia tensor: components along rotated axes, the moment about any axis, single entries,
-the radius of gyration, and the angle of the principal axes in a plane. The module also has the perpendicular-axis
-theorem.
+the radius of gyration, and the angle of the principal axes in a plane. The module also contains the
+perpendicular-axis theorem.
 """
 
 from __future__ import annotations
@@ -84,11 +84,11 @@ TURNED_TENSOR = Rule(
 def turned_tensor(
     inertia: Quantity, axis: str, angle: Expr, symbol: str | None = None, key: str = "turned_tensor"
 ) -> Quantity:
-    """The same tensor along rotated axes, I' = R^T I R, where the columns of R are the new axes.
+    """A tensor along rotated axes, I' = R^T I R, where the columns of R are the new axes.
 
     inertia   tensor I (3, 3), kg m^2
-    axis      "x", "y" or "z": the body axis about which the axes are rotated, right-handed
-    angle     the angle of this rotation
+    axis      "x", "y" or "z": the axis about which the axes are rotated
+    angle     the angle of this right-handed rotation
     Second route: the sum of m (r.r 1 - r r) over equimomental particles, with r along the rotated axes; the trace is
     invariant.
     Outcomes: isotropic, two_equal, diagonal, generic.
@@ -251,7 +251,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
         raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives the axes in space"))
     if is_zero(I[0, 0] - I[1, 1]):
         what = (
-            "every axis in their plane is principal"
+            "every axis in the x-y plane is principal"
             if is_zero(I[0, 1])
             else "the principal axes are at 45 degrees to x and y"
         )
@@ -289,7 +289,7 @@ def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
 
 
 def _shorter_sums(matrix: Any) -> ImmutableMatrix:
-    """Expand each entry, with products of sines and cosines or with multiple angles, whichever form is shorter."""
+    """Write each entry in the shorter of two forms: with products of sines and cosines, or with multiple angles."""
     return ImmutableDenseMatrix(matrix.applyfunc(_shorter))
 
 

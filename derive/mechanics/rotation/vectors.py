@@ -79,7 +79,8 @@ class Momentary(Fact):
 
 @dataclass(frozen=True)
 class RateOfEnergy(RateByParticles):
-    """The rate of the kinetic energy, d(1/2 w . I w)/dt: the sum of m v . a, which is also w . N."""
+    """The rate of the kinetic energy, d(1/2 w . I w)/dt: the sum of m v . a. The rate equals w . N, with the torque
+    N."""
 
     inertia: Quantity
     omega: Quantity
@@ -95,7 +96,8 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """The rate of the angular momentum L = I w in space: the sum of m r x a. Its component along L is N . L/|L|."""
+    """The rate of the angular momentum L = I w in space, as the sum of m r x a. For a torque N the component of this
+    rate along L is N . L/|L|."""
 
     inertia: Quantity
     omega: Quantity
@@ -163,7 +165,8 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     rate      angular speed omega, 1/s; a negative rate is a left-handed rotation
     along     vector d (3) along the axis
     through   a point of the body on the axis of rotation; this point stays at rest
-    Check: the length of the result is the magnitude of the rate, and its scalar product with d is the rate times |d|.
+    Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
+    times |d|.
     Outcomes: left_handed (the rate is negative), right_handed.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
@@ -193,21 +196,23 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
 
 
 def length_by_turning(v: Any) -> Expr:
-    """Return the length of a vector: its z component after two rotations, about z into the x-z plane and then about y
-    onto the z axis."""
+    """Return the length of a vector: its x component after a rotation about z into the x-z plane and a rotation about y
+    onto the x axis."""
     size, (x, y, z) = size_and_rest(v)
     level = _turned_onto_first(x, y)
     return tidied(size * _turned_onto_first(level, z))
 
 
 def _turned_onto_first(p: Expr, q: Expr) -> Expr:
-    """Return the first component of (p, q) after the rotation in their plane that makes the second component vanish."""
+    """Rotate the vector (p, q) so that its second component vanishes, and return the first component after the
+    rotation."""
     radius = tidied(p**2 + q**2) ** Rational(1, 2)
     return p if radius == 0 else p * (p / radius) + q * (q / radius)
 
 
 def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
-    """Return the integral of a function of r over the mass of the body, where r is from the point of the tensor."""
+    """Return the integral of a function of r over the mass of the body, where r is measured from the point of the
+    tensor."""
     return inertia.needed(OfBody).body.over_mass(integrand, inertia.needed(AboutPoint).point)
 
 
@@ -225,7 +230,8 @@ def _left_by_turning(omega: Quantity) -> tuple[Any, Any]:
 
 
 def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str]:
-    """Require a tensor about the point that stays at rest, and return the words for this point in the sentence."""
+    """Require a tensor about the point that stays at rest, and return the words with which the sentence names this
+    point."""
     require_kind(verb, "inertia", inertia, "moment of inertia")
     require_kind(verb, "omega", omega, "angular speed")
     require_constant(verb, "inertia tensor", inertia, "a body whose size or mass changes is not rigid")
@@ -238,8 +244,8 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 
 def whether_zero(v: Any) -> str:
-    """Return the outcome: `zero` if v vanishes, `generic` if v is nonzero for all values of its symbols, `in_general`
-    if this is unknown."""
+    """Return the outcome: `zero` if v vanishes, `generic` if v is known to be nonzero for all values of its symbols,
+    otherwise `in_general`."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)
@@ -262,7 +268,8 @@ def kinetic_energy(
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
     Second route: half the integral of |omega x r|^2 dm over the body.
-    Errors: the axis does not go through the point of the tensor; the tensor changes; an argument is of another kind.
+    Errors: the axis does not go through the point of the tensor; the size or mass of the body changes; `inertia` is not
+    an inertia tensor, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 
@@ -293,9 +300,10 @@ def kinetic_energy(
 
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
-    """Return the line with the explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
+    """Return the line of the kinetic energy with an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    The line is only for numerical components along principal axes whose moments are not all equal.
+    The list is empty in all other cases: the axes must be principal axes with moments that are not all equal, moments
+    and components must be numbers up to a common factor, and two components must be nonzero.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -332,7 +340,8 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
     Second route: the integral of r x (omega x r) dm over the body.
     Outcomes: parallel (L is parallel to omega, which is along a principal axis), generic (L is never parallel to
     omega), in_general (L may be parallel to omega for some values of the symbols).
-    Errors: the axis does not go through the point of the tensor; the tensor changes; an argument is of another kind.
+    Errors: the axis does not go through the point of the tensor; the size or mass of the body changes; `inertia` is not
+    an inertia tensor, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.1.
     """
     words = _check_point("angular_momentum", inertia, omega)
@@ -410,7 +419,7 @@ def _angle_by_components(u: Any, v: Any) -> Expr:
 
 
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
-    """Return the lines with a.b and the lengths: explicit sums of products for numbers, then the evaluated form."""
+    """Return the line with a.b and the lengths evaluated. For numerical components, explicit sums come first."""
     parts = [size_and_rest(v.value) for v in (a, b)]
     (_, u), (_, v) = parts
     signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
@@ -427,7 +436,7 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
-    """Write a length with a root as a root of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225)."""
+    """Write a length that contains a root with a sum of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225)."""
     if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
         return length
     squares = [entry**2 for entry in rest if entry != 0]
@@ -493,6 +502,6 @@ def _angle_itself(angle: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class Acting(Fact):
-    """The torque on a body in its equations of motion, vector (3), N m."""
+    """The torque in the equations of motion of a body, vector (3), N m."""
 
     torque: Any

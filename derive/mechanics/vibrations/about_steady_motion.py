@@ -43,7 +43,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate `q`, the matter behind it, and the value of `q` at rest or in steady motion.
+    """A potential energy of one coordinate `q`, the matter that has this energy, and the value of `q` at rest or in
+    steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
     momenta   the symbols of the cyclic momenta and their values in the steady motion
@@ -66,11 +67,12 @@ class About:
         return bound(explicit(value), still).subs(self.q, self.place)
 
     def known(self, value: Expr) -> Expr:
-        """Substitute the values of the momenta, and eliminate one symbol with the condition."""
+        """Substitute the values of the momenta, and eliminate one symbol with the condition of the steady motion."""
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """Yield versions without one rate: a momentum w = s + Omega cos(alpha) gives s = w - Omega cos(alpha)."""
+        """Yield copies in which one rate is eliminated, as s = w - Omega cos(alpha) by a momentum w = s + Omega
+        cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -114,7 +116,7 @@ def frequency_squared_about(
     Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
     displacements: the determinant of these equations vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
-    Errors: several coordinates remain; the condition belongs to another Lagrangian, or does not eliminate the symbol.
+    Errors: several coordinates remain; the condition belongs to another Lagrangian, or cannot be solved for `without`.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
     """
     about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)
@@ -216,7 +218,7 @@ def _only(potential: Quantity) -> Symbol:
 
 
 def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
-    """Return the symbol whose elimination gives the shortest result, and its value; empty if the condition is 0 = 0."""
+    """Return the symbol whose elimination gives the shortest result, with its value; an empty dictionary for 0 = 0."""
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
@@ -228,7 +230,7 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
         others = [
             s.name for s in sorted(condition.free_symbols, key=str) if solved_for_letter(condition, s) is not None
         ]
-        help_line = f"it can be solved for {' or '.join(others)}" if others else None
+        help_line = f"the condition can be solved for {' or '.join(others)}" if others else None
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(ways) == 1:
         return ways[0]
@@ -237,7 +239,7 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 
 def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """Return a symbol in a given momentum, and its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
+    """Return a symbol in a given momentum with its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
@@ -250,8 +252,8 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
 def _determinant_about(about: About, found: Expr) -> Expr:
     """Return the determinant of d'Alembert's principle to first order, for displacements e^(s t), s^2 = -omega^2.
 
-    The unknown of a cyclic coordinate is its rate, so the column of this coordinate has one factor s less. Common
-    powers of s are divided out.
+    The unknown of a cyclic coordinate is the rate of this coordinate, so the column of this coordinate has one factor s
+    less. Common powers of s are divided out.
     """
     matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
     moving = [about.q, *about.rates]
@@ -263,7 +265,7 @@ def _determinant_about(about: About, found: Expr) -> Expr:
         other = moving[int(j)]
         slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
         at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
-        if j:  # only the rates of a cyclic coordinate occur, so its rate is the unknown
+        if j:  # a cyclic coordinate occurs only through its rates: its first rate is the unknown
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]
 
@@ -285,7 +287,7 @@ def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
     "small oscillations about a steady motion, from the effective potential",
     of="frequency: an effective potential energy",
     at="results: that motion",
-    without="for: the symbol that its condition eliminates",
+    without="for: the symbol to eliminate with the condition of that motion",
     symbol="symbol",
 )
 def _in_results(of: Quantity, at: Quantity, key: str, without: Letter = None, symbol: str = "omega_0") -> Quantity:

@@ -1,4 +1,5 @@
-"""Predicates that check the outcomes of oscillations and the expressions that their sentences name."""
+"""Predicates that check the outcomes of steps about oscillations, and the expressions in the sentences of these
+steps."""
 
 from __future__ import annotations
 
@@ -65,7 +66,8 @@ from derive.steps.trial_numbers import (
 
 
 def free_motion(wanted: str) -> Predicate:
-    """Judge a free motion by the roots of the characteristic equation, or, if a sign is unknown, by the condition."""
+    """Judge the kind of a free motion by the signs of c/a and of the discriminant. If the sign of the discriminant is
+    unknown, judge by the stated condition."""
 
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
@@ -89,9 +91,10 @@ def free_motion(wanted: str) -> Predicate:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """Whether the condition is equivalent to the wanted sign of the discriminant.
+    """Whether the stated condition holds exactly if the discriminant has the wanted sign.
 
-    At the boundary of the condition the discriminant must vanish; the side of the boundary is checked numerically.
+    At the boundary of the condition the discriminant must vanish. On both sides of the boundary the sign of the
+    discriminant is checked numerically.
     """
     condition = explicit(facts.inputs["condition"])
     if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
@@ -122,7 +125,7 @@ def dies_away(manner: str) -> Predicate:
 
 
 def in_step(*signs: int | None) -> Predicate:
-    """Judge the phase of a motion without damping: c - a omega^2 must have one of these signs."""
+    """Judge the phase of a motion without damping: c - a omega^2 must have one of the given signs."""
     return lambda facts: is_zero(facts.inputs["loss"]) and sign_known(facts.inputs["stiff"]) in signs
 
 
@@ -131,7 +134,8 @@ def square(facts: Judged, fact: SquareOf) -> bool:
 
 
 def mode(facts: Judged, fact: Mode) -> bool:
-    """Whether the squared frequency is the root (minus the root for a growing mode), and every column is a shape."""
+    """Whether the squared frequency is the root lambda, or minus lambda for a growing mode, and every column a
+    satisfies (K - lambda M) a = 0."""
     root = fact.root
     squared = explicit(facts.result) ** 2
     if not is_zero(squared - root.value) and not (root.sign == -1 and is_zero(squared + root.value)):
@@ -141,7 +145,7 @@ def mode(facts: Judged, fact: Mode) -> bool:
 
 
 def linear(facts: Judged, fact: Linear) -> bool:
-    """Whether the coefficients of the equation are, up to a common factor, a row of the matrices."""
+    """Whether the coefficients of the equation are, up to a common factor, one row of the three matrices."""
     residual = explicit(facts.result).residual
     orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
     names = [s.symbol for s in fact.displacements]
@@ -221,7 +225,7 @@ def always(steady: bool) -> Predicate:
 
 
 def depends(facts: Judged) -> bool:
-    """Whether, away from their boundaries, all conditions hold exactly where no motion grows.
+    """Whether all conditions hold exactly where no motion grows; points on the boundary of a condition do not count.
 
     The result must be one of the conditions.
     """
@@ -303,7 +307,8 @@ def damped(sign: int | None) -> Predicate:
 
 
 def gyroscopic_rate(kind: str) -> Predicate:
-    """Judge whether minus the result is a root, or, for an oscillator, half the sum of two roots."""
+    """Judge whether minus the result is an exponent s; a `decay` must be positive, a `growth` negative. For an
+    `oscillator`, minus the result must be half the sum of two exponents."""
 
     def is_so(facts: Judged) -> bool:
         def is_so_at(point: Point) -> bool:
@@ -322,7 +327,7 @@ def has_turning(facts: Judged) -> bool:
 
 
 TINY = Rational(1, 10**15)
-FEW = 5  # points at which a determinant is evaluated
+FEW = 5  # number of trial points at which a determinant is evaluated
 
 
 def _polynomial(facts: Judged, point: Point) -> Poly:
@@ -344,8 +349,8 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`, and its derivative vanishes there only if the root is
-    repeated."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must vanish there
+    exactly for a repeated root."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -391,7 +396,7 @@ def is_in_order(whole: bool) -> Predicate:
 
 
 def _is_not_negative(facts: Judged) -> bool:
-    """Whether the frequency is never negative; where it is imaginary, its imaginary part must not be negative."""
+    """Whether the frequency is never negative, and never a negative multiple of the imaginary unit."""
     points = _points(facts)
     return -1 not in signs(facts.result, points) | signs(facts.result / I, points)
 
@@ -424,23 +429,23 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge whether three facts are as stated: an equilibrium value is not zero (`displaced`), there is drag (`lossy`;
-    not judged if None), and the equation is driven."""
+    """Judge three facts separately: `displaced`, an equilibrium value is not zero; `lossy`, there is drag (not judged
+    if None); `driven`, the right side is not zero. Each fact must hold exactly if its argument is true."""
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
         letters = facts.inputs["displacements"]
         if len(letters) == 1 and explicit(facts.result).left.has(rate(*letters)) != found[1]:
-            return False  # for one coordinate the equation itself shows drag
+            return False  # for one coordinate, drag is a term with the rate
         return found[0] == displaced and found[2] == driven and lossy in (None, found[1])
 
     return is_so
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether a uniform motion numerically satisfies the equations of motion.
+    """Whether a uniform motion satisfies the equations of motion at all trial points.
 
-    This is checked only if the sentence says that no force acts to any order.
+    The test is made only if the sentence says that no force acts to any order.
     """
     if "drift" not in facts.inputs:
         return True
@@ -449,14 +454,14 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """Judge whether an expression has this sign: 1 or -1 by numbers for which the equilibrium exists; 0 or None (the
-    sign is unknown) by the assumptions on the symbols and by their ranges."""
+    """Judge whether an expression has the sign `sign`. Numbers for which the equilibrium exists decide between 1 and
+    -1. The assumptions and ranges of the symbols decide whether the sign is 0, or unknown (None)."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
 def rate_of_square(sign: int | None, turned: int) -> Predicate:
-    """Judge the sign of the square, and whether the rate is the root of `turned` times the square; `turned` is 1 for an
-    oscillation and -1 for a growing motion."""
+    """Judge the sign of the squared frequency, and whether the square of the result is `turned` times the squared
+    frequency; `turned` is 1 for an oscillation and -1 for a growing motion."""
     judged = _of_square(sign)
     return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
 
@@ -493,7 +498,8 @@ def root_under_the_sign(facts: Judged, name: Any) -> bool:
 
 
 def momentum_there(facts: Judged, relation: Any) -> bool:
-    """Whether the relation gives the value of a momentum in the steady motion, or of a symbol in such a value."""
+    """Whether the relation gives the value of a momentum in the steady motion, or the value of a symbol in a given
+    momentum."""
     steady = next((f for f in facts.quantities["where"].facts if hasattr(f, "conditions")), None)
     behind = list(facts.quantities["potential"].ancestors())
     if steady is None or relation.operator != "=":
@@ -537,8 +543,8 @@ def trial(unit: Any, role: str) -> Naming:
 
 
 def oscillator(facts: Judged, equation: Any) -> bool:
-    """Whether the stated equation becomes the linear equation if the result replaces omega_0^2, and the inertia
-    multiplies the equation."""
+    """Whether the stated equation, with the result in place of omega_0^2 and multiplied by the inertia, is the linear
+    equation."""
     linear = explicit(facts.quantities["linear"].value).residual
     inertia = explicit(facts.inputs.get("inertia", Integer(1)))
     there = equation.left.doit().subs(facts.symbol, explicit(facts.result))
@@ -611,8 +617,8 @@ def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
 
 
 def _of_an_equation(facts: Judged, outcome: str) -> bool:
-    """Whether the coordinate is a symbol, and its law is a relation or a formula for the rate or the acceleration of
-    the coordinate."""
+    """Whether `q` is a symbol, and the input `equation` is either a relation or the value of the rate or the
+    acceleration of `q`."""
     q, found = facts.inputs["q"], facts.quantities.get("equation")
     solved_for = isinstance(q, Symbol) and found is not None and found.symbol in (rate(q), rate(q, 2))
     return isinstance(q, Symbol) and (isinstance(facts.inputs["equation"], Relation) or solved_for)
@@ -623,7 +629,7 @@ def swings_of_its_equation(facts: Judged, outcome: str) -> bool:
 
 
 def positive_where_real(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the frequency is never negative if it is real."""
+    """Whether the frequency is not negative at any trial point at which it is real."""
     return nowhere_negative_where_real(facts)
 
 

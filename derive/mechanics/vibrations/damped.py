@@ -158,7 +158,7 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
 def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square: Expr) -> Expr:
     """Return an expression without roots that vanishes if the determinant vanishes at s = middle +- sqrt(square).
 
-    The even and odd powers of the root are separate terms; a mark multiplies the odd powers.
+    The even powers and the odd powers of sqrt(square) are separate terms; an extra symbol multiplies the odd powers.
     """
     mark, weight = Symbol("r_mark"), Symbol("w_mark", real=True)
     value = Poly(_left(characteristic).xreplace({letter: middle + mark}).expand(), mark)
@@ -177,7 +177,7 @@ DAMPED_FREQUENCY = Rule(
 
 def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
-    Outcomes: oscillating, conditional, overdamped (half the difference of the two decay rates).
+    Outcomes: oscillating, conditional, overdamped (the result is half the difference of the two decay rates).
     Source: the same as for `normal_modes`.
     """
     a, b, c = root.factor.coefficients

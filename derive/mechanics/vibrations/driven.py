@@ -67,7 +67,7 @@ def steady_amplitude(
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (in phase with the force); of the lag also: opposite (without damping).
+    Outcomes: damped, undamped (the lag is 0), opposite (only of the lag: without damping it is pi).
     Errors: the equation is not linear with constant coefficients, or is not driven by a single oscillation; an
     undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.
@@ -190,9 +190,10 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate
     Second route: with the driving force F cos(omega_0 t), omega_0 = sqrt(c/a), the motion q = Q (F/c) sin(omega_0 t)
-    satisfies the equation; and Q is 2 pi times the energy of this oscillation over the work of the damping in a period.
-    Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (on
-    symbols).
+    satisfies the equation; and Q is 2 pi times the energy of this oscillation, divided by the work of the damping in
+    one period.
+    Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
+    symbols leave open whether Q > 1/2).
     Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.
     Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
     """
@@ -231,6 +232,6 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
 
 def _sense(equation: Quantity, linear: LinearCoefficients, q: Coordinate) -> int:
-    """Return 1 if the equation has these coefficients, -1 if all of them have the opposite sign."""
+    """Return 1 if `equation` has the coefficients in `linear`, and -1 if its coefficients have the opposite signs."""
     unit = put_back(equation, q, Integer(1)) - put_back(equation, q, Integer(0))
     return 1 if tidied(unit - linear.c) == 0 else -1

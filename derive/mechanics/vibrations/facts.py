@@ -59,7 +59,8 @@ class Linear(LinearSystem, Fact):
 
 @dataclass(frozen=True)
 class Mode(Fact):
-    """The root lambda = omega^2 behind the frequency or growth rate of a mode, with its sign and its amplitudes."""
+    """The root lambda = omega^2 that gives the frequency or growth rate of a mode, with the sign and the shapes of the
+    root."""
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot

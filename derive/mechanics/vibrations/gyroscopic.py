@@ -108,7 +108,7 @@ def _characteristic(equations: TurningModes) -> Quantity:
 
 
 def _in_quadrature(found: Relation, equations: TurningModes) -> tuple[Relation, Relation]:
-    """Compare with cosines and sines: the determinant for their real amplitudes is the left side squared."""
+    """Compare with a motion of cosines and sines: the determinant for its real amplitudes is the left side squared."""
     return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(
         _of_cosines_and_sines(equations), "=", 0
     )
@@ -226,7 +226,8 @@ GYROSCOPIC_MOTION = Rule(
 def _motion(
     equations: TurningModes, frequency: Quantity, root: CharacteristicRoot, column: tuple[Expr, ...], n: int
 ) -> Quantity:
-    """Motion of one mode: a cosine or a sine for each coordinate; for a growing mode, the same exponential for all.
+    """Motion of one mode: a cosine or a sine for each coordinate; in a growing mode all coordinates have the same
+    exponential.
 
     Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight,
     generic.
@@ -280,7 +281,8 @@ def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
 
 
 def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
-    """Return the outcome of a mode; for two coordinates it states the shape of the path and the sense of rotation.
+    """Return the outcome of a mode; for two moving coordinates the outcome states the shape of the path and the sense
+    of rotation.
 
     The path turns forwards if it turns from the first coordinate to the second.
     """
@@ -310,7 +312,7 @@ def linear_stability(
              exactly one such symbol
 
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
-    potential energy. Drag, however small, makes such an equilibrium unstable again.
+    potential energy. If only gyroscopic forces stabilise an equilibrium, any drag makes the equilibrium unstable.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
     determinant comes from cosines and sines that are substituted into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
@@ -322,7 +324,7 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    is_shared = key == "stability" and not together.is_conservative  # then `normal_modes` has the same equation
+    is_shared = key == "stability" and not together.is_conservative  # `normal_modes` uses the same equation
     system = together.of_kind(Gyroscopic)
     equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
     characteristic = _characteristic(equations)
@@ -346,7 +348,7 @@ def _needed(system: Gyroscopic) -> list[Expr]:
         return []
     free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
     if free or any(_may_drift(part, system) for part in system.factors):
-        message = "`linear_stability`: a root of the determinant is zero or repeated, so first order decides nothing"
+        message = "`linear_stability`: a zero or repeated root of the determinant leaves the stability to higher orders"
         if any(not part.is_free and part.degree > 2 for part in free):
             message = "`linear_stability`: the determinant has a factor whose roots have no known closed form"
         raise Rejected(Complaint("not-decided", message))
@@ -413,7 +415,8 @@ def _rests(characteristic: Quantity) -> list[Quantity]:
 
 
 def _named(characteristic: Quantity) -> dict[str, Quantity]:
-    """Return the steps that the sentence of a verdict names."""
+    """Return the steps that the sentence about stability names: the characteristic equation and perhaps the
+    equilibrium."""
     return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
 
 
@@ -459,7 +462,8 @@ def _condition(
 
 
 def _place_among(i: int, number: int) -> str:
-    """Return the outcome for condition number i; the sentence of the last condition states when all of them hold."""
+    """Return the outcome for the condition with the index i; the last of several conditions has a different
+    sentence."""
     if i == number - 1:
         return "last" if i else "depends"
     return "further" if i else "first"

@@ -25,7 +25,8 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations, their linear system, the symbol of its roots, and the text with which keys of results begin."""
+    """Linear equations, the linear system of these equations, the symbol of the roots, and the beginning of all
+    keys."""
 
     linear: Sequence[Quantity]
     system: Kind
@@ -37,11 +38,13 @@ class Equations(Generic[Kind]):
         return self.linear[0].needed(Linear)
 
     def matrix(self, s: Expr) -> MatrixBase:
-        """Return the matrix of the amplitudes of a motion e^(s t), with each row divided by its common factor."""
+        """Return the matrix that multiplies the amplitudes of a motion e^(s t); each row is divided by its common
+        factor."""
         return self.together.rows_of(self.system.at(s))
 
     def judged_by(self, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-        """Return the data with which an outcome is tested: the matrices, and the stated conditions."""
+        """Return the data for testing an outcome: the matrices, the stated conditions, the condition for the
+        equilibrium."""
         system = self.system
         found: dict[str, Any] = {"stiffness": system.stiffness, "turning": system.turning, "mass": system.mass}
         exists = {} if system.exists is None else {"exists": system.exists}
@@ -49,7 +52,7 @@ class Equations(Generic[Kind]):
 
 
 def letter_of_shapes(given: Iterable[Symbol]) -> str:
-    """Return a name for the amplitudes that no given symbol has."""
+    """Return a name for the amplitudes that differs from the names of the given symbols."""
     taken = {s.name.partition("_")[0] for s in given}
     return next((letter for letter in ("a", "A", "b", "u") if letter not in taken), "v")
 

@@ -78,7 +78,7 @@ class LinearCoefficients:
         return 2 if self.a != 0 else 1
 
     def residual(self, motion: Expr) -> Expr:
-        """Return the residual of the equation for this function of the time."""
+        """Return the residual of the equation for the motion q(t)."""
         first = diff(motion, TIME)
         return self.a * diff(first, TIME) + self.b * first + self.c * motion - self.driven
 
@@ -124,11 +124,11 @@ def solution(
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Check: the motion is substituted back into the equation; the motion has the given value and rate at t = 0.
-    Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (c/a is negative),
-    uniform (no force depends on position or rate), slows (no force depends on position: the rate decays), relaxes
-    (first order), accumulates (first order, without q).
+    Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
+    for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
+    position: the rate decays), relaxes (first order), accumulates (first order, without q).
     Errors: the equation is not linear with constant coefficients; the case depends on the symbols and `case` is not
-    given, or the case is known and differs from `case`; the driving force is of another kind.
+    given, or the case is known and differs from `case`; the driving force f(t) has another form.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
@@ -200,7 +200,7 @@ def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relati
 
 
 def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
-    """Substitute this function of the time into the original form of an equation, and return the residual."""
+    """Substitute a motion q(t) into the original form of an equation, and return the residual."""
     state = (q.symbol, q.rate, q.acceleration)
     value = explicit(equation.value)
     left = value.residual if isinstance(value, Relation) else equation.symbol - value
@@ -226,15 +226,15 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
-    """Return the left side minus the right side of the equation; for a result that is the value of a rate, the rate
-    minus this value."""
+    """Return the left side minus the right side of the equation. If the result is the value of a rate or an
+    acceleration, return the rate or the acceleration minus this value."""
     if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
         return equation.symbol - explicit(equation.value)
     return residual_of("solution", equation)
 
 
 def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
-    """Reject an equation with other coordinates, rates or accelerations that change with time."""
+    """Reject an equation that contains another moving coordinate, or the rate or acceleration of another coordinate."""
     others = [rate(s, n) if n else s for s in coordinates_of(equation) if s != q.symbol for n in range(3)]
     other = next((s for s in others if left.has(s)), None)
     if other is not None:
@@ -269,7 +269,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
-    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero only for some numbers
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only
         message = f"{key} is critically damped only if {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="substitute this condition first, with `put_in`"))
     if known is not None:
@@ -313,7 +313,8 @@ def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:
 
 
 def _root_over(inside: Expr, below: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(4 m^2)), or sqrt(D)/(2 a) if that is shorter."""
+    """Return sqrt(inside)/below in its shortest form, with one root as in sqrt(k/m - b^2/(4 m^2)) or with a
+    quotient."""
     forms = [tidied(sqrt(inside) / below), sqrt(tidied(inside / below**2)), sqrt(expand(inside / below**2))]
     return shortest(forms)
 
@@ -369,9 +370,9 @@ def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
 
 
 def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
-    """Return the motion under a polynomial force, a polynomial with undetermined coefficients.
+    """Return the motion under a force that is a polynomial in t, by the method of undetermined coefficients.
 
-    This polynomial has the factor t if c = 0, or t^2 if b = 0 too.
+    The motion is a polynomial in t, with the factor t if only c = 0, and with the factor t^2 if b = c = 0.
     """
     degree = power.as_poly(TIME).degree() if depends_on_time(power) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2

@@ -1,8 +1,8 @@
 """Equations of motion to first order about an equilibrium, in any number of coordinates.
 
-The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The step
-takes the matrices from the equations of motion, as coefficients. The second route derives the matrices from the kinetic
-energy of mass points and from the virtual work of all forces, including drag and given forces, to second order.
+The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The
+matrices are the coefficients of the equations of motion at equilibrium. The second route differentiates the momenta of
+the mass points and the generalised forces, including drag and given forces.
 """
 
 from __future__ import annotations
@@ -52,8 +52,9 @@ def linearised(
     key      the beginning of the keys; with the default the key for theta is linearised_theta
 
     Forces linear in the rates, such as drag, give G; terms f that depend only on the time drive the motion. If a
-    coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several.
-    Second route: M from the momenta of the mass points, K from the virtual work of forces and inertia, to first order.
+    coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several such
+    coordinates.
+    Second route: M, G and K are derivatives of the momenta of the mass points and of the generalised forces.
     Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag: damped, displaced_damped; with a
     driving force: driven, displaced_driven.
     Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
@@ -243,7 +244,7 @@ def _outcome(linear: Linear, own: int, displaced: bool) -> str:
 
 
 def _loss(linear: Linear) -> dict[str, Expr]:
-    """Return twice the rate at which small motions lose energy, from the symmetric part of G."""
+    """Return the rate at which small motions lose energy, from the symmetric part of G."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
 
@@ -339,7 +340,7 @@ def _coefficients(
 def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> tuple[Coordinate, ...]:
     """Return the displacement of each coordinate: the coordinate itself if it is 0 at equilibrium, otherwise eta.
 
-    Several such displacements are called eta_1, eta_2, ...
+    Several displacements that are not coordinates themselves are called eta_1, eta_2, ...
     """
     away = [q for q in moving if place[q.symbol] != 0]
     names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}

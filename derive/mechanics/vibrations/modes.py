@@ -55,24 +55,24 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
 
     linear   the equations, as `linearised` yields them
-    key      the beginning of the keys, if the page has other modes; then give a `symbol` too
+    key      the beginning of the keys; a second set of modes on a page needs a `key` and its own `symbol`
 
     Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes.
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
-    `frequency_squared`, for omega_0^2, and `frequency`, which is the only result.
-    With gyroscopic forces, which are linear in the rates and do no work, each mode is a motion in cosines and sines,
-    not a shape. With drag the keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic
-    factor of the determinant.
+    `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
+    which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
+    keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic factor of the determinant.
     Second route: the motion satisfies the linear equations; omega^2 is Rayleigh's quotient of stiffness and mass for
     the shape; the sum of all omega^2 is the trace of M^-1 K; the shapes are orthogonal with respect to M.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
     depends on the symbols); if two or more modes have the same frequency: oscillating_repeated, growing_repeated,
-    free_repeated, conditional_repeated; for a numbered root without a formula: ordered, ordered_part.
+    free_repeated, conditional_repeated; for a root without a formula: ordered (numbered among all roots), ordered_part
+    (numbered among the roots of one factor).
     For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
     (growing), any_of_several (repeated).
-    With drag: several, one (the number of coordinates in the determinant).
-    Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; too
-    many symbols.
+    With drag: several, one (for a characteristic equation of several coordinates, or of one).
+    Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; there
+    are too many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
     together = together_for("normal_modes", linear)
@@ -357,7 +357,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.
     Check: the sum of the two oscillations is this product, at any time.
-    Errors: the first frequency is greater, or both are equal; an input is not the frequency of an oscillation.
+    Errors: the first frequency is not the lower one, or is zero; an input is not an angular frequency.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
     for role, each in (("slow", slow), ("fast", fast)):

@@ -26,7 +26,7 @@ from derive.steps.step import Form, Level, Quantity
 
 __all__ = ["frequency", "frequency_and_growth", "frequency_squared"]
 
-SHORT = 4  # number of terms up to which a condition is stated
+SHORT = 4  # largest number of terms of a condition that a sentence states
 
 
 FREQUENCY_SQUARED = Rule(
@@ -153,7 +153,7 @@ def frequency(
 
     squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence states the condition for an oscillation
-    stands_for  keys of the steps that would also exist if the sign of the square were unknown
+    stands_for  keys of the steps that exist only if the sign of the square is unknown; they also denote this step
     Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and the result is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.

@@ -40,7 +40,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ExcitedMode:
-    """One mode in a motion: its shape, the initial values of its oscillator, and a frequency if a step derives one."""
+    """One mode in a motion: the shape, the initial values of the oscillator along the shape, and the frequency if a
+    step derives the frequency."""
 
     column: MatrixBase
     first: Expr
@@ -73,8 +74,8 @@ def motions_by_modes(
     """Motion of all coordinates from their start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
 
     modes        the modes, as `normal_modes` yields them
-    start        the value of each coordinate at t = 0; by default its equilibrium value
-    start_rate   the rate of each coordinate at t = 0; 0 by default
+    start        the value of each displacement at t = 0; 0 by default
+    start_rate   the rate of each displacement at t = 0; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Keys: of_t_x for a coordinate x; with a `key`, this key in place of of_t.
     Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
@@ -127,7 +128,7 @@ def _excited(
         frequencies = {columns[0]: (modes[0], roots[0].sign)}
     if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
         message = "forces that depend on the rates mix the modes, so the shapes without these forces do not apply"
-        help_line = "drag that is proportional to the masses or to the springs does not mix them"
+        help_line = "drag that is proportional to the masses or to the springs does not mix the modes"
         raise Rejected(Complaint("no-closed-form", message, help=help_line))
     found = []
     for column in columns:
@@ -252,8 +253,8 @@ def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) ->
 def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
 
-    A cos(w_1 t) - A cos(w_2 t) is 2 A sin((w_2 - w_1) t/2) sin((w_1 + w_2) t/2). In the product the frequencies are
-    symbols. For any other sum of modes the result is None.
+    Write A cos(w_1 t) - A cos(w_2 t) as 2 A sin((w_2 - w_1) t/2) sin((w_1 + w_2) t/2). In both products the frequencies
+    are symbols. The result is None for a sum of modes that has neither of these two forms.
     """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:
@@ -271,15 +272,18 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 
 @in_results(
     "solution",
-    "the motion, from a linear equation; from `normal_modes` the motion of all coordinates, where `both_x_1` is "
-    "the motion of `x_1` if the result is called `both`",
+    "the motion for a linear equation; for `normal_modes` the motions of all coordinates: if the result is called "
+    "`both`, `both_x_1` is the motion of `x_1`",
     one_of=("start", "values"),
     excludes=(("values", "for"), ("values", "start"), ("values", "start_rate")),
     motions="solution: a linear equation of motion, or `normal_modes`",
     q="for: a coordinate",
     start="start",
     start_rate="start_rate: 0 by default",
-    values="values: from `normal_modes`, in place of these three: `{x_1: A, x_2_dot: v}`, all other values zero",
+    values=(
+        "values: from `normal_modes`, in place of `for`, `start` and `start_rate`: `{x_1: A, x_2_dot: v}`, "
+        "all other values zero"
+    ),
     case="case",
 )
 def _in_results(
@@ -300,7 +304,7 @@ def _in_results(
             message = f"`solution` of one equation needs `{name}`"
             raise Rejected(Complaint("missing-key", message, argument=argument))
     if len(motions) != 1:
-        message = f"`solution` needs one answer, but these are {len(motions)}"
+        message = f"`solution` needs one equation, but {len(motions)} are given"
         raise Rejected(Complaint("wrong-argument", message))
     assert q is not None
     return checked(linear_motion.solution)(motions[0], q, start, start_rate, case, key)

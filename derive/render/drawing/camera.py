@@ -1,7 +1,8 @@
 """From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
-A symbol with a number has this value. Every other symbol has a substitute value: the symbols of one kind get 1, 3/2,
-2, ... in the order of their declaration (times the typical size of that kind), angles 36, 54, 72 degrees.
+A symbol with a number keeps this number. The other symbols get substitute values in the order of their declaration:
+angles get 36, 54, 72, ... degrees, and the symbols of any other kind 1, 3/2, 2, ... times the typical size of this
+kind.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, An
 
 
 def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical: float) -> dict[Symbol, float]:
-    """Return the numbers of the symbols; a coordinate without a number gets one from the drawing or from its kind."""
+    """Return the numbers of the symbols; a coordinate without a number gets a number from the drawing or from its
+    kind."""
     found = dict(lengths)
     free = [(q, kind) for q, kind in drawing.coordinates if q not in found]
     for (q, kind), share in zip(free, cycle(SHARES), strict=False):
@@ -57,7 +59,7 @@ def with_coordinates(drawing: Drawing, lengths: Mapping[Symbol, float], typical:
 
 
 class Numbers:
-    """Computes values of expressions from the numbers of their symbols; a symbol without a number counts as an angle.
+    """Computes values of expressions from the numbers of their symbols; a symbol without a number gets the value pi/5.
 
     A drawing needs the same values for each scale that it tries, so they are cached.
     """
@@ -127,7 +129,8 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the usual view, rotated if vectors would point at the eye, overlap, or seem to end at a corner.
+    """Return the view in which vectors are long and far apart and do not end at corners; without vectors, the usual
+    view.
 
     `reach` is the size of the body.
     """
@@ -159,7 +162,7 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return the length of the most foreshortened vector times the openness of the narrowest angle in the view."""
+    """Return the length of the most foreshortened vector times the sine of the narrowest angle between two vectors."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

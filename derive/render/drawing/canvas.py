@@ -137,7 +137,7 @@ def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
 
 
 def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
-    """Return the runs of a label: a name or an expression, a word printed unchanged, or several of these in a row."""
+    """Return the runs of a label, which is a name, an expression, a word printed unchanged, or a tuple of these."""
     if isinstance(label, tuple):
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)

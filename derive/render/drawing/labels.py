@@ -2,8 +2,9 @@
 
 Each label tries a ring of positions around its point and takes the position that covers least; of equal positions, it
 takes the position nearest to the side that its mark prefers. Labels on the things that they name choose first; labels
-of lines, which can slide, choose last. Then each label chooses again. If labels still cover something, a second search
-lets labels with few positions choose earlier, and the better result is used.
+of lines, which can slide, choose last. Then each label chooses again, now that the other labels have positions. If
+labels still cover something, a second search lets labels with few positions choose earlier, and the better result is
+used.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # numbered boxes 
 
 
 def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]) -> tuple[float, dict[int, Extent]]:
-    """Choose a box for each label in this order, then again when all others have boxes; return total cost and boxes."""
+    """Choose a box for each label in this order, in at most `ROUNDS` rounds; return the total cost and the boxes."""
     found: dict[int, Extent] = {}
     costs: dict[int, float] = {}
     for _ in range(ROUNDS):
@@ -120,7 +121,7 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             angle = turn * pi / 8
             x = base[0] * cos(angle) - base[1] * sin(angle)
             y = base[0] * sin(angle) + base[1] * cos(angle)
-            # The box touches a circle about the point, so the middle of the box is farther by half its size there.
+            # The box touches a circle about the point, so the middle of the box is farther by half the size of the box.
             away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
             yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
 

@@ -1,6 +1,6 @@
 """Formulas as contours: matplotlib's mathtext sets them in Computer Modern, the font of the page.
 
-Importing matplotlib and numpy takes longer than drawing, so no other module imports them.
+Importing matplotlib takes longer than drawing, so only this module imports it, and only when it draws formulas.
 """
 
 from __future__ import annotations

@@ -30,9 +30,9 @@ MOST = 6  # most intervals between ticks
 ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
-SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # scales: letters of the axes, numbers, words at extrema
+SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
 TICK = 3.5  # points: the length of a tick, and the distance from a tick to its number
-PAD = 4.0  # points: between the numbers and the name of an axis, and between a dot and its name
+PAD = 4.0  # points: the distance of the name of an axis from its numbers, and of a name from its dot
 EDGE = 3.0  # points: the margin around everything
 DOT = 2.2  # points: the radius of the dot at an extremum
 
@@ -93,7 +93,8 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Place a text at a point, with the fractions `share` of the text's width and height to the left and below."""
+        """Place a text so that the fractions `share` of its width and height are to the left of a point and below
+        it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
@@ -123,7 +124,7 @@ def plot_sheet(
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
     room = _room(panels, writing)
     widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
-    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have one size
+    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have the same size
     shapes: list[Shape] = []
     for i, panel in enumerate(panels):
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]

@@ -34,7 +34,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A finished figure in both formats, and its size in points."""
+    """A finished figure as PDF and as SVG, and its size in points."""
 
     pdf: bytes
     svg: bytes

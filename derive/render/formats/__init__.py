@@ -1,4 +1,4 @@
-"""The formats of a single page: each module of this package defines one, and no other module names it.
+"""The formats of a single page: each module of this package defines one format, and is imported only here.
 
 A module defines `FORMAT = Format(...)`. This definition adds a value of `--format`, a text in `Rendered` and, if the
 format is `built`, a file of each build. Listing the formats, even in `--help`, imports all these modules. So a module

@@ -1,4 +1,4 @@
-"""The data of a page for other programs, which docs/json.md describes."""
+"""The data of a page for other programs; docs/json.md describes these data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How strongly a layout binds: only this module decides where brackets and signs are needed.
+"""How strongly a layout binds, and where brackets and signs are therefore needed.
 
 Brackets depend on what is printed, not on the kind of expression. A product with one negative factor begins with a
 minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and gets brackets next to other factors.

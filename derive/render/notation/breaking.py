@@ -1,4 +1,4 @@
-"""Breaks sums that are too long for a line before a sign, but never within a root or a matrix.
+"""Breaks a sum that is too long for a line. A line ends before a plus or minus sign, but never within a root or matrix.
 
 A bracket that is itself too long opens on one line and closes on another. In a fraction with a long numerator, the
 denominator becomes a factor in front, and the numerator is broken like such a bracket.
@@ -13,7 +13,8 @@ SMALL_PART = 0.5  # a bracket narrower than this fraction of a line is not broke
 
 
 def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
-    """Return the lines of a layout, with width `room`, then `room_after`; one line if the layout cannot be broken."""
+    """Return the lines of a layout: the first has the width `room`, the others have `room_after`; one line if the
+    layout cannot be broken."""
     pieces = _pieces(layout, min(room, room_after)) if width(layout) > room else [layout]
     lines = [pieces[0]]
     for piece in pieces[1:]:

@@ -1,4 +1,4 @@
-"""Writes a layout as LaTeX; no other module contains TeX commands for mathematics or escapes text for TeX."""
+"""Writes a layout as LaTeX, and escapes plain text for TeX."""
 
 from __future__ import annotations
 

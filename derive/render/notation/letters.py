@@ -27,7 +27,8 @@ def letter_clashes(
 ) -> list[Complaint]:
     """Return at most one error for each symbol of the problem: its printed form must not also mean something else.
 
-    `coordinates` are the coordinates that the script names; a body created earlier may already use such a symbol.
+    `coordinates` are the coordinates that the script names; a body that the script creates before it names them may use
+    the same symbols.
     """
     used = letters_in_use(problem)
     looks = {as_printed(letter): letter for letter in used}
@@ -95,7 +96,7 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
     """Yield the symbol of a step's result, and the symbols of its components or entries."""
-    symbol, result = step.symbol, f"the step `{step.key}` also uses it for its result"
+    symbol, result = step.symbol, f"the step `{step.key}` also uses this symbol for its result"
     if isinstance(symbol, Symbol):
         yield symbol, result
     elif isinstance(symbol, MatrixBase):

@@ -1,10 +1,10 @@
 """From expressions to textbook layout: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
 
-The engine decides the form of a line, because it checks lines: which terms are collected, which are one fraction, what
-is multiplied out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides
-the printed form, once for every format: the order of terms and factors, the factor in front of a vector or a
-bracket, roots under one root sign or in the denominator, signs, fractions, brackets and dots. `latex` and `text` write
-the layout.
+The engine, which checks the lines, decides which terms are collected, which are one fraction, and what is multiplied
+out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides the printed
+form of a line, once for all formats: the order of terms and factors, the factor in front of a vector or a bracket,
+roots under one root sign or in the denominator, signs, fractions, brackets and dots. `latex` and `text` write the
+layout.
 
 `Notation` contains the only data that depend on a problem: the dimensions, which determine the order of symbols.
 """

@@ -48,7 +48,7 @@ def _has_root(term: Expr) -> bool:
 
 
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
-    """Sort terms: first accelerations, then rates, each by the order of the coordinates and by powers.
+    """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
     Of the other terms, those with a coordinate come before constants: m y_ddot + k y - m g.
     """
@@ -96,8 +96,8 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Return the rank of a factor: densities, masses, accelerations, lengths, sums, numbers, rates; brackets,
-    functions.
+    """Return the rank by which factors are sorted: first symbols, sums and roots in the order of `Place`, then
+    functions, then groups.
     """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
@@ -119,7 +119,8 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the place for the dimension of a product; angles and factors that are not symbols are ignored."""
+    """Return the `Place` of a product by its dimension; factors other than symbols and powers of symbols are
+    ignored."""
     found = [factor.as_base_exp() for factor in Mul.make_args(term)]
     powers = [(letter, n) for letter, n in found if isinstance(letter, Symbol | ex.Amount) and n.is_Rational]
     dimensions = [(dimension_of(letter), n) for letter, n in powers]

@@ -135,12 +135,12 @@ def _answer(named: StepNames, value: Step | None, dimension: Dimension | None, n
 
 
 def _symbol(step: Step, notation: Notation) -> str:
-    """Return the symbol of a result in LaTeX, or None for a relation, which has no symbol."""
+    """Return the symbol of a result in LaTeX, or "" for a relation, which has no symbol."""
     return "" if step.symbol is None else latex(notation.layout(step.symbol))
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return the numerical value, for a relation that of the right side; None if the value contains symbols."""
+    """Return a number as data, for a relation the number on the right side; None if this value contains symbols."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers

@@ -1,6 +1,6 @@
 """A page as LaTeX for another document, in amsmath, with equation numbers of that document and with labels.
 
-A drawing does not float, but it has a figure number.
+A drawing does not float. If the drawing has a caption, it also has a figure number.
 """
 
 from __future__ import annotations

@@ -187,7 +187,7 @@ class HtmlPage:
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether a number appears for the first time: only then the row has an anchor."""
+        """Return whether a number appears for the first time; only in this case does the row have an anchor."""
         known = number in self._placed
         self._placed.add(number)
         return not known

@@ -198,7 +198,8 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return a row: left side, right sides, punctuation, reason and number; a framed row includes the left side."""
+        """Return a row: left side, right sides, punctuation, reason and number. In a framed row the frame includes the
+        left side."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:

@@ -23,7 +23,7 @@ ESCAPED: Mapping[str, tuple[type[str], Callable[[str], str]]] = {LATEX: (Tex, es
 
 
 def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill a template of the folder `latex`; an error in it is reported at its line."""
+    """Fill a template of the folder `latex`; an error in the template is reported with its line."""
     return Tex(_filled(folder, LATEX, template, facts))
 
 

@@ -1,4 +1,5 @@
-"""Theorems on a page of several problems: the first problem that uses a theorem states it, and others refer to it.
+"""Theorems on a page of several problems: the first problem that uses a theorem states it, and later problems refer to
+the first problem.
 
 The problems of a page are printed separately, so each problem contains both texts, between marks. Afterwards one text
 and the marks are removed.
@@ -25,7 +26,7 @@ def theorem(name: str, told: str, again: str) -> str:
 
 
 def told_in(problem: str) -> str:
-    """Return the mark for the problem that states a theorem, which is replaced by `Problem` and its number."""
+    """Return the mark that is later replaced by `Problem` and the number of the problem that states a theorem."""
     return TOLD_IN.format(escape(problem))
 
 

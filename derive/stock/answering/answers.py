@@ -29,7 +29,7 @@ W = TypeVar("W", bound=Described)
 
 
 class answer(cached_property[T]):
-    """An answer whose name is the name of the property."""
+    """Decorate a method that derives an answer; the name of the method is the name of the answer."""
 
 
 class ForEach(Generic[T]):
@@ -37,7 +37,7 @@ class ForEach(Generic[T]):
 
     pattern   the names, with `{}` in place of the coordinate, axis or symbol
     each      returns the coordinates, axes or symbols
-    method    derives the answer for one of these
+    method    derives the answer for one coordinate, axis or symbol
     """
 
     def __init__(self, pattern: str, each: Callable[[Any], Iterable[str]], method: Callable[[Any, str], T]):
@@ -60,7 +60,7 @@ class ForEach(Generic[T]):
 def answer_for_each(
     pattern: str, each: Callable[[Any], Iterable[str]]
 ) -> Callable[[Callable[[Any, str], T]], ForEach[T]]:
-    """Decorate a method that derives the answer for each name of the pattern."""
+    """Decorate a method that derives one answer for each name that fits the pattern."""
     return partial(ForEach, pattern, each)
 
 
@@ -113,7 +113,8 @@ class StockAnswers(Answers[W]):
 
     @property
     def elsewhere(self) -> Callable[..., Quantity] | None:
-        """Return the function that derives an answer of a body about another point or axis, if there is a body."""
+        """Return the function that derives an answer about another point or axis of a body; None if the description has
+        no such function."""
         return None
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
@@ -121,5 +122,5 @@ class StockAnswers(Answers[W]):
         return self.by_name.answers(asked)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """For every name that parts may ask for, return the steps, or the error that prevents the derivation."""
+        """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
         return self.by_name.every()

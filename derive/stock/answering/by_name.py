@@ -31,7 +31,7 @@ from derive.stock.keys.results import Result
 DIGITS = "0123456789"
 IRREGULAR = {"equilibrium": "equilibria", "momentum": "momenta", "axis": "axes"}
 _NUMBERED = re.compile(r"(\w+)_([1-9]\d?)")
-_ALIKE = 0.85  # a name more similar than this to an offered name is taken as a typing error of that name
+_ALIKE = 0.85  # a name with more than this similarity to an offered name is a misspelling of that name
 
 
 class ByName:
@@ -80,7 +80,7 @@ class ByName:
         return str(name), self.named(name)
 
     def named(self, name: Word) -> tuple[Quantity, ...]:
-        """Return the steps of a name."""
+        """Return the steps that a name denotes."""
         own = self.offered(name)
         if own is not None:
             return self._derived(own, name.place)
@@ -103,7 +103,8 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name that can be derived, and the error of every result that cannot."""
+        """Return the steps of every offered name that can be derived, and the error of every result that cannot be
+        derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
@@ -114,8 +115,8 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive the answer of a name with the current record; after an error, try again with a record without steps,
-        in which all symbols are free."""
+        """Derive the answer of a name with the current record. After an error, try again with a record without steps,
+        in which no result has a symbol yet."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -145,7 +146,8 @@ class ByName:
         return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
-        """Return the step that a name such as `frequency_2` denotes: by its key, or the second step of `frequency`."""
+        """Return the step that a name such as `frequency_2` denotes: the step of `frequency` with this key, or else the
+        second step."""
         numbered = _NUMBERED.fullmatch(name)
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
@@ -164,7 +166,8 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step called `name` among the steps of the answer `own`: by its key or by a number."""
+        """Return the step of the answer `own` that `name` denotes: `name` is the key of the step, or the name of the
+        answer with the number of the step."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]
@@ -198,9 +201,10 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """Yield the likely offered names, or all other offered names.
+        """Yield the likely offered names if `likely` is true, and all other offered names if it is false.
 
-        An offered name is likely if `name` begins with it, or if its derivation contains most steps of a system.
+        An offered name is likely if `name` begins with it, or if it is `lagrangian` or `equations_of_motion`: the
+        derivations of these two contain most steps of a system.
         """
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")

@@ -18,8 +18,8 @@ def rest_with_forces(
     """Return the positions and forces that solve the static equations, if there are as many unknowns as equations.
 
     motions   the equations of motion, one for each coordinate
-    If there are as many forces as equations, as with static friction, every position is an equilibrium: the result is
-    the forces in this position.
+    If there are as many forces as equations, as with static friction, every position is an equilibrium, and the result
+    is the forces as functions of the position.
     """
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}

@@ -39,7 +39,7 @@ MEANINGS: Mapping[str, str] = {
     "meetings": "the conditions on the rates just after a collision",
     "rates_after": "all rates just after the impact",
     "kinetic_energy_after": "the kinetic energy just after the impact",
-    "work_of_impulses": "the change of the kinetic energy",
+    "work_of_impulses": "the change of the kinetic energy in the impact",
     "jump_*": "the jump of the momentum of {}",
     "*_dot_after": "the rate of {} just after the impact",
     # bodies
@@ -60,7 +60,7 @@ MEANINGS: Mapping[str, str] = {
     "principal_moments": "the principal moments of inertia",
     "principal_axes": "the principal axes",
     "principal_angle": "the angle of the principal axes in a plane",
-    "perpendicular_axes": "the moment about the axis across a flat body, by the perpendicular-axis theorem",
+    "perpendicular_axes": "the moment about the axis normal to a flat body, by the perpendicular-axis theorem",
     # rotations
     "spin": "the angular velocity",
     "angular_momentum": "the angular momentum",
@@ -90,7 +90,7 @@ MEANINGS: Mapping[str, str] = {
     "angular_momentum_*": "the {} component of the angular momentum",
     "torque_*": "the {} component of the torque",
 }
-FORCE = "a force of constraint or an impulse"  # the name of such an answer is its symbol
+FORCE = "a force of constraint or an impulse"  # the name of this answer is the symbol of the force or the impulse
 
 
 def meaning_of(name: str) -> str:

@@ -1,4 +1,4 @@
-"""The condition under which static friction suffices, which the page states if no part asks for it."""
+"""The condition under which static friction suffices; the page assumes this condition if no step derives it."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SLIPS, DERIVED = "motion.slips", {"lagrange.multiplier", "lagrange.acceleration"
 
 
 def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quantity]) -> None:
-    """Assume |F| <= mu_s N for a contact with static friction, if no step of the page finds this condition.
+    """Assume |F| <= mu_s N for a contact with static friction, if no step of the page derives this condition.
 
-    answer   a function of the name of an answer and of the key of one of its steps
-    If the page finds the accelerations or the forces, and the forces are constant, the condition is solved for mu_s.
+    answer   a function of the name of an answer and of the key of one of its steps; it returns this step
+    If the page derives the accelerations or the forces, and the forces are constant, the condition is solved for mu_s.
     Errors: the condition is known to be false.
     """
     steps, limit = established(), contact.limit
@@ -60,7 +60,8 @@ def _assume_solved(friction: Quantity, normal: Quantity, limit: StaticLimit) -> 
 
 
 def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:
-    """Return the conditions for mu_s, one for each sense; none if the forces change, or if mu_s is a number."""
+    """Return the conditions for mu_s, one for each possible direction of the friction; none if the forces change, or if
+    mu_s is a number."""
     if changes(explicit(friction.value) - explicit(normal.value), named_coordinates()) or limit.coefficient.is_number:
         return []
     return [each.value for each in slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")]

@@ -27,13 +27,13 @@ PLACE = list_of(SCALAR, "its components, `[x, y]` or `[x, y, z]`")
 CORNERS = list_of(PLACE, "a list of places, such as `[[0, 0], [a, 0], [0, b]]`")
 ENDS = list_of(SCALAR, "its lower and its upper limit, `[0, R]`", length=2)
 
-# fields of a class whose YAML keys have other names
+# field of a class -> its key in YAML, where the names differ
 CALLED_IN_YAML = {"corners_at": "corners", "face": "corners"}
 # a triangle may also be specified by its base and height, or by one side
 TRIANGLES: tuple[tuple[str, ...], ...] = (("corners",), ("base", "height", "foot"), ("side",))
 OPTIONAL = frozenset({"foot"})
 ANGLES = frozenset({"half_angle"})
-MAPS = {1: Wire, 2: Sheet, 3: Solid}  # by the number of variables
+MAPS = {1: Wire, 2: Sheet, 3: Solid}  # number of variables in `position` -> class of the body
 OTHER_NAMES = {
     "block": "cuboid",
     "box": "cuboid",
@@ -84,11 +84,11 @@ class ShapeKeys(Record):
     length: Tree | None = key("its length", SCALAR)
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
     sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
-    semi_axes: tuple[Tree, ...] = key("half the length of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
+    semi_axes: tuple[Tree, ...] = key("the semi-axes of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
     corners: tuple[tuple[Tree, ...], ...] = key("the positions of the corners of a triangle or a tetrahedron", CORNERS)
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
     foot: Tree | None = key(
-        "the x of the apex of a triangle, measured along its base; by default the middle of the base", SCALAR
+        "the x of the apex of a triangle, measured from the left end of its base; by default half the base", SCALAR
     )
     side: Tree | None = key("the side of an equilateral triangle", SCALAR)
     position: tuple[Tree, ...] = key(
@@ -302,7 +302,7 @@ class Bodies:
     def _map(self, written: ShapeKeys) -> Body:
         for size in (name for name in SIZES if name in written.values_at):
             message = f"a body specified by `position` has no `{size}`"
-            rejected("unknown-key", message, written.places[size], "its size is in `limits`")
+            rejected("unknown-key", message, written.places[size], "`limits` determine its size")
         if len(written.limits) not in MAPS:
             message = f"a body needs one, two or three symbols with limits, not {len(written.limits)}"
             place = written.places.get("limits", written.places["position"])
@@ -321,7 +321,7 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Read the limits of each variable, which may contain the variables before it."""
+        """Read the limits of each variable; the limits may contain the variables that are listed before it."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
@@ -363,7 +363,7 @@ class WithVariables(InLetters):
         raise Rejected(refused.complaints if refused else ())
 
     def any(self, node: Tree) -> Expr:
-        """Return an expression of any dimension, to which a density is proportional."""
+        """Return the expression to which a density is proportional; it may have any dimension."""
         if not isinstance(node, Scalar):
             return self.value(node, "density", "density")
         found, _ = read_expression(node, self.letters)

@@ -80,8 +80,8 @@ class SurfaceKeys(Record):
     radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
     y: Tree | None = key("for a curve y = f(x) in a plane of motion, the formula f(x), such as `x**2/(2*b)`", SCALAR)
     side: str | None = key(
-        "the side of the bodies: `outside` or `inside` of a circle or a sphere, `above` or `below` a curve; `both` for "
-        "a rail or a wire, which holds them",
+        "the side on which the bodies are: `outside` or `inside` of a circle or a sphere, `above` or `below` a curve; "
+        "`both` for a rail or a wire, which holds them",
         one_of(("outside", "inside", "above", "below", "both")),
     )
     of: Word | None = key("the body or particle that carries the surface", TEXT)
@@ -300,7 +300,7 @@ class StringKeys(Record):
         list_of(PLACE, "a list of places"),
     )
     length: Tree | None = key(
-        "the length of its straight pieces; a function of the time if the string is pulled in", SCALAR
+        "the total length of its straight pieces; a function of the time if the string is pulled in", SCALAR
     )
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
@@ -340,7 +340,8 @@ class MasslessRodKeys(Record):
     end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
     length: Tree | None = key("its length", SCALAR)
     force: Word | None = key(
-        "the symbol of the force in the rod, positive in tension, if a coordinate allows its length to change", TEXT
+        "the symbol of the force in the rod, positive in tension, if a coordinate allows the rod to change its length",
+        TEXT,
     )
 
     def symbols(self) -> list[Word]:

@@ -1,4 +1,4 @@
-"""Objects that a description specifies, such as bodies and forces. Each is made only when an answer needs it.
+"""Objects that a description specifies, such as bodies and forces. Each object is made only when an answer needs it.
 
 The verbs that make these objects check what moves and what is constant. Such checks need the record of a run, which has
 the coordinates and the numbers of symbols.
@@ -78,7 +78,7 @@ class Material:
 
 
 def made(given: Any, known: Mapping[str, Any]) -> Any:
-    """Return an argument in which every deferred object is made."""
+    """Return an argument in which the made object replaces each deferred object."""
     if isinstance(given, tuple):
         return tuple(made(each, known) for each in given)
     return given.made(known) if isinstance(given, Deferred | Material) else given
@@ -98,5 +98,5 @@ def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherw
 
 
 def parts_of(made: Any) -> tuple[Any, ...]:
-    """Return the parts of a system that a described object yields: one part, or several."""
+    """Return, as a tuple, the one or several parts of a system that a described object yields."""
     return made if isinstance(made, tuple) else (made,)

@@ -38,7 +38,7 @@ class FoundLetter(Declared):
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers; a name that could be both is the given symbol."""
+    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol."""
 
     node: Scalar
     letters: Mapping[str, Declared]
@@ -51,7 +51,7 @@ class Formula:
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
-        """Return the expression with a placeholder for each answer, and the answers by placeholder.
+        """Return the expression with a placeholder for each answer, and the mapping placeholder -> answer.
 
         The dimensions in the expression must agree.
         """

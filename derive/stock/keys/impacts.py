@@ -79,7 +79,7 @@ class CollisionKeys(Record):
         if (self.at is None) == (self.start is None and self.end is None) or (self.start is None) != (self.end is None):
             rejected("missing-key", "a collision needs `from` and `to`, or `at`", self.places[""])
         if self.along and self.restitution is None:
-            help_line = "write `restitution: 1` if it is elastic, 0 if the two do not separate"
+            help_line = "write `restitution: 1` if the collision is elastic, 0 if the bodies do not separate"
             rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
         if self.restitution is not None and not self.along:
             message = "`restitution` has no effect on a collision without `along`: by default the two stay together"
@@ -145,7 +145,8 @@ class ImpactKeys(Record):
         places: Places,
         letters: InLetters,
     ) -> DescribedImpact:
-        """Read the impact in its symbols; `forces` has the symbols of the constraint forces."""
+        """Read the impact; its values become expressions in symbols. `forces` has the symbols of the constraint
+        forces."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`impact` needs `impulses` or `collisions`", self.places[""])
@@ -176,7 +177,8 @@ class ImpactKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """Return the name of a coordinate and the value of the coordinate; if `ending` is `_dot`, the value of its rate."""
+    """Return the name of a coordinate with its value; if `ending` is `_dot`, return the name with the value of the
+    rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     check_known(name, known, "rate" if ending else "coordinate")

@@ -25,7 +25,8 @@ def drawn(body: Body) -> None:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return the drawn size of the section of a torus, or of a hole, in terms of the size of the whole."""
+    """Return, for the drawing, the size of the section of a torus or of a hole as a fixed fraction of the size of the
+    whole body."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
@@ -52,8 +53,9 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 def drawn_turning(answers: Any, has_angle: bool) -> None:
     """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
 
-    If the angular velocity is known at one instant only, its arrow replaces the axis. If `has_angle`, a second drawing
-    shows the angle between the angular velocity and the angular momentum.
+    If the angular velocity is known at one instant only, an arrow along it replaces the axis of rotation. If the axis
+    is given and `has_angle` is true, a second drawing shows the angle between the angular velocity and the angular
+    momentum.
     """
     body, described = answers.body, answers.described
     if not isinstance(body.boundary, Round | Faces):

@@ -258,7 +258,7 @@ def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, .
     """Return the conditions of rolling: with `force`, as constraints that this force enforces; otherwise, solved for
     coordinates or rates."""
     if isinstance(at, PointOfBody):
-        message = "the place of contact moves along the body, but this is a fixed point of the body"
+        message = "the place of contact moves along the body, but `at` is a fixed point of the body"
         raise Rejected(
             Complaint("wrong-argument", message, help="describe the surface and the contact under `contacts`")
         )

@@ -101,7 +101,7 @@ def is_letter(name: str) -> bool:
 
 
 def check_known(name: Word, known: Collection[str], what: str) -> None:
-    """Reject a name that is not one of a system's coordinates, rates, or bodies."""
+    """Reject a name that is not among the known names of this kind, such as the coordinates of a system."""
     if name not in known:
         code = "no-such-body" if what == "body" else "no-such-coordinate"
         rejected(code, f"`{name}` is not a {what} of this system", name.place, did_you_mean(name, known))
@@ -148,7 +148,7 @@ def function_letters(
 
 
 def _may_be_named(name: Word, symbols: Mapping[str, Declared], what: str, faults: Faults) -> bool:
-    """Report a name that is already a symbol, or that cannot be a symbol."""
+    """Return whether a name may become a symbol; report a name that is already a symbol or is not a valid symbol."""
     if name in symbols:
         message = f"`{name}` is declared under `symbols`, but is also a {what}"
         faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
@@ -189,7 +189,7 @@ class Places:
         self.letters = letters
         self.bodies = {str(name) for name in bodies}
         self.on_the_way: list[str] = []
-        self.first: tuple[int, str] | None = None  # the number of components of the first place, and its name
+        self.first: tuple[int, str] | None = None  # number of components of the first place, and name of this place
 
     def all_named(self) -> dict[str, Location | Material]:
         return dict(each([partial(self._with_name, Word.at(n, w.place)) for n, w in self.written.items()]))

@@ -94,7 +94,7 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer of a name; if the name has several answers, return the one whose key is this name."""
+        """Return the answer of a name; if the name has several answers, return the answer whose key is this name."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -114,7 +114,7 @@ def _nodes(node: Tree) -> tuple[Tree, ...]:
 
 
 def names(node: Tree | None) -> tuple[Word, ...]:
-    """Return the written name, or each of a list of names."""
+    """Return the written names; the file may have one name or a list of names."""
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
@@ -151,7 +151,7 @@ def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], lett
             help_line = did_you_mean(letter, letters.letters) or "use a symbol, a coordinate or a rate"
             rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
         known = letters.letters[letter].symbol
-        if isinstance(known, Prescribed) and not known.order:  # the value is for all times, also if it is a constant
+        if isinstance(known, Prescribed) and not known.order:  # the value holds at all times, even if it is a constant
             return letter, letters.of_kind(value, str(letter), known.sort)
         return letter, value_or_infinity(value, letters)
 
@@ -186,7 +186,8 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """Return the only answer; if a single name has several answers, return the one whose key is this name."""
+    """Return the one answer that the names denote. If a single name has several answers, return the answer whose key is
+    this name."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of

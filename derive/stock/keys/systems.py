@@ -82,7 +82,7 @@ from derive.stock.keys.results import RESULTS, names, read_results, written_in
 
 STATE = mapping_of(SCALAR)
 RELATIONS = as_written(one_or_more(SCALAR.schema), "a relation such as `l < r_0`, or a list of them")
-POSITIVE_CONSTANT = "positive"  # before the symbol of a constant momentum, as in `phi: positive l`
+POSITIVE_CONSTANT = "positive"  # the word before the symbol of a constant momentum, as in `phi: positive l`
 INDIFFERENT_TO_STATES = (
     "kinetic_energy", "potential_energy", "lagrangian", "equations_of_motion", "momenta", "energy_function",
     "energy_function_rate", "hamiltonian", "hamilton_equations", "no_slip", "angular_velocity", "accelerations",
@@ -169,8 +169,9 @@ class DescribedSystem(Described):
     coordinates   the name of each coordinate, its kind, and whether it is positive
     particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has all other parts
     surfaces      the surfaces by name
-    conserved     each coordinate with the symbol of its constant momentum; `kept`: with a given value of this momentum
-    at, at_rest   the state about which motions are linearised, by values or by the name of an equilibrium
+    conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
+    kept          each cyclic coordinate whose constant momentum has a given value, with this value
+    at, at_rest   the state about which motions are linearised: values of coordinates, or the name of an equilibrium
     impact        impulses and collisions at one instant
     brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
@@ -253,8 +254,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return field of `DescribedSystem` -> its value, for the particles, the bodies, the rolling and everything that
-    acts on them."""
+    """Return name of a field of `DescribedSystem` -> its value, for the particles, bodies, surfaces, rolling and
+    everything that acts on them."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
         return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
@@ -307,8 +308,8 @@ def _connections(written: SystemKeys) -> list[Any]:
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian, and its kind; None in place of the kind if no kind has its
-    dimension."""
+    """Return the formula of a given Lagrangian, and its kind; the kind is None if no kind has the dimension of the
+    formula."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)

@@ -30,7 +30,7 @@ def test_build_ends_with_one_line_per_set(course: Course, capfd: pytest.CaptureF
     assert capfd.readouterr().out.startswith("hw1: derived 0 of 2 problems, up to date (")
     course.problem("one", "refuse")
     assert main(["build", "hw1"]) == 1
-    assert "failed; earlier pages are as they were" in capfd.readouterr().out
+    assert "failed; earlier pages are unchanged" in capfd.readouterr().out
 
 
 def test_an_up_to_date_build_imports_no_sympy(course: Course) -> None:

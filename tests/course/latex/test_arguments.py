@@ -31,7 +31,7 @@ def test_an_argument_is_the_shortest_run_that_is_an_angle_or_a_number(text: str,
 @pytest.mark.parametrize(
     ("text", "code", "message"),
     [
-        (r"\sin\theta\phi", "ambiguous", r"`\theta` may not be the whole argument"),
+        (r"\sin\theta\phi", "ambiguous", r"`\theta` could be only a part of the argument"),
         (r"\sin a", "ambiguous", "the argument of `\\sin` is not clear"),
         (r"\sin", "latex", "the argument of `\\sin` is missing"),
         (r"\sin^{-1} n", "ambiguous", "this could be the inverse function"),
