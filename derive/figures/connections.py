@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
-from derive.algebra.expressions import TIME, column, explicit
+from derive.algebra.expressions import TIME, column, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, AxisOfRotation, PointMark, Turn
 from derive.figures.annotations import Line as Edge
@@ -112,6 +112,7 @@ class Connections:
                 self._farthest if q in carried else AWAY[i % len(AWAY)]
             )
         found |= self._arms() | self._amplitudes()
+        found |= self._turned(found)
         chosen = {letter: found[letter] for letter in found if letter in free or letter not in self.system.coordinates}
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
@@ -131,6 +132,18 @@ class Connections:
         }
         is_alone = self.size == ONE and not any(q in c.free_symbols and c != q for c in components)
         return Rational(1, 4) * min(others, key=str) if others and is_alone and q in components else None
+
+    def _turned(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
+        """Values of the angles through which bodies have rolled, from the lengths that they have rolled."""
+        found: dict[Symbol, Any] = {}
+        for each in self.system.constraints:
+            slopes = {q: tidied(diff(each.residual, rate(q))) for q in each.coordinates} if each.in_rates else {}
+            angles = [q for q in slopes if self.system.coordinates[q] == "angle"]
+            others = [q for q in slopes if q not in angles and q in known]
+            steady = not any(moving_in(self.system, slope) for slope in slopes.values())
+            if len(slopes) == 2 and len(angles) == 1 and others and steady:
+                found[angles[0]] = tidied(-slopes[others[0]] * known[others[0]] / slopes[angles[0]])
+        return found
 
     def _arms(self) -> dict[Symbol, Expr]:
         """Values of the distances of centres of mass from the centres of rims."""
@@ -354,7 +367,8 @@ class Connections:
         ways = [dot(along, each.at - plane.through) for each in contacts]
         past = self.size * PAST
         meets = any(other != plane and same(other.through, plane.through) for other in self._planes)
-        first, last = (choice([*ways, ZERO] if meets else ways, key=self.number) for choice in (min, max))
+        is_slope = plane.of is None and min(abs(self.number(c)) for c in n.components) > SMALL
+        first, last = (choice([*ways, ZERO] if meets or is_slope else ways, key=self.number) for choice in (min, max))
         if isinstance(plane.of, Particle) and abs(self.number(along.components[1])) <= SMALL:
             half = max((tidied(way) for way in ways), key=lambda way: abs(self.number(way)))
             far = (half if self.number(half) > 0 else -half) + past
@@ -532,7 +546,7 @@ class Connections:
     def _pin(self, pin: Pin) -> Mark:
         if is_fixed(self.system, pin.at):
             return FixedEnd(column_of(pin.at), downwards(self.rows), True)
-        return PointMark(column_of(pin.at))
+        return FixedEnd(column_of(pin.at), column_of(pin.at) * 0, True)
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
         """Yield the curve on which a particle moves with its coordinate."""

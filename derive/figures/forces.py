@@ -15,10 +15,11 @@ from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, PointMark
 from derive.figures.connections import Connections, connections_of
 from derive.figures.marks import Drawing, Mark
-from derive.figures.parts import ParticleMark
+from derive.figures.parts import BarMark, ParticleMark, WheelMark
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
+from derive.figures.space import numeric
 from derive.figures.turning import downwards
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
@@ -32,6 +33,7 @@ __all__ = ["force_diagram"]
 
 LONG = Rational(3, 4)  # the drawn length of a force, relative to the size of the body
 ON_PARTICLE = Rational(3, 5)
+OFF = Rational(1, 30)  # the distance of a force along a rod from the rod, relative to the length of the rod
 
 
 def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> Drawing | None:
@@ -41,7 +43,7 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     key     the name of the drawing
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
-    at rest, determines the direction of the arrow
+    at rest, determines the direction of the arrow. The lengths are to scale, unless a force depends on the speed
     The result is None for a system in space. It is also None if no such force acts on the body, if a force is not among
     `found`, if other forces act that the diagram would not show, or if the direction of a force is unknown.
     """
@@ -59,7 +61,11 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     if forces is None:
         return None
     drawn = [*_weight(system, of), *forces]
-    sizes = _numbers([each.value for each in drawn], scene.values)
+    letters = {letter for force in acting for letter in _multipliers(system, force)}
+    if any(explicit(found[letter].value).has(*map(rate, system.coordinates)) for letter in letters):
+        sizes = [1.0] * len(drawn)  # the speed in the drawn state is unknown, and so are the sizes of the forces
+    else:
+        sizes = _numbers([each.value for each in drawn], scene.values)
     long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
     arrows = [each.arrow(long * _share(size, max(sizes))) for each, size in zip(drawn, sizes, strict=True)]
     return drawing(key, [*_outline(of), *arrows], values=scene.values)
@@ -131,7 +137,8 @@ def _multipliers(system: System, force: PointForce) -> list[Symbol]:
 
 def _outline(of: Any) -> Iterator[Mark]:
     if isinstance(of, PlacedBody):
-        yield from (replace(mark, label=None) for mark in placed_outline(with_its_shape(of)))
+        for mark in placed_outline(with_its_shape(of)):
+            yield replace(mark, label=None, **({"pointer": None} if isinstance(mark, WheelMark) else {}))
         yield PointMark(column_of(of.centre))
     else:
         yield ParticleMark(column_of(of.at), label=of.mass)
@@ -170,8 +177,21 @@ def _forces(
         way = ImmutableDenseMatrix([sign * c for c in direction.components])
         is_body = isinstance(force.of, PlacedBody)
         pushes = is_body and sign == 1 and size in surfaces
-        drawn.append(_Drawn(force.at if is_body else force.of.at, way, value, sign * times * size, keys, pushes))
+        at = _beside(force) if is_body else force.of.at
+        drawn.append(_Drawn(at, way, value, sign * times * size, keys, pushes))
     return drawn
+
+
+def _beside(force: PointForce) -> Location:
+    """Return the place at which a force on a body is drawn: a little below a rod, if the force is along the rod."""
+    for bar in (mark for mark in placed_outline(with_its_shape(force.of)) if isinstance(mark, BarMark)):
+        x, y = (tidied(c) for c in bar.end - bar.start)
+        u, v = force.direction
+        if is_zero(tidied(x * v - y * u)):
+            off = Location((y, -x)) if numeric(x) > 0 else Location((-y, x))
+            place: Location = force.at + OFF * off
+            return place
+    return force.at
 
 
 def _size_and_direction(force: Location, letters: list[Symbol]) -> tuple[Expr, Location]:

@@ -90,8 +90,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
     elif not in_space:
-        if any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
-            yield from _own_angle(system, outline)
+        yield from _own_angle(system, placed, outline)
         if square == 0 and is_fixed(system, centre):
             yield FixedEnd(column_of(centre), downwards(2), True)
 
@@ -102,7 +101,7 @@ def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
     hub, centre = placed.hub, placed.centre
     yield PointMark(column_of(hub))
     if same(hub, centre):
-        yield from _own_angle(system, placed_outline(placed))
+        yield from _own_angle(system, placed, placed_outline(placed))
         return
     right = hub + Location((placed.rim[1], Integer(0)))
     yield Line(column_of(hub), column_of(right), "construction", label=placed.rim[1])
@@ -302,12 +301,12 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
     ]
 
 
-def _own_angle(system: System, outline: list[Mark]) -> Iterable[Mark]:
+def _own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark]:
     """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
-        elif isinstance(mark, WheelMark):
+        elif isinstance(mark, WheelMark) and any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
             start = Location(tuple(mark.centre))
             end = start + mark.radius * Location(tuple(mark.pointer))
         else:

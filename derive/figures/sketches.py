@@ -198,7 +198,7 @@ class _Scene:
         for placed in self.system.bodies:
             yield from placed_marks(self.system, placed)
             if isinstance(placed.at, PointOfBody):
-                yield PointMark(column_of(placed.at))
+                yield FixedEnd(column_of(placed.at), column_of(placed.at) * 0, True)  # a hinge between two bodies
         for i, particle in enumerate(self.system.particles):
             yield from self._particle(i, particle)
         relative = list(self._two_bodies())

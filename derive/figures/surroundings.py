@@ -117,11 +117,11 @@ class FixedEnd(Surface):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        joint: list[Piece] = [Bullet(spot, 2.2), Bullet(spot, 1.3, "blank")] if self.joint else []
         if size_of(paper.numbers.vector(self.away)) < 1e-9:
-            return []
+            return joint
         away = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.away)))
         start, end = ((x + s * away[1] * STAND, y - s * away[0] * STAND) for s in (-1, 1))
-        joint: list[Piece] = [Bullet(spot, 2.2), Bullet(spot, 1.3, "blank")] if self.joint else []
         return [*hatched(start, end, (-away[0], -away[1])), *joint, Tag(self.label, spot, (-away[1], away[0]), 5.0)]
 
     def in_words(self) -> InWords:

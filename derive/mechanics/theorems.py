@@ -63,6 +63,17 @@ MULTIPLIERS = Theorem(
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
+MULTIPLIERS_OF_BOTH = Theorem(  # constraints between coordinates, and constraints between rates
+    "multipliers_of_both",
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),
+    "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+    (
+        ("coordinate", q),
+        ("multiplier", MULTIPLIER),
+        ("constraint", CONSTRAINT),
+        ("of_rate", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
+    ),
+)
 MULTIPLIERS_OF_RATES = Theorem(
     "multipliers_of_rates",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # such as rolling

@@ -134,8 +134,7 @@ class Selection:
         if step.key in self.needed.numbers:
             return OWN
         manner = step.display.manner(self.level)
-        is_long = step.display.unless_long and _length(step.result) > LONGEST_CLAUSE
-        if is_long or repeats and step.display.first_only:
+        if repeats and step.display.first_only:
             manner = LEFT_OUT
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]

@@ -40,7 +40,6 @@ class Display:
     result_again      up to this level, only the result is shown directly after a step with the same rule, outcome and
                       kinds of lines
     each_worked_out   whether all lines are shown even after a step with the same rule and the same kinds of lines
-    unless_long       whether the step is left out if its result is long
     abbreviates       whether the symbol of the step replaces its formula in later steps
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
@@ -55,7 +54,6 @@ class Display:
     first_only: bool = False
     result_again: Level | None = None
     each_worked_out: bool = False
-    unless_long: bool = False
     abbreviates: bool = False
     names_formula: bool = False
     repeats: str = ""
@@ -92,7 +90,6 @@ class Shown:
     first_only: bool = False
     result_again: Level | None = None
     each_worked_out: bool = False
-    unless_long: bool = False
     abbreviates: bool = False
     names_formula: bool = False
     condition_if: Callable[[Any], bool] = lambda step: False
@@ -112,7 +109,6 @@ class Shown:
             first_only=self.first_only,
             result_again=self.result_again,
             each_worked_out=self.each_worked_out,
-            unless_long=self.unless_long,
             abbreviates=self.abbreviates,
             names_formula=self.names_formula,
             repeats=self.repeats(step),

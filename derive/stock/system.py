@@ -9,7 +9,7 @@ from typing import Any
 
 from sympy import Expr, Integer
 
-from derive.algebra.expressions import Relation, depends_on_time, explicit
+from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -101,12 +101,12 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _draw_forces(self) -> None:
         """Draw the forces on each body, if parts of the problem derive the constraint forces on the body."""
         run = current_run.get()
-        found: dict[Any, Quantity] = {}
-        for step in run.established if run is not None else ():
-            if step.fact(ForceOf) is not None:
-                found.setdefault(step.symbol, step)
+        steps = run.established if run is not None else ()
+        at_rest, along = _forces_found(steps, self.system)
         for name, part in self.parts_by_name.items():
-            force_diagram(f"forces_{name}", self.system, moved(part, self.system.known), found)
+            key, of = f"forces_{name}", moved(part, self.system.known)
+            if force_diagram(key, self.system, of, at_rest | along) is None:
+                force_diagram(key, self.system, of, at_rest)
 
     def asks(self) -> dict[str, Any]:
         """Return name -> function that derives the answer, for every name that a part may ask for, including those of
@@ -461,3 +461,19 @@ def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
 
 
 STOCK = Stock(SystemKeys, read, SystemAnswers)
+
+
+def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
+    """Return the steps that derive constraint forces, by the symbols of the forces; and the steps that express such
+    forces without rates, by conservation of energy along a motion."""
+    found: dict[Any, Quantity] = {}
+    along: dict[Any, Quantity] = {}
+    rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}
+    for step in steps:
+        if step.fact(ForceOf) is not None:
+            found.setdefault(step.symbol, step)
+        elif step.symbol in found and not isinstance(step.value, Relation):
+            letters = explicit(step.value).free_symbols
+            if letters & coordinates and not letters & rates:
+                along[step.symbol] = step
+    return found, along

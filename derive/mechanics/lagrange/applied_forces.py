@@ -17,7 +17,7 @@ from derive.mechanics.lagrange import claims
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.forces import Damper, GivenForce
-from derive.mechanics.theorems import MULTIPLIERS, MULTIPLIERS_OF_RATES
+from derive.mechanics.theorems import MULTIPLIERS, MULTIPLIERS_OF_BOTH, MULTIPLIERS_OF_RATES
 from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Level
@@ -228,9 +228,13 @@ FORCED_EQUATION = Rule(
             theorem,
             frozenset({"both", "kept"}),
             law_in=frozenset({"kept"}),
-            between=frozenset({constrained, "both"}),
+            between=frozenset({constrained}),
         )
-        for theorem, constrained in ((MULTIPLIERS, "coordinates"), (MULTIPLIERS_OF_RATES, "rates"))
+        for theorem, constrained in (
+            (MULTIPLIERS, "coordinates"),
+            (MULTIPLIERS_OF_RATES, "rates"),
+            (MULTIPLIERS_OF_BOTH, "both"),
+        )
     ],
 )
 
@@ -272,7 +276,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         phrase_data=PhraseData(
-            words={"between": _between(constraints)},
+            words={"between": _between(kept.constraints if kept else ())},
             formulas=_functions_told(kept.constraints if kept else ()),
             named={"coordinate": q.symbol} | _multipliers_told(kept.constraints if kept else ()),
             outcome_data={"letters": tuple(c.force for c in constraints)},

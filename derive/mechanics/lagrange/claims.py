@@ -277,27 +277,29 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factor of each force in the equation is the derivative of a stated function with respect to the
-    coordinate of the equation; for constraints on rates, with respect to the rate of this coordinate. If the sentence
-    also states a multiplier in terms of its force, the factor contains their ratio. The generalized force may contain a
-    friction term that is proportional to a multiplier; this term is not counted. For constraints of both kinds, the
-    test is only whether the sentence states functions."""
-    q = facts.inputs["coordinate"]
-    if facts.words["between"] not in ("coordinates", "rates", "both"):
-        return False
-    by = rate(q) if facts.words.get("between") == "rates" else q
+    coordinate of the equation, or with respect to its rate if the function contains rates. If the sentence also states
+    a multiplier in terms of its force, the factor contains their ratio. The generalized force may contain a friction
+    term that is proportional to a multiplier; this term is not counted. The word `between` must agree with the stated
+    functions."""
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
     multipliers = {number: explicit(v.right) for number, v in stated.items() if isinstance(v, Relation)}
     residual = explicit(facts.result).residual + explicit(facts.inputs.get("applied", Integer(0)))
-    if facts.words.get("between") == "both":
-        return bool(told)
-    works = [(diff(f, by), multipliers.get(number)) for number, f in told.items()]
+    works = [(_slope(f, facts.inputs["coordinate"]), multipliers.get(number)) for number, f in told.items()]
 
     def is_stated(letter: Symbol) -> bool:
         shares = (slope if own is None else slope * diff(own, letter) for slope, own in works)
         return any(is_zero(diff(residual, letter) + share) for share in shares)
 
-    return all(map(is_stated, facts.inputs["letters"]))
+    kinds = {has_rates(function) for function in told.values()}
+    word = "both" if len(kinds) > 1 else "rates" if True in kinds else "coordinates"
+    return facts.words.get("between") == word and all(map(is_stated, facts.inputs["letters"]))
+
+
+def _slope(function: Expr, q: Any) -> Expr:
+    """The derivative of a constraint function with respect to a coordinate, or to its rate if it contains rates."""
+    slope: Expr = diff(function, rate(q) if has_rates(function) else q)
+    return slope
 
 
 def multiplier_of(i: int) -> Naming:

@@ -177,7 +177,7 @@ CONSTRAINT_RATE = Rule(
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     outcomes={"in_rates": claims.constraint_rate_in_rates, "in_coordinates": claims.constraint_rate_in_coordinates},
     evidence={"functions_of_time": CHECK},
-    shown=Shown(brief=Manner.LEFT_OUT, unless_long=True),
+    shown=Shown(brief=Manner.LEFT_OUT),
 )
 
 
