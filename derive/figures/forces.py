@@ -138,7 +138,8 @@ def _multipliers(system: System, force: PointForce) -> list[Symbol]:
 def _outline(of: Any) -> Iterator[Mark]:
     if isinstance(of, PlacedBody):
         for mark in placed_outline(with_its_shape(of)):
-            yield replace(mark, label=None, **({"pointer": None} if isinstance(mark, WheelMark) else {}))
+            plain = replace(mark, label=None)
+            yield replace(plain, pointer=None) if isinstance(plain, WheelMark) else plain
         yield PointMark(column_of(of.centre))
     else:
         yield ParticleMark(column_of(of.at), label=of.mass)

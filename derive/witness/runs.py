@@ -239,6 +239,7 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # --- free flight after the constraint has ended ---
 
 BEGUN = 0.03  # the motion before a flight begins at this fraction of its distance: its start may be an equilibrium
+FLIGHTS = 3  # sets of numbers that are tried; their conditions make sure that the force vanishes
 FLOWN = 1e-4  # accuracy to which a simulated flight, which begins at a simulated event, and a formula agree
 
 
@@ -297,7 +298,7 @@ def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """
     q, end = fact.coordinate
     free = Blueprint(replace(claim.blueprint.of, conditions=()))
-    for trial in claim.trials(MANY, also=fact.conditions):
+    for trial in claim.trials(FLIGHTS, also=fact.conditions):
         if any(abs(trial.value(each.residual)) < CLEAR for each in fact.conditions):
             continue
         try:

@@ -415,4 +415,4 @@ def test_without_numbers_for_all_letters_there_is_no_frequency() -> None:
     equations = motion(*(Particle(m, at) for at in joints[1:4]), *joined)
     with pytest.raises(Rejected, match="a polynomial that does not factor") as refused:
         normal_modes(linearised(equations, at=dict.fromkeys(three, 0)))
-    assert "give all of them numbers" in str(refused.value)
+    assert "give numbers to all masses and springs" in str(refused.value)

@@ -180,7 +180,7 @@ def test_a_ball_rolls_on_a_plane_with_two_conditions() -> None:
     turning = theta.rate * sin(phi) - psi.rate * sin(theta) * cos(phi)
     assert equal(first.value, Relation(x.rate, "=", R * turning))
     assert equal(second.value, Relation(y.rate, "=", -R * (theta.rate * cos(phi) + psi.rate * sin(theta) * sin(phi))))
-    with pytest.raises(Rejected, match="does not express a coordinate by others"):
+    with pytest.raises(Rejected, match="does not express one coordinate by others"):
         System(ball, first)
 
 
@@ -305,7 +305,7 @@ def held_rod(**more: Any) -> Any:
         ),
         (lambda: no_slip(Rod(l, m), at=point(0, 0)), "needs a `PlacedBody`"),
         (lambda: no_slip(held_rod(), at=point(0, 0)), "always at rest"),
-        (lambda: no_slip(held_rod(), at=point(0, 0, 0)), "in the plane or space of the body"),
+        (lambda: no_slip(held_rod(), at=point(0, 0, 0)), "as many components as the place of the body"),
     ],
 )
 def test_what_cannot_be_is_refused(wrong: Callable[[], Any], said: str) -> None:

@@ -26,12 +26,12 @@ def test_an_empty_index_is_not_notation(name: str) -> None:
 
 def test_the_letter_of_a_tensor_is_not_that_of_a_vector() -> None:
     check_symbol("it", vector("L"), VECTOR)
-    with pytest.raises(Unverified, match="the letter of a tensor"):
+    with pytest.raises(Unverified, match="denotes a tensor"):
         check_symbol("it", tensor("L"), VECTOR)
 
 
 def test_the_letter_of_a_vector_is_not_that_of_a_number() -> None:
-    with pytest.raises(Unverified, match="the letter of a vector"):
+    with pytest.raises(Unverified, match="denotes a vector"):
         check_symbol("it", vector("L"), Integer(1))
     with pytest.raises(Unverified, match="the letter of a number"):
         check_symbol("it", scalar("L"), VECTOR)
