@@ -33,7 +33,7 @@ def test_the_letter_of_a_tensor_is_not_that_of_a_vector() -> None:
 def test_the_letter_of_a_vector_is_not_that_of_a_number() -> None:
     with pytest.raises(Unverified, match="denotes a vector"):
         check_symbol("it", vector("L"), Integer(1))
-    with pytest.raises(Unverified, match="the letter of a number"):
+    with pytest.raises(Unverified, match="denotes a number"):
         check_symbol("it", scalar("L"), VECTOR)
 
 
