@@ -61,9 +61,9 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # most points drawn for each point that is needed, because some points have no physical meaning
+MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
 FIRST, POINTS = 2, 26  # numbers of points: before the exact decision, and after it if it failed
-TURNS = 400  # most points drawn to find a point at which a sign differs
+TURNS = 400  # greatest number of points drawn to find a point at which a sign differs
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -325,8 +325,8 @@ def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
 
 
 def _is_borne(left: str, right: str, factor: Expr) -> bool:
-    """Whether a relation with the first operator, multiplied by this factor, is equivalent to a relation with the
-    second operator."""
+    """Whether multiplication by this factor turns a relation with one operator into an equivalent relation with the
+    other."""
     sign = _known_sign(factor)
     return _same_mark(left, right, sign or 0) and (sign is not None or _never_vanishes(factor))
 

@@ -26,8 +26,8 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # most products of two terms for one question; other methods, which take far longer, decide the rest
-LONGEST, STEEPEST = 60, 8  # most operations in an angle, and highest power in an angle
+WORK = 3_000_000  # greatest number of products of terms in one question; slower methods decide longer questions
+LONGEST, STEEPEST = 60, 8  # greatest number of operations in an angle, and highest power in an angle
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
 R = TypeVar("R", bound="TrigRing")
@@ -261,7 +261,8 @@ class TrigRing(Ring):
         return Mul(*factors)
 
     def is_unsure(self, terms: Terms) -> bool:
-        """Whether the value of these terms may be zero, because they contain roots or parts of pi."""
+        """Whether the terms contain roots or parts of pi. The value of such terms may be zero even if no terms
+        cancel."""
         return self.has_parts_of_pi(terms) or self._has_roots(terms)
 
     def has_parts_of_pi(self, terms: Terms) -> bool:

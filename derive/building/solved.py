@@ -1,8 +1,9 @@
 """A derivation as stored between builds, so that a page with new wording is not derived again.
 
-A stored derivation depends on derive's own modules and SymPy, the script and its modules, the given values, the
-reference, and the answers that parts ask for, with the forms of these answers. It does not depend on words, points and
-templates.
+A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
+reference. It also depends on the given values, on the description, on the symbols and their numbers, on the limiting
+cases (`limits:`, with `why:` and its line in the file), and on the answers, forms and cases that parts ask for. It does
+not depend on other words, on points or on templates.
 """
 
 from __future__ import annotations

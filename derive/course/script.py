@@ -96,7 +96,7 @@ def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
     place = _innermost(error, file, source)
     if place is None:
         return error
-    note = f"the script asks for it at {place.path}:{place.line}"
+    note = f"the script calls the verb at {place.path}:{place.line}"
     return type(error)(
         replace(c, notes=(*c.notes, note)) if c.place else replace(c, place=place) for c in error.complaints
     )

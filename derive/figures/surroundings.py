@@ -93,7 +93,7 @@ class FloorMark(Surface):
 
 
 def _across(start: Spot, end: Spot, side: Spot) -> Spot:
-    """Return the unit normal of a line that points to a side."""
+    """Return the unit normal of a line, on the side to which the vector `side` points."""
     along = direction(start, end)
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] >= 0 else (along[1], -along[0])

@@ -33,7 +33,7 @@ LESS = {
     OWN: OWN,
 }  # the next manner to try for a step whose symbol the page needs
 
-LONGEST_CLAUSE = 24  # most nodes of an expression that a sentence may contain
+LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a clause
 
 
 @dataclass(frozen=True)

@@ -69,7 +69,8 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-# conservative systems: most coordinates, and most (coordinates x symbols) for more than three coordinates
+# conservative systems: greatest number of coordinates; for more than three coordinates, also the greatest product of
+# the number of coordinates and the number of symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
@@ -528,7 +529,10 @@ class Gyroscopic(LinearSystem):
     def _is_real(self, factor: Factor) -> int | None:
         sign = self.sign(factor.discriminant)
         if sign == -1:
-            message = "there is no normal mode: two motions of the same frequency spiral, one outwards and one inwards"
+            message = (
+                "there is no normal mode: one motion spirals outwards, "
+                "and another of the same frequency spirals inwards"
+            )
             raise Rejected(Complaint("no-oscillation", message, help="use `stability` instead"))
         return 1 if sign == 1 or self.is_minimum else None
 

@@ -243,7 +243,8 @@ def named_coordinates() -> tuple[Symbol, ...]:
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """Return each coordinate of the run whose symbol or one of whose rates occurs in a result, with its kind."""
+    """Return the coordinates that a result contains, each with its kind. A coordinate also counts if the result
+    contains only its rates, up to the third."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}

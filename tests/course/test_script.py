@@ -99,7 +99,7 @@ def test_a_refusal_that_has_a_place_gains_a_note_of_the_script(tmp_path: Path) -
     complaint = refusal(tmp_path, REFUSING.replace("PLACE", ", Place('x.yaml', 2)"))
     assert complaint.place is not None
     assert complaint.place.path == "x.yaml"
-    assert complaint.notes == ("the script asks for it at problems/hw9/block.py:8",)
+    assert complaint.notes == ("the script calls the verb at problems/hw9/block.py:8",)
 
 
 def test_what_a_script_prints_spoils_no_output(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

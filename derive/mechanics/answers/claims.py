@@ -431,7 +431,7 @@ def small_there(facts: Judged, small: Any) -> bool:
 
 
 def near_that(facts: Judged, place: Any) -> bool:
-    """Whether the quantity that the sentence calls small vanishes if the symbol has this value."""
+    """Whether the small quantity that the sentence names is zero when the symbol has the value `place`."""
     return is_zero(facts.inputs["small"].subs(facts.inputs["letter"], place))
 
 

@@ -346,7 +346,8 @@ class Impact:
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"
-            raise Rejected(Complaint("nothing-happens", message, help="give rates `before` it"))
+            help_line = "in `before`, give rates with which they approach each other"
+            raise Rejected(Complaint("nothing-happens", message, help=help_line))
         if sign == -1:
             message = "the two places move apart before this collision, along its normal"
             help_line = "reverse the rates in `before`, or the normal, which points from the first place to the second"

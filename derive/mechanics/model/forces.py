@@ -1,5 +1,5 @@
 """Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
-potential energy of the coordinates.
+potential energy as a function of coordinates and time.
 
 A couple acts only along its angle, and drag on a coordinate only along this coordinate. All other forces act at a
 place.
@@ -266,7 +266,7 @@ def potential(energy: Any) -> StoredEnergy:
     moving = coordinates_in(given)
     fast = [q for q in moving if given.has(rate(q), rate(q, 2))]
     if fast:
-        message = f"`potential` must depend on coordinates only, but it depends on the rate of {fast[0].name}"
+        message = f"`potential` must not depend on rates, but it depends on the rate of {fast[0].name}"
         raise Rejected(Complaint("wrong-argument", message))
     if not moving:
         raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy in coordinates, but {given} has none"))

@@ -312,7 +312,8 @@ def linear_stability(
              exactly one such symbol
 
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
-    potential energy. If only gyroscopic forces stabilise an equilibrium, any drag makes the equilibrium unstable.
+    potential energy. If only gyroscopic forces stabilise an equilibrium, drag on every coordinate makes the
+    equilibrium unstable.
     Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
     determinant comes from cosines and sines that are substituted into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.

@@ -269,7 +269,8 @@ class Place(IntEnum):
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
     COUPLING = auto()  # an energy, an angular momentum, a constant of a force law
-    ACCELERATION = auto()  # also a speed, and a field, which follows the charge
+    # also a speed; also an electric or magnetic field, so that it is printed after the charge: q E
+    ACCELERATION = auto()
     LENGTH = auto()
     SUM = auto()
     OTHER = auto()  # numbers, densities, momenta
