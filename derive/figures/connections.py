@@ -412,6 +412,9 @@ class Connections:
             down = Location((ZERO, -self.size * Rational(1, 3)))
             corners: tuple[Location, ...] = (low, high, high + down, low + down)
             sort: type[WedgeMark] = PlankMark
+        elif abs(self.number(x)) <= SMALL or self.number(plane.unit_normal.components[1]) < 0:
+            inwards = -self.size * plane.unit_normal  # a body with a vertical face, or with a face on its lower side
+            corners, sort = (low, high, high + inwards, low + inwards), WedgeMark
         else:
             if (height := self._floor_under(plane.of)) is not None:
                 low = low + tidied((height - low.components[1]) / y) * (high - low)
@@ -422,7 +425,8 @@ class Connections:
                 yield AngleBetween(column_of(low), level, column_of(high - low), label=angle)
         yield sort(tuple(map(column_of, corners)), label=label)
         lowest = corners[-2:] if sort is PlankMark else (corners[0], corners[-1])
-        yield FloorMark(tuple(column_of(corner) for corner in lowest))
+        if self.number(plane.unit_normal.components[1]) >= -SMALL:
+            yield FloorMark(tuple(column_of(corner) for corner in lowest))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
         """The height of the fixed level plane on which a particle stands."""

@@ -278,7 +278,8 @@ class ParticleMark(_Piecewise):
 class BlockMark(_Piecewise):
     """A block on a line along which it moves.
 
-    at              the centre of the block; if `stands` is true, the centre of its base
+    at              the centre of the block; if `stands` is true, the centre of its base, and the block is on the left
+                    of `along`
     width, height   lengths, or None for the usual size
     """
 
@@ -306,10 +307,10 @@ class BlockMark(_Piecewise):
         """Return the centre, and the corners counterclockwise from the lower left to the upper left."""
         at, ahead = paper.numbers.vector(self.at), paper.numbers.vector(self.along)
         spot = paper.spot(at)
-        e = direction(spot, paper.spot(plus(at, ahead)))
+        e = first = direction(spot, paper.spot(plus(at, ahead)))
         e = e if e[0] > 1e-9 or abs(e[0]) <= 1e-9 and e[1] > 0 else (-e[0], -e[1])
         if self.stands:
-            spot = spot[0] - e[1] * high / 2, spot[1] + e[0] * high / 2
+            spot = spot[0] - first[1] * high / 2, spot[1] + first[0] * high / 2
         half = [(-wide / 2, -high / 2), (wide / 2, -high / 2), (wide / 2, high / 2), (-wide / 2, high / 2)]
         return spot, tuple((spot[0] + e[0] * a - e[1] * b, spot[1] + e[1] * a + e[0] * b) for a, b in half)
 

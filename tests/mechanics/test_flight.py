@@ -296,3 +296,12 @@ def test_the_relation_of_the_departure_is_the_one_of_the_loss(tmp_path: Path) ->
     start = solved(tmp_path, PENDULUM)["flight_start"]
     assert isinstance(start.value, Relation) and TIME not in start.value.free_symbols
     assert str(start.value) == "cos(theta_1) = 2/3 - v_0**2/(3*g*l)"
+
+
+def test_a_flight_that_begins_downwards_has_no_greatest_height_later(tmp_path: Path) -> None:
+    text = edited(
+        SPHERE,
+        ("flight: {flight: lost}", "flight: {flight: lost}\n    top: {maximum: flight_y, for: t}"),
+        ("[flight, landing_x, landing_speed]", "[flight, landing_x, landing_speed, top]"),
+    )
+    assert any("only before the motion begins" in each.message for each in complaints(tmp_path, text))

@@ -317,3 +317,22 @@ def test_a_slip_whose_place_depends_on_the_letters_is_refused(tmp_path: Path) ->
     """A falling stick slips backwards if mu_s is small, and forwards if it is large: no closed form either way."""
     text = (ROOT / "tests" / "mechanics" / "falling_stick.yaml").read_text(encoding="utf-8")
     assert any("cannot be solved for cos(theta)" in each for each in messages(tmp_path, text))
+
+
+CEILING = edited(
+    BLOCK,
+    ("alpha: 'angle in (0, pi/2)', mu_s: positive number, P: force}", "mu_s: 'number in (0, 1/2)', P: positive force}"),
+    ("incline: {through: [0, 0], along: [cos(alpha), -sin(alpha)]}", "incline: {through: [0, 0], along: [-1, 0]}"),
+    ("  gravity: g\n", "  gravity: g\n  forces: {components: [P/2, P], at: block}\n"),
+    ("for: mu_s", "for: P"),
+)
+
+
+def test_a_bound_that_the_letter_cannot_satisfy_is_not_a_condition(tmp_path: Path) -> None:
+    """P/2 <= mu_s (P - m g) means P <= -2 m g mu_s/(1 - 2 mu_s) for mu_s < 1/2, which no positive P satisfies."""
+    assert solved(tmp_path, CEILING)["slip"].step.outcome == "cannot"
+
+
+def test_static_friction_on_a_rail_has_no_single_limit(tmp_path: Path) -> None:
+    (said, *_) = messages(tmp_path, edited(BLOCK, ("-sin(alpha)]}", "-sin(alpha)], side: both}")))
+    assert "a rail also pulls" in said

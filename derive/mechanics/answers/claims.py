@@ -31,7 +31,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expansion import Approach
 from derive.algebra.expressions import PLUS_MINUS, TIME, Prescribed, Relation, depends_on_time, explicit
 from derive.algebra.ranges import range_of
-from derive.algebra.samples import letters_of, value_at
+from derive.algebra.samples import NoNumber, letters_of, value_at
 from derive.algebra.tidy import tidied
 from derive.solving.root_of_factor import RootOf
 from derive.steps.claims import (
@@ -298,6 +298,8 @@ def bent(sign: int) -> Predicate:
 def _beside(value: Expr, x: Symbol, place: Expr, point: Point) -> Expr:
     near = abs(place) / 10**6 + Rational(1, 10**9)
     there, *others = (value_at(value, {**point, x: place + k * near}) for k in (0, 1, -1))
+    if any(each.is_real is False for each in (there, *others)):
+        raise NoNumber
     return min(there - other for other in others) if there > others[0] else max(there - other for other in others)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from sympy import Abs, Dummy, Expr, Integer, Rational, Symbol
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import At, Relation, explicit, scalar
+from derive.algebra.expressions import TIME, At, Relation, explicit, scalar
 from derive.algebra.ranges import range_of
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
@@ -116,6 +116,9 @@ def _extremum(
     if len(fitting) != 1:
         raise _not_one(of, x, verb, len(fitting), slope.has(x) and not found)
     ((place, conditions),) = fitting
+    if x == TIME and sign_known(place) == -1:
+        message = f"`{verb}`: the slope of `{of.key}` vanishes only before the motion begins, at t = {place}"
+        raise Rejected(Complaint("no-extremum", message, help="the extreme value is at the start, t = 0"))
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
         EXTREMUM_PLACE,

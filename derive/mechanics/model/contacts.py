@@ -291,6 +291,11 @@ def radius_of(placed: PlacedBody) -> Expr:
     return radius
 
 
+def has_radius(placed: PlacedBody) -> bool:
+    """Whether a body is round in the plane of motion, or a ball in space."""
+    return _round_radius(placed) is not None
+
+
 def _round_radius(placed: PlacedBody) -> Expr | None:
     if placed.rim is not None:
         return placed.rim[1]
@@ -383,6 +388,9 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
+    if touch.surface.is_two_sided:
+        message = "a rail also pulls, so its static friction has no single limit mu_s N"
+        raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     mu = _coefficient(touch, coefficient, normal or "N")
     if len(touch.at.components) == 3:
         message = "static friction with a coefficient needs a plane of motion; this system moves in space"

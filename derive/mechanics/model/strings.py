@@ -9,14 +9,14 @@ from typing import Any, Self
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, depends_on_time, scalar
+from derive.algebra.expressions import as_expr, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.contacts import radius_of
+from derive.mechanics.model.contacts import has_radius, radius_of
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import direction_between, distance_between, dot, raw_distance
@@ -159,6 +159,11 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
+    for wheel in ends[1:-1]:
+        if isinstance(wheel, PlacedBody) and has_radius(wheel):
+            message = f"the string runs over {wheel.body.name}, which has a radius"
+            help_line = "describe each side as a string that is `wound_on` the body, or give a pulley without mass"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
     is_rod = verb == "massless_rod"
     pieces = _pieces(ends)
     through = tuple(each if isinstance(each, Pulley) else end_of(each)[0] for each in ends)
@@ -188,7 +193,18 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
         tangent = _tangent(one, other)
         bodies = [None if isinstance(each, Pulley) else end_of(each)[1] for each in (one, other)]
         found.append(Piece(*tangent, (bodies[0], bodies[1])))
+    for one, other in pairwise(found):
+        if one.end == other.start and _is_on_rim(one.end, ends):
+            where = ", ".join(map(str, one.end.components))
+            message = f"the string leaves a pulley at ({where}), where it also arrives"
+            raise Rejected(Complaint("no-contact", message, help="put its two ends on different sides of the pulley"))
     return found
+
+
+def _is_on_rim(place: Location, ends: Sequence[Any]) -> bool:
+    return any(isinstance(each, Pulley) and place != each.at for each in ends) and not any(
+        place == end_of(each)[0] for each in ends if not isinstance(each, Pulley)
+    )
 
 
 def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
@@ -230,7 +246,7 @@ def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
         lengths.append(length.replace(Abs, lambda size: size))
     for signs in product((1, -1), repeat=len(lengths)):
         whole = tidied(Add(*(sign * length for sign, length in zip(signs, lengths, strict=True))))
-        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])) and not depends_on_time(whole):
+        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])):
             return -whole if whole.could_extract_minus_sign() else whole
     return None
 

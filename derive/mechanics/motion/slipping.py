@@ -123,8 +123,10 @@ def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: boo
     """Return the condition for the body not to slip in one sense: side F <= mu_s N, where `side` is 1 or -1."""
     excess = contact.excess(side)
     known = sign_for_all(excess)
+    result = solved_for_limit(contact, side, "<=", unknown) if known is None else None
+    if result is not None and (found := _sign_of_difference(result)) is not None:
+        known, result = -1 if holds(Integer(found), result.operator) else 1, None  # such as P <= a negative bound
     mark = ">" if known == 1 else "<="
-    result = solved_for_limit(contact, side, mark, unknown) if known is None else None
     moving = changes(contact.F - contact.N, named_coordinates())
     return establish(
         SLIPS,
@@ -147,6 +149,14 @@ def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: boo
         ),
         key=key,
     )
+
+
+def _sign_of_difference(relation: Relation) -> int | None:
+    """Return the sign of the left side minus the right side for all values of the symbols; None if it is unknown."""
+    left, right = (sign_for_all(tidied(explicit(side))) for side in relation.sides)
+    if {left, right} == {1, -1}:
+        return left
+    return sign_for_all(tidied(relation.residual))
 
 
 def _same_truth(found: Relation, contact: Friction, side: int, mark: str) -> Verdict:

@@ -278,6 +278,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
         acting += of_each(_connections(written), connected)
     acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
+    _check_pulleys(written, faults)
     acting += [Deferred(landing_surface, (one,)) for name, one in surfaces.items() if name in _landed_on(written)]
     with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
@@ -299,6 +300,18 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
             if name not in used:
                 help_line = "describe the contact under `contacts`, let a flight end `on` it, or leave the surface out"
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
+
+
+def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
+    """Report a pulley over which no string runs, and a pulley with the name of a body, a particle or a place."""
+    over = {str(place.name) for each in written.strings for place in each.over if place.name is not None}
+    for name in written.pulleys:
+        if name in {*written.bodies, *written.particles, *written.points}:
+            message = f"`{name}` is the name of a pulley and of a body, a particle or a place"
+            faults.error("twice", message, name.place, help="give the pulley another name")
+        elif name not in over:
+            help_line = "let a string run `over` it, or leave the pulley out"
+            faults.error("unused-key", f"no string runs over the pulley `{name}`", name.place, help=help_line)
 
 
 def _connections(written: SystemKeys) -> list[Any]:
