@@ -8,7 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, sin, symbols
+from sympy import Expr, Integer, Symbol, cos, lambdify, sin, symbols
 
 from derive.algebra.expressions import explicit
 from derive.course.problem import run_solve
@@ -44,8 +44,8 @@ def test_accelerations_and_forces_are_those_of_newton_and_euler(trial: Trial, tm
 
 
 def value_at(value: Expr, numbers: dict[str, float]) -> float:
-    letters: dict[Symbol, float] = {letter: numbers[letter.name] for letter in value.free_symbols}
-    return float(value.evalf(subs=letters))
+    letters = sorted(value.free_symbols, key=str)
+    return float(lambdify(letters, value, "math")(*(numbers[letter.name] for letter in letters)))
 
 
 WEDGE = on_a_surface_called("disc-wedge-rolling")
