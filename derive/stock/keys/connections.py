@@ -447,6 +447,10 @@ def _over(written: WrittenPlace, known: Connected) -> Any:
     """Return a pulley, or the body, particle or place of a pulley without a radius."""
     if written.name is not None and written.name in known.pulleys:
         return known.pulleys[str(written.name)]
+    places = [*known.pulleys, *known.places.written, *known.bodies]
+    if written.name is not None and written.name.partition(".")[0] not in places:
+        help_line = did_you_mean(written.name, places) or "describe it under `pulleys`, or write its components"
+        rejected("no-such-place", f"`{written.name}` is not a pulley or a place", written.place, help_line)
     return _end(written, known, "over")
 
 

@@ -305,11 +305,12 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
 def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
     """Report a pulley over which no string runs, and a pulley with the name of a body, a particle or a place."""
     over = {str(place.name) for each in written.strings for place in each.over if place.name is not None}
+    known = {*written.pulleys, *written.bodies, *written.particles, *written.points}
     for name in written.pulleys:
         if name in {*written.bodies, *written.particles, *written.points}:
             message = f"`{name}` is the name of a pulley and of a body, a particle or a place"
             faults.error("twice", message, name.place, help="give the pulley another name")
-        elif name not in over:
+        elif name not in over and {each.partition(".")[0] for each in over} <= known:
             help_line = "let a string run `over` it, or leave the pulley out"
             faults.error("unused-key", f"no string runs over the pulley `{name}`", name.place, help=help_line)
 
