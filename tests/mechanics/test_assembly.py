@@ -269,3 +269,12 @@ def test_a_composite_without_a_turn_or_a_way_shows_only_its_parts() -> None:
     assert not [q for q in tensor.ancestors() if q.step.rule == "rotation.tensor_of_part"]
     assert tensor.value[2, 2] == Rational(2, 5) * M * R**2
     assert Integer(0) == tensor.value[0, 1]
+
+
+def test_many_rods_at_places_in_letters_are_possible() -> None:
+    """Two of many places coincide by accident in each draw of the letters, but not the same two in every draw."""
+    places = symbols("l_1:31", positive=True)
+    length, mass = symbols("a m", positive=True)
+    names = [f"rod {first}{second}" for first in "abcdef" for second in "uvxyz"]
+    parts = [Rod(length, mass).named(name).at(x, 0, 0) for name, x in zip(names, places, strict=True)]
+    assert len(Composite(*parts).parts) == 30

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from random import Random
-from typing import Any
+from typing import Any, TypeAlias
 
 from sympy import Expr, Symbol, lambdify
 from sympy.matrices import ImmutableMatrix
@@ -22,6 +22,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS, TWINS = 40, 6  # sampled points of a part; sampled places at which other values of the variables are sought
+SHARP = 1e-6  # extension of the bounds of a part that is flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
 
 
@@ -105,18 +106,19 @@ def check_parts(parts: Sequence[Any]) -> None:
             raise Rejected(found.complaint(filling))
 
 
-def _fault(pieces: Sequence[Piece], charts: Sequence[Chart]) -> Fault | None:
-    """Return the `Fault` of the parts for one draw of the symbols; None if the parts can form a body.
+def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
+    """Return the faults of the parts for one draw of the symbols; none if the parts can form a body.
 
-    At each sampled place the number of parts minus the number of holes must be 0 or 1. The parts are rejected if two
-    places violate this condition in the same way, or if a part remains at no place.
+    At each sampled place the number of parts minus the number of holes must be 0 or 1. It is a fault if two places
+    violate this condition in the same way, or if a part remains at no place.
     """
     found: dict[Fault, int] = {}
     left = False
+    boxes = [_box(chart) for chart in charts]
     for i, (one, chart) in enumerate(zip(pieces, charts, strict=True)):
         source = Random(1 if one.sign < 0 else 2)
         for at in chart.points(POINTS, source):
-            there = _there(chart.place(*at), i, charts)
+            there = _there(chart.place(*at), i, charts, boxes)
             if there is None:
                 continue
             total = sum(pieces[k].sign for k in there)
@@ -127,16 +129,28 @@ def _fault(pieces: Sequence[Piece], charts: Sequence[Chart]) -> Fault | None:
                     tuple(pieces[k].called for k in there if pieces[k].sign == (1 if total > 0 else -1)),
                 )
                 found[fault] = found.get(fault, 0) + 1
-    worst = next((fault for fault, count in found.items() if count > 1), None)
-    return worst or (None if left else Fault("empty", ()))
+    seen = dict.fromkeys(fault for fault, count in found.items() if count > 1)
+    return seen if seen or left else {Fault("empty", ()): None}
 
 
-def _there(place: Sequence[float], own: int, charts: Sequence[Chart]) -> list[int] | None:
+Box: TypeAlias = list[tuple[float, float]]
+
+
+def _box(chart: Chart) -> Box:
+    """Return the bounds of each component of a part: those of sampled places, extended on each side by their distance,
+    because the samples do not reach the surface."""
+    places = [chart.place(*at) for at in chart.points(POINTS, Random(4))]
+    bounds = [(min(values), max(values)) for values in zip(*places, strict=True)]
+    return [(low - (high - low) - SHARP, high + (high - low) + SHARP) for low, high in bounds]
+
+
+def _there(place: Sequence[float], own: int, charts: Sequence[Chart], boxes: Sequence[Box]) -> list[int] | None:
     """Return the indices of the parts that contain a place of one part; None if the place is on the surface of another
     part."""
     found = []
     for k, chart in enumerate(charts):
-        values = [] if k == own else list(chart.sought(place))
+        is_near = k != own and all(low <= c <= high for c, (low, high) in zip(place, boxes[k], strict=True))
+        values = list(chart.sought(place)) if is_near else []
         if values and not any(_is_between(chart, at) for at in values):
             return None
         if k == own or values:
@@ -166,20 +180,22 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return the `Fault` of the first draw of the symbols, if each draw that can be evaluated has one; otherwise
-    None."""
-    found: Fault | None = None
+    """Return a fault that each draw of the symbols has, of the draws that can be evaluated; None without such a fault.
+
+    If each draw has another fault, such as two of many rods that have the same place by accident, the body is possible.
+    """
+    found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}
     for at in draws(letters, [piece.limits for piece in pieces]):
         charts = [Chart.of(piece.position, piece.limits, at) for piece in pieces]
         try:
-            fault = _fault(pieces, charts)
+            faults = _faults(pieces, charts)
         except (TypeError, ValueError, OverflowError, ZeroDivisionError):  # no such body exists for these numbers
             continue
-        if fault is None:
+        found = [fault for fault in (faults if found is None else found) if fault in faults]
+        if not found:
             return None
-        found = found or fault
-    return found
+    return found[0] if found else None
 
 
 def _is_between(chart: Chart, at: Place) -> bool:
