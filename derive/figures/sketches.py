@@ -24,7 +24,7 @@ from derive.figures.parts import BLOCK, ConnectionMark, ParticleMark, SpringMark
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.surroundings import AngleBetween, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards, link_marks
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
@@ -41,7 +41,7 @@ ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
 ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
-ALONE = (ParticleMark, PointMark, AngleBetween, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
+ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
 BENEATH = 18.0  # the distance of dimension lines from each other, in points
 
 
