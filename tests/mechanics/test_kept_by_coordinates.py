@@ -111,6 +111,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
         ),
         (SWINGS, "side: both", "side: inside", "a plane has no `inside`"),
         (SWINGS, "  gravity: g", "  wires: [bob]\n  gravity: g", "has one coordinate, but this particle has 2"),
+        (SWINGS, "  gravity: g", "  wires: [cart, cart]\n  gravity: g", "`cart` is on a wire twice"),
         (HANGS, "[-R, -x]", "[-R/2, -x]", "no horizontal or vertical string is tangent"),
         (HANGS, ", tension: T}", "}", "allow the length of the string to change"),
         (HANGS, "length: l, tension: T", "tension: T", "with a force also needs its length"),
@@ -141,3 +142,44 @@ def test_a_rail_is_not_left(tmp_path: Path) -> None:
         "    off: {leaves: T, for: x, start: 0}\n").replace("answer: T", "answer: off")  # fmt: skip
     (said,) = messages(tmp_path, course)
     assert "may have either sign" in said
+
+
+PULLS = """
+title: A particle under a bowl
+solve: system
+symbols: {m: mass, b: length, g: acceleration}
+given:
+  coordinates: {x: length, y: length}
+  particles: {bead: {mass: m, at: [x, y]}}
+  gravity: g
+  surfaces: {bowl: {y: x**2/(2*b), side: below}}
+  contacts: {of: bead, on: bowl, normal: N}
+statement: A system.
+parts:
+  - {ask: Find the accelerations., answer: accelerations}
+"""
+
+PUSHES = """
+title: A string that would have to push
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {y: positive length}
+  particles: {bob: {mass: m, at: [0, y]}}
+  gravity: g
+  strings: {from: [0, 0], to: bob, length: l, tension: T}
+statement: A system.
+parts:
+  - {ask: Find the tension., answer: T}
+"""
+
+
+@pytest.mark.parametrize(
+    ("course", "said"), [(PULLS, "the surface would have to pull"), (PUSHES, "the string would have to push")]
+)
+def test_a_force_that_a_surface_or_a_string_cannot_exert_is_refused(course: str, said: str, tmp_path: Path) -> None:
+    assert said in "\n".join(messages(tmp_path, course))
+
+
+def test_a_rail_may_pull(tmp_path: Path) -> None:
+    assert solved(tmp_path, edited(PULLS, ("side: below", "side: both")))["acceleration_x"].value != 0

@@ -32,6 +32,7 @@ from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
+from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, compared_with, is_zero
 
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
@@ -298,6 +299,20 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
     )
 
 
+ONE_SIDED = {  # enforcer -> what it would have to do, and help
+    "surface": ("the surface would have to pull", "put the body on the other side, or describe a rail, `side: both`"),
+    "string": ("the string would have to push", "describe a massless rod, which can push"),
+}
+
+
+def _check_one_sided(each: Constraint, value: Expr | None) -> None:
+    """Reject a surface that would have to pull in every state, and a string that would have to push."""
+    if each.enforcer in ONE_SIDED and value is not None and sign_known(explicit(value)) == -1:
+        why, help_line = ONE_SIDED[each.enforcer]
+        message = f"the force `{each.force}` = {value} is negative in every state, so {why}"
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
 def _places(problem: _Problem) -> tuple[Expr, ...]:
     """Return the position of the only mass point; empty if there are several."""
     points = problem.lagrangian.needed(Matter).points
@@ -416,8 +431,16 @@ def _kind_of_acceleration(kind: str) -> str | None:
 # --- linear equations ------------------------------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=16)
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
+    """Return the accelerations and the multipliers; reject a force that a surface or a string cannot exert."""
+    found = _solved(problem)
+    for each in problem.lagrangian.needed(Constrained).constraints:
+        _check_one_sided(each, found.get(each.force))
+    return found
+
+
+@lru_cache(maxsize=16)
+def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     """Solve the linear equations for the accelerations and the multipliers."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]

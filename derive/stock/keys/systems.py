@@ -276,6 +276,9 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     acting += pulleys.values()
     if len(surfaces) == len(written.surfaces) and len(pulleys) == len(written.pulleys):
         acting += of_each(_connections(written), connected)
+    for i, name in enumerate(written.wires):
+        if name in written.wires[:i]:
+            faults.error("twice", f"`{name}` is on a wire twice", name.place, help="leave one of them out")
     acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
     _check_pulleys(written, faults)
