@@ -434,7 +434,8 @@ def _kind_of_acceleration(kind: str) -> str | None:
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
     """Return the accelerations and the multipliers; reject a force that a surface or a string cannot exert."""
     found = _solved(problem)
-    for each in problem.lagrangian.needed(Constrained).constraints:
+    kept = problem.lagrangian.fact(Constrained)
+    for each in kept.constraints if kept is not None else ():
         _check_one_sided(each, found.get(each.force))
     return found
 
