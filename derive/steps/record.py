@@ -235,6 +235,13 @@ def _before_call(run: Run) -> tuple[Quantity, ...]:
     return tuple(run.established[: run.call.before if run.call else None])
 
 
+def add_definition(quantity: Quantity) -> None:
+    """Record a quantity that the problem defines."""
+    run = current_run.get()
+    if run is not None:
+        run.defined.append(quantity)
+
+
 @question
 def may_use_quantities() -> bool:
     """Whether results may be written in quantities other than the letters of the problem."""
