@@ -293,6 +293,7 @@ class _Writer:
                 self.numbers[step.key] = blocks[-1].groups[-1].number
         else:
             before = (*self._clause(blocks), *self.clauses.begun(), *before)
+            self.clauses.said = before
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
         if after:
