@@ -194,8 +194,11 @@ def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol,
 
 
 def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:
-    """Substitute, and bring to lowest terms what is under a root or in a function. A sum is written term by term, unless
-    this gives more terms; any other value has its tidy form, or the form of the value if that is shorter."""
+    """Substitute, and bring to lowest terms what is under a root or in a function.
+
+    A sum is written term by term, unless this gives more terms. Any other value has its tidy form, or its own form if
+    that is shorter.
+    """
     if not value.free_symbols & known.keys():
         return value
     kept = value.subs(known).replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))

@@ -20,7 +20,7 @@ class Clauses:
 
     waiting  steps whose symbols are to be defined at the first use
     told     keys of the steps whose symbols have been defined
-    said     the sentence before the lines just shown; the clause after the lines also defines the symbols of the sentence
+    said     the sentence before the lines just shown; the clause after the lines also defines its symbols
     set_up   text about axes and coordinates, from steps without lines, to put before the next sentence
     """
 

@@ -32,14 +32,17 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions; a number comes first: 1 + omega_0 t.
+    Plain terms come before fractions, roots and functions; a number precedes a term with
+    the time: 1 + omega_0 t.
     """
+
+    is_timed = any(term.has(ex.TIME) for term in terms)
 
     def place(term: Any) -> tuple[int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
         is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
-        return len(functions[:1]) + changing, is_fraction, _has_root(term), not term.is_number
+        return len(functions[:1]) + changing, is_fraction, _has_root(term), is_timed and not term.is_number
 
     return sorted(terms, key=place)
 
