@@ -15,7 +15,7 @@ from typing import Any
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Relation, bound, explicit, rate
+from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
 from derive.algebra.natural import Shortened, shortened
 from derive.steps import record
 from derive.steps.level import Level
@@ -69,9 +69,13 @@ class NaturalQuantities:
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any) -> Shortened | None:
-        if not self._known or not isinstance(value, Expr | Relation):
+        """Return the shortest form of a value or a condition; None for a value that is to remain in the given letters,
+        such as an energy: a formula of the coordinates that is neither an equation nor a motion."""
+        moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
+        is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
+        if not self._known or not (is_value or isinstance(value, Relation)):
             return None
-        kept = {TIME, *(rate(q, order) for q in record.named_coordinates() for order in range(3))}
+        kept = {TIME, *moving}
         found = shortened(value, {name: each.value for name, each in self._known.items()}, kept)
         if found is None:
             return None
