@@ -260,7 +260,7 @@ class _Writer:
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
         """
         mode = self.problem.show.get(step.key, "")
-        if mode == "hidden" and step.key not in self.asked:
+        if mode == "hidden" and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
             return
         if step.key not in self.asked and step.display.repeats in self.numbers:
             self.numbers[step.key] = self.numbers[step.display.repeats]

@@ -92,7 +92,11 @@ def _coordinates_last(
     """Write a coordinate after a force or a constant frequency: omega_0^2 x, not x omega_0^2."""
     ranks = [rank_of_factor(factor, dimension_of) for factor in factors]
     last = max((i for i, rank in enumerate(ranks) if rank[1] in (Place.FORCE, Place.RATE)), default=0)
-    before = [f for f in factors[:last] if f"{f.as_base_exp()[0]}{RATE_ENDS[1]}" in moving]
+    before = [
+        factor
+        for factor, rank in zip(factors[:last], ranks, strict=False)
+        if rank[1] is not Place.RATE and f"{factor.as_base_exp()[0]}{RATE_ENDS[1]}" in moving
+    ]
     return [*(f for f in factors[: last + 1] if f not in before), *before, *factors[last + 1 :]] if before else factors
 
 
