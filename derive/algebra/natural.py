@@ -90,7 +90,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether a form is real, contains each of the quantities, and has no sum of a quantity and a symbol of its formula.
+    """Whether a form is real and contains each quantity, and no sum has both a quantity and a symbol of its formula.
 
     If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
     """
