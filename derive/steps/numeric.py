@@ -418,7 +418,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
                  number in front, if the number in front is rational, or if it is a product of roots and pi, whose size
                  can be seen
     figures      significant figures
-    of_vectors   whether a number of figures is asked for: then the answer may also be a product of roots, or a vector of
+    of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
                  rational numbers times letters
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
