@@ -36,6 +36,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
+from derive.figures.surfaces import TableMark
 from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
 from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
 from derive.mechanics.bodies.placed import PlacedBody
@@ -56,6 +57,7 @@ WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the l
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
 TABLE = 4  # the radius of a table in space, relative to the largest body on it
+BEYOND = Rational(6, 5)  # the radius of a table, relative to the circle of the contacts about its middle
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
@@ -288,11 +290,19 @@ class Connections:
         if up.components != (ZERO, ZERO, ONE) or not is_fixed(self.system, plane.through):
             return
         through = column_of(plane.through)
-        yield CircleMark(through, ACROSS, TABLE * self.ball_size, True)
+        yield TableMark(through, ACROSS, self._table_radius(plane), True)
         if isinstance(plane.moves, Axes):
             rate = next((diff(angle, TIME) for i, angle in plane.moves.turns if i == 2), None)
             if rate is not None:
                 yield AxisOfRotation(through, ACROSS, rate, label=rate)
+
+    def _table_radius(self, plane: Plane) -> Expr:
+        """The radius of a table: beyond the circle on which the contacts move; a multiple of the bodies' size if they
+        do not move on a circle about the middle of the table."""
+        ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
+        if any(moving_in(self.system, way) for way in ways):
+            return TABLE * self.ball_size
+        return BEYOND * max(ways, key=numeric)
 
     @property
     def ball_size(self) -> Expr:

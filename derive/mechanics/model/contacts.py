@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, sin, tan
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
@@ -129,9 +129,10 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, N, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
-    from the surface is the distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at
-    its lowest point: with the unit vector e along its axis and the unit normal n, its distance is the distance of its
-    centre minus R sqrt(1 - (n.e)^2).
+    from the surface is the distance of its centre minus its radius. In space, a disc, a hoop, a cylinder or a cone
+    touches a plane at the lowest point of a rim: with the unit vector e along its axis and the unit normal n, its
+    distance is the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
+    held at its apex.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -208,20 +209,21 @@ def _contact(of: Any, on: Any) -> Contact:
     away = surface.normal(at)
     if not isinstance(of, PlacedBody):
         place, gap = at, surface.distance(at)
+    elif _has_rims(of):
+        place, gap = _lowest(of, surface)
     else:
-        arm, reach = _to_edge(of, surface) if _is_thin(of) else (-radius_of(of) * away, radius_of(of))
-        place = Location(tuple(tidied(c) for c in (at + arm).components))
-        gap = tidied(surface.distance(at) - reach)
+        place, gap = at - radius_of(of) * away, surface.distance(at) - radius_of(of)
+    place, gap = Location(tuple(tidied(c) for c in place.components)), tidied(gap)
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     _check_reached(found)
     return found
 
 
-def _is_thin(placed: PlacedBody) -> bool:
-    """Whether a body that moves in space is a thin disc or a hoop."""
+def _has_rims(placed: PlacedBody) -> bool:
+    """Whether a body that moves in space is a disc, a hoop, a cylinder or a cone: the convex hull of two circles."""
     outline = _outline(placed)
-    return not placed.is_plane and outline is not None and outline.is_flat
+    return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
 
 
 def _outline(placed: PlacedBody) -> Round | None:
@@ -231,11 +233,11 @@ def _outline(placed: PlacedBody) -> Round | None:
     return outer if isinstance(outer, Round) else None
 
 
-def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
-    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane, and the distance
-    of this point from the centre along the normal.
+def _lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
+    """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
 
-    The vector has the length of the radius; it is opposite to the component of the normal along the disc.
+    The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
+    its lowest point has the length of the radius; it is opposite to the component of the normal along the rim.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
         message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
@@ -247,8 +249,32 @@ def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
         raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
     outline, way = _outline(placed), direction_between(Location((ZERO, ZERO, ZERO)), along)
     assert outline is not None
-    radius = outline.radius_at(outline.ends[0])
-    return -radius * way, radius * dot(n, way)
+    rims = []
+    for z in dict.fromkeys(outline.ends):
+        centre = placed.place_of((ZERO, ZERO, z))
+        radius = outline.radius_at(z).replace(tan, lambda angle: sin(angle) / cos(angle))  # so that sums are shorter
+        rims.append((centre - radius * way, surface.distance(centre) - radius * dot(n, way)))
+    return rims[0] if len(rims) == 1 else _lower(placed, *rims)
+
+
+def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location, Expr]) -> tuple[Location, Expr]:
+    """Return the lower of the lowest points of two rims; each point has its distance from the plane.
+
+    A body that touches the plane along the line between the two points must be held at one of them; then it does not
+    slip anywhere on the line if it does not slip at the other point.
+    """
+    sign = sign_known(one[1] - other[1])
+    if sign is None:
+        message = f"it is unknown which end of {placed.body.name} touches the plane"
+        help_line = "give the inclination of its axis a range, such as `theta: angle in (0, pi/2)`, or a point"
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    if sign:
+        return one if sign < 0 else other
+    for held, free in ((one, other), (other, one)):
+        if placed.is_held and is_zero(ImmutableDenseMatrix((held[0] - placed.at).components)):
+            return free
+    message = f"{placed.body.name} touches the plane along a line, so its forces act at no single point"
+    raise Rejected(Complaint("no-contact", message, help="hold an end of this line, such as the apex of a cone"))
 
 
 def _check_reached(touch: Contact) -> None:
