@@ -6,12 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, sin, tan
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
-from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
@@ -20,7 +19,15 @@ from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import contact_velocity, no_slip, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, direction_between, dot, unit, vector
+from derive.mechanics.model.surfaces import (
+    Circle,
+    Plane,
+    Surface,
+    dot,
+    unit,
+    vector,
+)
+from derive.mechanics.model.touching import has_radius, radius_of, touching
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -132,7 +139,7 @@ def contact(
     from the surface is the distance of its centre minus its radius. In space, a disc, a hoop, a cylinder or a cone
     touches a plane at the lowest point of a rim: with the unit vector e along its axis and the unit normal n, its
     distance is the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
-    held at its apex.
+    held at its apex. The coordinates must keep a round body on a curve.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -202,79 +209,13 @@ def _contact(of: Any, on: Any) -> Contact:
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
-        at = of.hub
-        if isinstance(surface, Curve) or surface.is_two_sided:
-            message = "a round body touches a plane, a circle or a sphere, but neither a curve nor a rail"
-            raise Rejected(Complaint("no-contact", message, help="let a particle or a point of a body touch it"))
-    away = surface.normal(at)
-    if not isinstance(of, PlacedBody):
-        place, gap = at, surface.distance(at)
-    elif _has_rims(of):
-        place, gap = _lowest(of, surface)
+        place, gap, away = touching(of, surface)
     else:
-        place, gap = at - radius_of(of) * away, surface.distance(at) - radius_of(of)
-    place, gap = Location(tuple(tidied(c) for c in place.components)), tidied(gap)
+        place, gap, away = at, surface.distance(at), surface.normal(at)
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     _check_reached(found)
     return found
-
-
-def _has_rims(placed: PlacedBody) -> bool:
-    """Whether a body that moves in space is a disc, a hoop, a cylinder or a cone: the convex hull of two circles."""
-    outline = _outline(placed)
-    return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
-
-
-def _outline(placed: PlacedBody) -> Round | None:
-    """Return the outer boundary of a body, if it is round."""
-    boundary = placed.body.boundary
-    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    return outer if isinstance(outer, Round) else None
-
-
-def _lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
-    """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
-
-    The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
-    its lowest point has the length of the radius; it is opposite to the component of the normal along the rim.
-    """
-    if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
-        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
-        raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
-    axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
-    along = n - dot(n, axis) * axis
-    if is_zero(ImmutableDenseMatrix(along.components)):
-        message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
-        raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
-    outline, way = _outline(placed), direction_between(Location((ZERO, ZERO, ZERO)), along)
-    assert outline is not None
-    rims = []
-    for z in dict.fromkeys(outline.ends):
-        centre = placed.place_of((ZERO, ZERO, z))
-        radius = outline.radius_at(z).replace(tan, lambda angle: sin(angle) / cos(angle))  # so that sums are shorter
-        rims.append((centre - radius * way, surface.distance(centre) - radius * dot(n, way)))
-    return rims[0] if len(rims) == 1 else _lower(placed, *rims)
-
-
-def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location, Expr]) -> tuple[Location, Expr]:
-    """Return the lower of the lowest points of two rims; each point has its distance from the plane.
-
-    A body that touches the plane along the line between the two points must be held at one of them; then it does not
-    slip anywhere on the line if it does not slip at the other point.
-    """
-    sign = sign_known(one[1] - other[1])
-    if sign is None:
-        message = f"it is unknown which end of {placed.body.name} touches the plane"
-        help_line = "give the inclination of its axis a range, such as `theta: angle in (0, pi/2)`, or a point"
-        raise Rejected(Complaint("no-contact", message, help=help_line))
-    if sign:
-        return one if sign < 0 else other
-    for held, free in ((one, other), (other, one)):
-        if placed.is_held and is_zero(ImmutableDenseMatrix((held[0] - placed.at).components)):
-            return free
-    message = f"{placed.body.name} touches the plane along a line, so its forces act at no single point"
-    raise Rejected(Complaint("no-contact", message, help="hold an end of this line, such as the apex of a cone"))
 
 
 def _check_reached(touch: Contact) -> None:
@@ -296,44 +237,14 @@ def _check(touch: Contact) -> None:
 
 
 def _surface_of(body: Any) -> Circle:
-    radius = _round_radius(body) if isinstance(body, PlacedBody) else None
-    if radius is None:
+    if not isinstance(body, PlacedBody) or not has_radius(body):
         message = "`contact` needs a surface, or a round body whose rim is the surface"
         help_line = Spelled(
             "describe a face of the body: `plane(..., of=body)`",
             "describe a face of the body under `surfaces`, with `of`",
         )
         raise Rejected(Complaint("no-contact", message, help=help_line))
-    return Circle(body, None, body.hub, radius)
-
-
-def radius_of(placed: PlacedBody) -> Expr:
-    """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
-    radius = _round_radius(placed)
-    if radius is None:
-        message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
-        help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
-        raise Rejected(Complaint("no-contact", message, help=help_line))
-    return radius
-
-
-def has_radius(placed: PlacedBody) -> bool:
-    """Whether a body is round in the plane of motion, or a ball in space."""
-    return _round_radius(placed) is not None
-
-
-def _round_radius(placed: PlacedBody) -> Expr | None:
-    if placed.rim is not None:
-        return placed.rim[1]
-    outer = _outline(placed)
-    if outer is None or placed.across not in (2, None):
-        return None
-    z = Symbol("z_along", real=True)
-    middle = (outer.ends[0] + outer.ends[1]) / 2
-    radius = outer.radius_at(middle)
-    is_widest = is_zero(outer.radius_at(z).diff(z).subs(z, middle))
-    is_ball = is_zero(outer.radius_at(z) ** 2 + (z - middle) ** 2 - radius**2)
-    return radius if is_ball or is_widest and placed.across == 2 else None
+    return Circle(body, None, body.hub, radius_of(body))
 
 
 def _reject_normal(letter: str, touch: Contact) -> None:
@@ -410,7 +321,7 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
     if 1 in flat:
         return {"x": Location((n[2], ZERO, -n[0])), "y": flat[1]}
     message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
-    raise Rejected(Complaint("wrong-argument", message, help="use the key `rolling`, or another surface"))
+    raise Rejected(Complaint("wrong-argument", message, help="let a horizontal axis be along the surface"))
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
