@@ -26,6 +26,7 @@ from derive.figures.parts import (
     ConnectionMark,
     CornerRopeMark,
     DashpotMark,
+    HeavyRopeMark,
     PlankMark,
     RopeMark,
     WedgeMark,
@@ -58,6 +59,7 @@ HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, rela
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
 TABLE = 4  # the radius of a table in space, relative to the largest body on it
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the circle of the contacts about its middle
+HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
@@ -351,7 +353,8 @@ class Connections:
         sides = {self.number(wall.components[0]) > middle for wall in walls}
         starts = [each.foot for each in contacts] + [Location((ZERO, height))]
         margins = (0.0 if False in sides else ROOM, 0.0 if True in sides else ROOM)
-        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), UNDER[BlockMark], margins)
+        off = HALF_OF_ROPE if all(self.is_rope(each.of) for each in contacts) else UNDER[BlockMark]
+        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), off, margins)
 
     def _landing(self, plane: Surface) -> Iterable[Mark]:
         """Yield the plane on which a flight ends, below or beside the circle or the string from which it begins."""
@@ -475,6 +478,9 @@ class Connections:
     def _line(self, line: Line, labels: set[Any]) -> Iterable[Mark]:
         places = line.places
         columns = [column_of(place) for place in places]
+        if line.rope is not None:
+            yield HeavyRopeMark(tuple(columns), (ZERO,) * len(columns), label=line.rope.mass)
+            return
         if line.is_rod:
             yield BarMark(columns[0], columns[-1], label=self._kept_length(line))
         elif self._is_corner(line):
@@ -591,7 +597,7 @@ class Connections:
     def block(self, particle: Particle) -> list[Mark] | None:
         """Return the block that represents a particle on a plane. The list is empty if another mark represents the
         particle, such as a wedge or a pulley. The result is None if the particle is drawn as a small disc."""
-        if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane:
+        if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane or self.is_rope(particle):
             return []
         if any(same(particle.at, place) for line in self.lines for place in line.places[1:-1]) and self.in_a_plane:
             return []
@@ -600,6 +606,15 @@ class Connections:
             return None
         stands = not touch.surface.is_two_sided and not self.carries_only_blocks(touch.surface)
         return [BlockMark(column_of(particle.at), column_of(touch.tangent), stands=stands, label=particle.mass)]
+
+    def is_rope(self, particle: Any) -> bool:
+        """Whether the mass of the particle is distributed along a rope."""
+        return any(line.rope is not None and line.rope == particle for line in self.lines)
+
+    def rope_piece(self, length: Expr) -> tuple[Location, Location] | None:
+        """Return the ends of the straight piece of a rope that has this length; None if there is no such piece."""
+        pieces = (piece for line in self.lines if line.rope is not None for piece in pairwise(line.places))
+        return next((piece for piece in pieces if distance_of(*piece) == length), None)
 
     def holds(self, particle: Particle) -> bool:
         """Whether a contact of a system in a plane, or an end of a string or rod, shows how the particle is placed."""

@@ -338,8 +338,11 @@ class _Scene:
 
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
         """Return the place of a mass at zero coordinate and its present place, if the coordinate is a distance along a
-        fixed line; otherwise None. Of several such masses, choose the one that the fewest coordinates move."""
+        fixed line, or the ends of a piece of a rope that has this length; otherwise None. Of several such masses,
+        choose the one that the fewest coordinates move."""
         found = []
+        if (piece := self.connections.rope_piece(q)) is not None:
+            return piece
         for _, at in self.system.masses:
             way = Location(tuple(diff(c, q) for c in at.components))
             if any(way.components) and is_fixed(self.system, way) and tidied(Add(*(c**2 for c in way.components))) == 1:

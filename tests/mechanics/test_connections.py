@@ -596,3 +596,42 @@ def test_a_disc_in_a_hollow_is_assumed_to_be_smaller_than_its_radius_of_curvatur
     assert "(b**2 + x**2)**(3/2) > R*b**2" in assumptions(tmp_path, IN_A_HOLLOW)
     hill = edited(IN_A_HOLLOW, ("[x - R*x", "[x + R*x"), ("x**2/(2*b) + R/", "-x**2/(2*b) + R/"), ("y: x", "y: -x"))
     assert not any("R" in each for each in assumptions(tmp_path, hill))
+
+
+ROPE = """\
+title: A rope
+solve: system
+symbols: {M: mass, l: length, g: acceleration}
+given:
+  coordinates: {x: positive length}
+  particles: {rope: {mass: M, at: [x - l, 0]}}
+  strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
+  potential: -M*g*x**2/(2*l)
+statement: A rope <<M>> <<l>> <<g>>.
+parts:
+  - ask: How does it move?
+    answer: acceleration_x
+"""
+
+
+def test_a_rope_over_an_edge_moves_as_the_particle_with_its_mass(tmp_path: Path) -> None:
+    """Each piece has the same speed: M x_ddot is the weight M g x/l of the hanging piece."""
+    x, g, l = symbols("x g l", positive=True)
+    assert (solved(tmp_path, ROPE)["acceleration_x"].value - g * x / l).simplify() == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ([("at: [x - l, 0]", "at: [2*x, 0]")], "the speed of the rope differs from the speed of the particle"),
+        ([("at: [x - l, 0]", "at: [0, -x]")], "moves up or down"),
+        (
+            [("from: [x - l, 0], over: [[0, 0]], to: [0, -x]", "from: [0, 0], to: [l*sin(x/l), -l*cos(x/l)]")],
+            "must move along themselves",
+        ),
+        ([("length: l, mass_of", "length: l, tension: S, mass_of")], "so the force `S` does not appear"),
+        ([("mass_of: rope", "mass_of: roap")], "`roap` is not a body or particle of this system"),
+    ],
+)
+def test_a_rope_that_cannot_be_meant_is_told(changes: list[tuple[str, str]], said: str, tmp_path: Path) -> None:
+    assert said in messages(tmp_path, edited(ROPE, *changes))[0]
