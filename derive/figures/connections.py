@@ -105,7 +105,7 @@ class Connections:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
         for constraint in self.system.constraints:
-            if not constraint.in_rates and constraint.forces:
+            if not constraint.in_rates:
                 found |= self._solved(constraint, found)
         found |= self._over_corners(found)
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
@@ -206,7 +206,10 @@ class Connections:
         for q in reversed(free):
             share = tidied(diff(residual, q))
             if share != 0 and not moving_in(self.system, share):
-                return {q: tidied(q - residual / share)}
+                value, whole = tidied(q - residual / share), constraint.right
+                if q.is_positive and not value.is_positive and whole.is_Symbol and whole != self.size:
+                    return {whole: tidied(explicit(constraint.left).subs(known))}  # so that the coordinate is positive
+                return {q: value}
         return {}
 
     @property
@@ -286,10 +289,15 @@ class Connections:
             if touch.of is None:
                 yield from self._corner(touch)
 
+    def is_drawn(self, surface: Surface) -> bool:
+        """Whether the surface has a picture: each surface in a plane of motion, and a fixed horizontal plane in space,
+        with the bodies above it."""
+        is_level = isinstance(surface, Plane) and surface.unit_normal.components == (ZERO, ZERO, ONE)
+        return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
+
     def _table(self, plane: Plane) -> Iterable[Mark]:
         """Yield a horizontal plane in space as a round table, with the axis about which it rotates."""
-        up = plane.unit_normal
-        if up.components != (ZERO, ZERO, ONE) or not is_fixed(self.system, plane.through):
+        if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
         yield TableMark(through, ACROSS, self._table_radius(plane), True)
