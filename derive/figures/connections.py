@@ -105,7 +105,7 @@ class Connections:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
         for constraint in self.system.constraints:
-            if not constraint.in_rates:
+            if not constraint.in_rates and (constraint.forces or not constraint.enforcer):
                 found |= self._solved(constraint, found)
         found |= self._over_corners(found)
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
