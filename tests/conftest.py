@@ -37,7 +37,7 @@ def pytest_collection() -> Generator[None, object, object]:
     return found
 
 
-FAMILY, EVERY = 4, 3  # of a test with at least FAMILY cases, one case of EVERY is tried
+FAMILY, EVERY = 4, 5  # of a test with at least FAMILY cases, one case of EVERY is tried
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -9,11 +9,13 @@ from typing import Any
 
 from sympy import Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Pow
 from sympy.matrices import MatrixBase
+from sympy.matrices.exceptions import NonInvertibleMatrixError
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import sring
 
 from derive.algebra.dimensions import Dimension, product
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, explicit
+from derive.algebra.tidy import tidied
 from derive.errors import during
 
 
@@ -71,6 +73,17 @@ def determinant_of(matrix: MatrixBase) -> Expr:
     with during(lambda: f"the determinant of {matrix.shape[0]} rows with {len(matrix.free_symbols)} symbols"):
         value = domain.domain.to_sympy(domain.charpoly()[-1] * (-1) ** matrix.shape[0])
     return value.xreplace({letter: part for part, letter in named.items()})
+
+
+def inverse_of(matrix: MatrixBase) -> MatrixBase:
+    """Compute the inverse, the adjugate divided by the determinant; no entry is simplified on the way.
+
+    Raises `NonInvertibleMatrixError` if the determinant is zero.
+    """
+    determinant = tidied(determinant_of(ImmutableDenseMatrix(matrix)))
+    if determinant == 0:
+        raise NonInvertibleMatrixError("the determinant is zero")
+    return matrix.adjugate() / determinant
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from sympy import Add, Expr, ImmutableDenseMatrix, sqrt
 from sympy.matrices.exceptions import NonInvertibleMatrixError
 
+from derive.algebra.amplitudes import inverse_of
 from derive.algebra.derivatives import derivative
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constraint
@@ -37,7 +38,7 @@ def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
         return None
     slopes = ImmutableDenseMatrix([kept.along(s) for s in q])
     try:
-        gradient = jacobian.T.inv() * slopes
+        gradient = inverse_of(jacobian.T) * slopes
     except NonInvertibleMatrixError:
         return None
     square = tidied(Add(*(c**2 for c in gradient)))

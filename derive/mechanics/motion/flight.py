@@ -10,6 +10,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, factorial, sqrt
 
+from derive.algebra.amplitudes import inverse_of
 from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
 from derive.algebra.lowest_terms import factored
 from derive.algebra.order import Contradiction, in_order, known_order
@@ -441,9 +442,10 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
     place = Matrix([explicit(c) for c in departure.matter.points[0].place])
     slopes = place.jacobian(list(q))
     velocity, acceleration = (Matrix([diff(c, TIME, n) for c in path]) for n in (1, 2))
-    rates = slopes.inv() * velocity
+    inverse = inverse_of(slopes)
+    rates = inverse * velocity
     turning = sum((slopes.diff(s) * r for s, r in zip(q, rates, strict=True)), Matrix.zeros(2, 2))
-    second = slopes.inv() * (acceleration - turning * rates)
+    second = inverse * (acceleration - turning * rates)
     motion = dict(zip([*(rate(s) for s in q), *(rate(s, 2) for s in q)], [*rates, *second], strict=True))
     none = {departure.kept.force: ZERO}
     return [tidied(explicit(each.value).residual.xreplace(none).xreplace(motion)) for each in departure.equations]

@@ -14,7 +14,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Matrix, MatrixBase, Symbol
 
-from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.amplitudes import Amplitudes, inverse_of
 from derive.algebra.definite import leading_minors, sign_of_form
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, depends_on_time, explicit, scalar
@@ -74,7 +74,7 @@ class Allowed:
         if any(not is_zero((way.T * slopes)[0]) for way in self.ways):
             return None
         normal = self.gradients
-        found = (normal * normal.T).inv() * normal * slopes
+        found = inverse_of(normal * normal.T) * normal * slopes
         return [tidied(value) for value in found]
 
     @cached_property
@@ -108,7 +108,7 @@ class Allowed:
         moved = dict(zip(self.coordinates, way, strict=True))
         bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
         normal = self.gradients
-        turn = -normal.T * (normal * normal.T).inv() * bent
+        turn = -normal.T * inverse_of(normal * normal.T) * bent
         straight = coefficient_along(self.energy, self.place, moved, 2)
         aside = coefficient_along(self.energy, self.place, dict(zip(self.coordinates, turn, strict=True)), 1)
         return tidied(straight + aside)

@@ -32,7 +32,7 @@ from sympy import (
 )
 from sympy.matrices import MatrixBase
 
-from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of
+from derive.algebra.amplitudes import Amplitudes, Determinant, determinant_of, inverse_of
 from derive.algebra.expressions import Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -197,7 +197,7 @@ def _sum_of_squares(system: LinearSystem) -> Expr:
 
     The sum is the trace of -A^2/2, where A is the matrix of the equivalent first-order system.
     """
-    inverse = system.mass.inv()
+    inverse = inverse_of(system.mass)
     turning = inverse * system.turning
     return tidied((inverse * system.stiffness).trace() - (turning * turning).trace() / 2)
 
