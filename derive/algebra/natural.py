@@ -84,9 +84,20 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         for known in _eliminations(chosen, kept):
             form = _with(value, known, chosen)
             cost = _cost(form.value)
-            if cost < least and not form.value.has(I):
+            if cost < least and _is_natural(form.value, chosen):
                 best, least = form, cost
     return best and Shortened(best.value.xreplace(names), tuple(map(names.get, best.used)), best.nonzero)
+
+
+def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
+    """Whether a form is real and contains each quantity, and no sum has both a quantity and a symbol of its formula.
+
+    If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
+    """
+    if form.has(I) or not quantities.keys() <= form.free_symbols:
+        return False
+    sums = [{term.as_coeff_Mul()[1] for term in each.args} for each in form.atoms(Add)]
+    return not any(name in terms and terms & value.free_symbols for name, value in quantities.items() for terms in sums)
 
 
 def _with_sign(name: Symbol, value: Expr) -> Symbol:
@@ -206,7 +217,7 @@ def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:
     by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
     if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
         return by_terms
-    return min((tidied(kept), kept), key=_cost)
+    return min((kept, tidied(kept)), key=_cost)
 
 
 def _is_root(value: Expr) -> bool:

@@ -17,6 +17,7 @@ from derive.algebra.dimensions import Dimension, power, product
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
+DISPLACEMENT = "eta"  # from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
@@ -38,11 +39,18 @@ def plain_first(terms: list[Any]) -> list[Any]:
 
     is_timed = any(term.has(ex.TIME) for term in terms)
 
-    def place(term: Any) -> tuple[int, bool, bool, bool]:
+    def place(term: Any) -> tuple[bool, int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
         is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
-        return len(functions[:1]) + changing, is_fraction, _has_root(term), is_timed and not term.is_number
+        is_displacement = isinstance(term, Symbol) and term.name.partition("_")[0] == DISPLACEMENT  # r_0 + eta
+        return (
+            is_displacement,
+            len(functions[:1]) + changing,
+            is_fraction,
+            _has_root(term),
+            is_timed and not term.is_number,
+        )
 
     return sorted(terms, key=place)
 
