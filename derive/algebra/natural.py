@@ -127,8 +127,10 @@ def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -
 
 def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[tuple[Symbol, Expr]]:
     """Yield each symbol of a formula with its value, if the equation name = formula has one solution for it."""
-    function = INVERSES.get(type(value))
-    left, right = (function(name), value.args[0]) if function else (name, value)
+    left, right = name, value
+    for sign in (1, -1):
+        if function := INVERSES.get(type(sign * value)):
+            left, right = function(sign * name), (sign * value).args[0]
     for symbol in sorted(value.free_symbols - set(kept), key=str):
         found = _solved(left, right, symbol)
         if found is not None:
@@ -230,6 +232,8 @@ def _ranges(quantities: Mapping[Symbol, Expr]) -> dict[Symbol, Range]:
     for name, value in quantities.items():
         if isinstance(value, acos):
             found[name] = Range(Integer(0), _PI)
+        elif isinstance(-value, acos):
+            found[name] = Range(-_PI, Integer(0))
         elif isinstance(value, asin | atan):
             found[name] = Range(-_PI / 2, _PI / 2)
     return found

@@ -92,7 +92,7 @@ class Problem:
     @property
     def asked(self) -> tuple[Word, ...]:
         """The steps that the parts of the problem ask for, and the steps of its limiting cases."""
-        return _asked(self.parts, self.limits)
+        return _asked(self.parts, self.limits, self.drawings)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -186,7 +186,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     _check_cases(written.parts, drawings, faults)
-    asked, given = _asked(written.parts, written.limits), (pinned.givens, pinned.measured, pinned.described)
+    _check_plots(drawings, script, faults)
+    asked, given = _asked(written.parts, written.limits, drawings), (pinned.givens, pinned.measured, pinned.described)
     warnings = () if faults else unused_in(written, asked, *given)
     faults.stop()
     assert written.title is not None
@@ -218,11 +219,12 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     )
 
 
-def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word, ...]:
+def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Iterable[Placement]) -> tuple[Word, ...]:
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    for name in (*answers, *limited):  # the step of a limit may also be an answer of a part
+    plotted = [drawing.plot for drawing in drawings if drawing.plot]
+    for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
 
@@ -236,12 +238,30 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
             faults.error("unknown-drawing", f"no drawing `{cases}` has cases", cases.place, help=help_line)
 
 
+def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
+    """Check that a drawing with `plot` has `against` and `range`, and that a script of the engine draws it."""
+    for drawing in drawings:
+        if drawing.plot and isinstance(script, Script):
+            message, help_line = (
+                "`plot` has no effect: the script of the problem draws its plots",
+                "call `plot(...)` there",
+            )
+            faults.error("unused-key", message, drawing.plot.place, help=help_line)
+        elif drawing.plot and (drawing.against is None or drawing.range is None):
+            message = f"the plot `{drawing.key}` needs `against`, a letter, and `range`, its two ends"
+            faults.error(
+                "missing-key", message, drawing.place, help="such as `against: theta, range: [-90 deg, 90 deg]`"
+            )
+        elif drawing.against and not drawing.plot:
+            faults.error("unused-key", "`against` has no effect without `plot`", drawing.against.place)
+
+
 def run_solve(problem: Problem, record: Run | None = None) -> object:
     """Return what the script's `solve()` returns for the given values; its steps and assumptions are added to the
     record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
-            return problem.script.stock.answers(problem.described).solve(problem.asked)
+            return problem.script.stock.answers(problem.described).solve(problem.asked, problem.drawings)
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 

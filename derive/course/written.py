@@ -130,6 +130,10 @@ class DrawingKeys(Record):
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
+    plot: Word | None = key(
+        "for a script of the engine: the answer whose curve is drawn, such as `potential_energy`", TEXT
+    )
+    against: Word | None = key("the coordinate or the letter on the horizontal axis of a plot", TEXT)
     ends: tuple[Tree, ...] | None = key(
         "the two ends of a plot, such as `[-60 deg, 60 deg]`",
         list_of(SCALAR, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),

@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
+from derive.course.placement import Placement
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -69,7 +70,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
         }
 
-    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw the system."""
         if self.described.given is None:
             with told_at(self.described.place):
@@ -81,7 +82,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             if sliding is not None:
                 with told_at(sliding):
                     check_starts(self.described.results, assumed())
-        answers = super().solve(asked)
+        answers = super().solve(asked, drawings)
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
