@@ -39,9 +39,9 @@ def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
     title = keys["title"].reader.read(named, "title", faults) if named is not None else None
     points = POINTS.read(stated, "points", faults) if stated is not None else None
     total = points_in_all(points, None, parts, faults)
-    if faults or not isinstance(title, Prose) or title.mentions:
+    if faults or not isinstance(title, Prose) or title.plain is None:
         return None
-    return "" if total is None else points_text(total), " ".join(title.text.split())
+    return "" if total is None else points_text(total), title.plain
 
 
 def _glanced(node: Tree, faults: Faults) -> Question:
@@ -58,10 +58,9 @@ def _in_full(root: Path, problem_id: str) -> tuple[str, str]:
     faults = Faults()
     written = written_problem(root, problem_id, faults, quickly=True)
     points = written.points_in_all(faults)
-    if faults or not written.title or written.title.mentions:
+    title = written.title.plain if written.title and not faults else None
+    if title is None:
         title = _title_with_mathematics(root, problem_id)
-    else:
-        title = " ".join(written.title.text.split())
     return "" if points is None else points_text(points), title
 
 

@@ -29,6 +29,7 @@ from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases, limits_left_out
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, letters_not_drawn
+from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
@@ -109,6 +110,7 @@ class _Writer:
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []
         self.dimensions = dict(like.dimensions) if like else self._dimensions()
+        self.formulas = Formulas(problem, self.dimensions)
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
@@ -140,11 +142,13 @@ class _Writer:
         limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
+        title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
+        self.faults += self.formulas.faults
         checks = checks_of([*self.selection.steps, *self.values.values()], self.words, compared)
         self.faults += unknown_keys(problem, self.derivation, self.words)
         return Document(
             id=problem.id,
-            title=told(problem.title.pieces, self.page_names, self._unknown),
+            title=title,
             points=problem.points,
             statement=statement,
             strategy=strategy,
@@ -162,6 +166,7 @@ class _Writer:
                 # An author cannot edit a script of the engine, so its warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
+                *self.formulas.warnings,
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),
@@ -184,7 +189,7 @@ class _Writer:
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
-        return told(pieces, names, self._unknown, self.references.node)
+        return told(pieces, names, self._unknown, self.references.node, self.formulas.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = (

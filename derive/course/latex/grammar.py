@@ -25,7 +25,7 @@ from derive.course.latex.integrals import Sign, differential_behind, differentia
 from derive.course.latex.letters import letter_at
 from derive.course.latex.titles import is_derivative, without_title
 from derive.course.latex.tokens import DEEPEST_FORMULA, Argument, Token
-from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS
+from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS, SIZES_COMPARED
 
 _TIMES = ("\\cdot", "\\times", "*")
 _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
@@ -87,7 +87,8 @@ class Formula(Brackets):
 
     def relation(self, cursor: Cursor) -> str | None:
         token = cursor.token
-        if token and (mark := RELATIONS.get(cursor.written)):
+        known = {**RELATIONS, **SIZES_COMPARED} if self.in_prose else RELATIONS
+        if token and (mark := known.get(cursor.written)):
             cursor.at += 1
             return mark
         return None
@@ -236,6 +237,8 @@ class Formula(Brackets):
             return not cursor.inside_bars
         if token.kind in ("number", "letter", "open", "matrix"):
             return True
+        if self.unit_at(cursor):
+            return True
         names = FRACTIONS | {"sqrt", "pi"} | set(LATEX_FUNCTIONS)
         return token.kind == "command" and (token.text in names or letter_at(token) is not None)
 
@@ -288,6 +291,9 @@ class Formula(Brackets):
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
         token = cursor.token
         assert token is not None
+        if (unit := self.unit_at(cursor)) is not None:
+            cursor.at += 1
+            return unit
         if (letter := self.letter_or_axis(cursor)) is not None:
             return letter
         cursor.at += 1

@@ -44,6 +44,7 @@ RELATIONS: Mapping[str, str] = {
     "\\simeq": "~",
 }
 
+SIZES_COMPARED: Mapping[str, str] = {"\\ll": "<<", "\\gg": ">>"}  # only prose may say `much less`
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
 ARROW_COMMANDS = frozenset(["vec", "overrightarrow"])
@@ -110,5 +111,5 @@ ARGUMENTS: Mapping[str, str] = {
 KNOWN = frozenset(
     [*GREEK_COMMANDS, *LATEX_FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
     + ["pi", "cdot", "times", "pm", "mp", "int", "left", "right", "circ", "lvert", "rvert", "lbrace", "rbrace"]
-    + ["imath", "jmath", "partial", "prime"]
+    + ["imath", "jmath", "partial", "prime", "ll", "gg"]
 )

@@ -1,0 +1,148 @@
+"""The formulas in an author's prose: read in the letters of the problem, so that letters and dimensions are checked.
+
+A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. A formula
+that cannot be read is printed if it has only commands that may be quoted, and its author is warned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from sympy import MatrixSymbol, Symbol
+
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.expressions import AXES, TIME, scalar
+from derive.algebra.kinds import named
+from derive.course.expression import Declared
+from derive.course.problem import Problem
+from derive.course.prose import TexFormula
+from derive.course.transcript import Transcript
+from derive.errors import Complaint, Rejected
+from derive.page.wording import Math
+
+if TYPE_CHECKING:
+    from derive.course.latex import ReadMath, Side
+
+_WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large"}  # errors in a formula
+_VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
+
+
+@dataclass(frozen=True)
+class _Derived(Declared):
+    """A symbol that the steps introduce; its dimension is known, and perhaps no kind has it."""
+
+    derived: Dimension = NUMBER
+
+    @property
+    def dimension(self) -> Dimension:
+        return self.derived
+
+
+class Formulas:
+    """Reads the formulas of one page and collects their errors and warnings.
+
+    known   the dimensions of all symbols of the page; None for a symbol whose dimension is unknown
+    """
+
+    def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None]):
+        self.letters = _letters(problem, known)
+        self.unknown = {symbol for symbol, dimension in known.items() if dimension is None}
+        self.vectors = {name.name: name for name in known if isinstance(name, MatrixSymbol)}
+        self.faults: dict[Complaint, None] = {}
+        self.warnings: dict[Complaint, None] = {}
+
+    def node(self, formula: TexFormula) -> Math:
+        """Return the formula for the page. After an error or a warning it is printed as it is written."""
+        from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
+
+        try:
+            read = self._read(formula)
+        except Rejected as error:
+            self._complain(formula, error.complaints)
+            return Math(Transcript(formula.tex))
+        values = [value for side in read.sides for entries in side.branches for value, _ in entries]
+        if len(values) == 1 and isinstance(values[0], Symbol):
+            return Math(self.vectors.get(values[0].name, values[0]))
+        letters = {letter.name for value in values for letter in value.free_symbols}
+        vectors = [vector for name, vector in self.vectors.items() if name in letters]
+        return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
+
+    def _read(self, formula: TexFormula) -> ReadMath:
+        from derive.course.latex import read_latex
+        from derive.course.latex.quoting import Unquotable, quoted_formula
+
+        try:
+            read = read_latex(formula.scalar, self.letters, in_prose=True)
+        except Rejected as error:
+            if not self.unknown or error.complaints[0].code != "dimension":
+                raise
+            read = read_latex(formula.scalar, self.letters, in_prose=True, homogeneous=False)
+            if not self._has_unknown(read):
+                raise
+        else:
+            if not self._has_unknown(read):
+                for (left, right), mark in zip(pairwise(read.sides), read.marks[1:], strict=True):
+                    _compare(left, right, mark)
+        try:
+            quoted_formula(formula.scalar.text)
+        except Unquotable as error:
+            raise Rejected(_unquotable(formula, error)) from None
+        return read
+
+    def _has_unknown(self, read: ReadMath) -> bool:
+        entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
+        return any(self.unknown & value.free_symbols for value in entries)
+
+    def _complain(self, formula: TexFormula, reasons: tuple[Complaint, ...]) -> None:
+        """Record errors, or a warning that the formula is printed without being checked."""
+        from derive.course.latex.quoting import Unquotable, quoted_formula
+
+        wrong = [each for each in reasons if each.code in _WRONG]
+        first = reasons[0]
+        if wrong:
+            self.faults.update(dict.fromkeys(wrong))
+            return
+        try:
+            quoted_formula(formula.scalar.text)
+        except Unquotable as error:
+            refused = first if first.code != "latex" or "not known" in first.message else _unquotable(formula, error)
+            self.faults[replace(refused, code="formula-in-prose")] = None
+            return
+        message = f"this formula is printed, but its letters and dimensions are not checked: {first.message}"
+        self.warnings[Complaint("unread-formula", message, first.place, (), first.help, severity="warning")] = None
+
+
+def _unquotable(formula: TexFormula, error: Any) -> Complaint:
+    message = str(error).replace("be quoted", "be printed")
+    return Complaint("formula-in-prose", message, formula.scalar.place_within(error.at))
+
+
+def _compare(left: Side, right: Side, mark: str) -> None:
+    """Reject two sides of a chain that differ in shape or in dimension; zero fits every dimension."""
+    if left.shape != right.shape:
+        message = f"`{left.text}` and `{right.text}` are not both scalars, or not both vectors or matrices of one size"
+        raise Rejected(Complaint("dimension", message, right.place))
+    for mine, others in zip(left.branches[0], right.branches[0], strict=True):
+        (one, dimension), (other, its_dimension) = mine, others
+        if dimension != its_dimension and one != 0 and other != 0:
+            message = f"`{left.text}` is {named(dimension)}, but `{right.text}` is {named(its_dimension)}"
+            raise Rejected(Complaint("dimension", f"{message}: they cannot be compared", right.place))
+
+
+def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
+    """Return the letters that a formula may have: those of the problem, axes, time, and the symbols of its steps."""
+    found: dict[str, Declared] = {axis: Declared(axis, scalar(axis), "length") for axis in AXES}
+    found[TIME.name] = Declared(TIME.name, TIME, "time")
+    for vector in (symbol for symbol in known if isinstance(symbol, MatrixSymbol)):
+        found[vector.name] = _derived(Symbol(vector.name, real=True), known[vector])
+    found.update({symbol.name: _derived(symbol, known[symbol]) for symbol in known if isinstance(symbol, Symbol)})
+    found.update({each.name: each for each in problem.letters})
+    variants = {f"var{name}": found[name] for name in found if name.partition("_")[0] in _VARIANTS}
+    return {**variants, **found}
+
+
+def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:
+    return _Derived(symbol.name, symbol, "", derived=dimension or NUMBER)
