@@ -6,12 +6,13 @@ that cannot be read is printed if it has only commands that may be quoted, and i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from sympy import MatrixSymbol, Symbol
+from sympy import Integer, MatrixSymbol, Symbol, oo
 
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import AXES, TIME, scalar
@@ -26,8 +27,12 @@ from derive.page.wording import Math
 if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
-_WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large"}  # errors in a formula
+_WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
+_LETTER = re.compile(
+    r"(\\d*dot|(?P<arrow>\\(vec|overrightarrow|boldsymbol|bm|mathbf)))?[{ ]*(\\[A-Za-z]+|[A-Za-z])\}?"
+    r"(_(\w|\\[A-Za-z]+|\{[\w, ]+\}|\{\\[a-z]+(\{\w+\})?\}))?\}?"
+)
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,9 @@ class Formulas:
     def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None]):
         self.letters = _letters(problem, known)
         self.unknown = {symbol for symbol, dimension in known.items() if dimension is None}
+        self.scalars = {*known, *(letter.symbol for letter in problem.letters)}
         self.vectors = {name.name: name for name in known if isinstance(name, MatrixSymbol)}
+        self.numbers = {measured.symbol: measured for measured in problem.measured}
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
 
@@ -64,11 +71,17 @@ class Formulas:
             self._complain(formula, error.complaints)
             return Math(Transcript(formula.tex))
         values = [value for side in read.sides for entries in side.branches for value, _ in entries]
-        if len(values) == 1 and isinstance(values[0], Symbol):
-            return Math(self.vectors.get(values[0].name, values[0]))
+        if len(values) == 1 and (lone := _LETTER.fullmatch(formula.tex)):
+            return Math(self._letter(values[0], bool(lone["arrow"])))
         letters = {letter.name for value in values for letter in value.free_symbols}
         vectors = [vector for name, vector in self.vectors.items() if name in letters]
         return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
+
+    def _letter(self, symbol: Symbol, is_vector: bool) -> Any:
+        """Return a lone letter as the page prints it; the vector of that name if it is written as a vector, or if no
+        scalar has the name."""
+        vector = self.vectors.get(symbol.name)
+        return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
     def _read(self, formula: TexFormula) -> ReadMath:
         from derive.course.latex import read_latex
@@ -83,14 +96,24 @@ class Formulas:
             if not self._has_unknown(read):
                 raise
         else:
-            if not self._has_unknown(read):
-                for (left, right), mark in zip(pairwise(read.sides), read.marks[1:], strict=True):
-                    _compare(left, right, mark)
+            for (left, right), mark in zip(pairwise(read.sides), read.marks[1:], strict=True):
+                if not self._has_unknown(read):
+                    _compare(left, right)
+                self._check_number(left, right, mark)
         try:
             quoted_formula(formula.scalar.text)
         except Unquotable as error:
             raise Rejected(_unquotable(formula, error)) from None
         return read
+
+    def _check_number(self, left: Side, right: Side, mark: str) -> None:
+        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives another number for m."""
+        one, other = left.branches[0][0][0], right.branches[0][0][0]
+        if mark == "=" and one in self.numbers and other.is_number and other != self.numbers[one].si:
+            known = self.numbers[one]
+            message = f"`{left.text}` is {known.number} {known.unit}".rstrip() + f", so it is not `{right.text}`"
+            help_line = f"write `<<{one.name}>>`, which is printed with its number"
+            raise Rejected(Complaint("wrong-number", message, right.place, (), help_line))
 
     def _has_unknown(self, read: ReadMath) -> bool:
         entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
@@ -112,7 +135,8 @@ class Formulas:
             self.faults[replace(refused, code="formula-in-prose")] = None
             return
         message = f"this formula is printed, but its letters and dimensions are not checked: {first.message}"
-        self.warnings[Complaint("unread-formula", message, first.place, (), first.help, severity="warning")] = None
+        help_line = first.help if first.code == "ambiguous" else None
+        self.warnings[Complaint("unread-formula", message, first.place, (), help_line, severity="warning")] = None
 
 
 def _unquotable(formula: TexFormula, error: Any) -> Complaint:
@@ -120,14 +144,14 @@ def _unquotable(formula: TexFormula, error: Any) -> Complaint:
     return Complaint("formula-in-prose", message, formula.scalar.place_within(error.at))
 
 
-def _compare(left: Side, right: Side, mark: str) -> None:
-    """Reject two sides of a chain that differ in shape or in dimension; zero fits every dimension."""
+def _compare(left: Side, right: Side) -> None:
+    """Reject two sides of a chain that differ in shape or in dimension; zero and infinity fit every dimension."""
     if left.shape != right.shape:
         message = f"`{left.text}` and `{right.text}` are not both scalars, or not both vectors or matrices of one size"
         raise Rejected(Complaint("dimension", message, right.place))
     for mine, others in zip(left.branches[0], right.branches[0], strict=True):
         (one, dimension), (other, its_dimension) = mine, others
-        if dimension != its_dimension and one != 0 and other != 0:
+        if dimension != its_dimension and not {one, other} & {Integer(0), oo, -oo}:
             message = f"`{left.text}` is {named(dimension)}, but `{right.text}` is {named(its_dimension)}"
             raise Rejected(Complaint("dimension", f"{message}: they cannot be compared", right.place))
 

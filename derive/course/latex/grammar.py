@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NoReturn
 
-from sympy import Integer, Rational, exp, pi, sqrt
+from sympy import Integer, Rational, exp, oo, pi, sqrt
 
 from derive.algebra.dimensions import NUMBER
 from derive.course.arithmetic import Term
@@ -25,7 +25,7 @@ from derive.course.latex.integrals import Sign, differential_behind, differentia
 from derive.course.latex.letters import letter_at
 from derive.course.latex.titles import is_derivative, without_title
 from derive.course.latex.tokens import DEEPEST_FORMULA, Argument, Token
-from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS, SIZES_COMPARED
+from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS, RELATIONS_IN_PROSE
 
 _TIMES = ("\\cdot", "\\times", "*")
 _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
@@ -87,7 +87,7 @@ class Formula(Brackets):
 
     def relation(self, cursor: Cursor) -> str | None:
         token = cursor.token
-        known = {**RELATIONS, **SIZES_COMPARED} if self.in_prose else RELATIONS
+        known = RELATIONS_IN_PROSE if self.in_prose else RELATIONS
         if token and (mark := known.get(cursor.written)):
             cursor.at += 1
             return mark
@@ -237,7 +237,7 @@ class Formula(Brackets):
             return not cursor.inside_bars
         if token.kind in ("number", "letter", "open", "matrix"):
             return True
-        if self.unit_at(cursor):
+        if self.unit_at(cursor) or self.in_prose and token.text == "infty":
             return True
         names = FRACTIONS | {"sqrt", "pi"} | set(LATEX_FUNCTIONS)
         return token.kind == "command" and (token.text in names or letter_at(token) is not None)
@@ -303,6 +303,8 @@ class Formula(Brackets):
             return self.matrix(token, depth)
         if token.kind in ("open", "bar"):
             return self.bracketed(cursor, token, depth)
+        if token.text == "infty" and self.in_prose:
+            return Term(oo, NUMBER, token.start, token.end)
         if token.text == "pi":
             return Term(pi, NUMBER, token.start, token.end)
         if token.text in FRACTIONS:

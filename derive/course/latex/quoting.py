@@ -12,13 +12,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from derive.course.latex.vocabulary import ALIGNMENTS, ARGUMENTS, KNOWN, MATRICES, SIZES, SPACES, WORDS
+from derive.course.latex.vocabulary import ALIGNMENTS, ARGUMENTS, KNOWN, MATRICES, ONLY_PRINTED, SIZES, SPACES, WORDS
 
 LONGEST_QUOTATION = 2000
 _COMMANDS = (KNOWN | SPACES | SIZES) - {"\n", "it", "rm", "bf", "limits", "nolimits", "notag", "nonumber"}
-_COMMANDS |= {"iint", "iiint", "oint", "sum", "prod", "cdots", "ldots", "min", "max", "lim", "{", "}", "|"}
-_COMMANDS |= {"to", "infty", "propto", "equiv", "sim", "in", "Rightarrow", "perp", "parallel", "angle", "nabla"}
-_COMMANDS |= {"langle", "rangle", "bar", "tilde"}
+_COMMANDS |= ONLY_PRINTED | {"{", "}", "|"}
 _PIECE = re.compile(r"\\(?P<name>[A-Za-z]+)|\\(?P<sign>.)|(?P<plain>.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\s*\{([a-z]+\*?)\}(?:\{([lcr|\s]+)\})?")
 _SIGNS = frozenset("+-*/=<>,.'()[]|^_:;! \n&{}~") | frozenset(map(chr, range(48, 58)))

@@ -113,6 +113,8 @@ class _Reader:
             if item == Upright("'") and items and isinstance(items[-1], Name):
                 items[-1] = replace(items[-1], base=f"{items[-1].base}'")
                 continue
+            if _is_of_letters(item) and items and isinstance(items[-1], Name):
+                items.append(Operator("start"))  # U(x) is a function, so no space follows U
             if isinstance(item, Upright) and item.text[:1].isalpha() and items and isinstance(items[-1], Digits):
                 items.append(THIN_SPACE)  # between a number and its unit
             items += [] if item is None else [item]
@@ -270,6 +272,15 @@ class _Reader:
             end = self.tokens.index("}", self.at)
             found, self.at = "".join(self.tokens[self.at + 1 : end]), end + 1
         return found
+
+
+def _is_of_letters(item: Layout | None) -> bool:
+    """Return whether a layout is a list of letters or numbers in brackets, as the arguments of a function: (r, t)."""
+    if not isinstance(item, Fenced) or item.kind != "(":
+        return False
+    arguments = item.inside.items if isinstance(item.inside, Row) else (item.inside,)
+    lone = all(isinstance(each, Name | Digits) for each in arguments[::2])
+    return bool(arguments) and lone and all(each == Operator("comma") for each in arguments[1::2])
 
 
 def _named(inside: Layout, dots: int = 0, style: str = "", accent: str = "") -> Layout:
