@@ -117,7 +117,7 @@ def _check_characters(problem: Problem) -> None:
         if at is not None:
             message = f"`{prose.text[at]}` cannot be printed"
             help_line = "the fonts of the page have Latin and Greek letters and the usual signs"
-            faults.append(Complaint("character", message, prose.scalar.place_within(at, 1), help=help_line))
+            faults.append(Complaint("character", message, prose.place_within(at, 1), help=help_line))
     if faults:
         raise Rejected(faults)
 

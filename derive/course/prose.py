@@ -10,7 +10,8 @@ Text is data. Prose has no template commands; it is escaped when it is printed.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from derive.course.schema import LEFT_EMPTY, TEXT, Reader, wrong_type
@@ -32,6 +33,7 @@ _PIECE = re.compile(
 )
 _PRICE = re.compile(r"\d\s?\$|\$\s?\d", re.ASCII)
 _LATEX = re.compile(r"\\[A-Za-z]+(?:\{\w*\})*|\\[(\[]|\w(?P<power>\^)[\w{(+-]+|\b[A-Za-z](?P<below>_)[\w{]+", re.ASCII)
+_LETTER = re.compile(r"\\?((?<=\\)[A-Za-z]+|[A-Za-z])\}?(?:_(\{[^{}]*\}|\\?\w))?", re.ASCII)
 _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
 _DOLLAR = "a formula is between two dollar signs, `$x^2$`; write `\\$` for a dollar sign"
 
@@ -55,20 +57,26 @@ class TexFormula:
     def tex(self) -> str:
         return " ".join(self.scalar.text.split())
 
+    @property
+    def names(self) -> set[str]:
+        """The names that its letters may have, without a reading of the formula: `I_{zz}` may be `I_zz`."""
+        found = _LETTER.findall(self.scalar.text)
+        return {f"{base}_{'_'.join(re.findall('[A-Za-z0-9]+', below))}" if below else base for base, below in found}
+
 
 @dataclass(frozen=True)
 class Prose:
-    """Text with mentions and formulas; `pieces` is the whole text in order, so that no other code needs to parse it."""
+    """Text with mentions and formulas; `pieces` is the whole text in order, so that no other code needs to parse it.
 
-    scalar: Scalar
+    `part(index, width)` returns the `width` characters that begin at `index` in the text, with their place in the file.
+    """
 
-    @property
-    def text(self) -> str:
-        return self.scalar.text
+    text: str
+    place: Place
+    part: Callable[[int, int], Scalar] = field(repr=False, compare=False)
 
-    @property
-    def place(self) -> Place:
-        return self.scalar.place
+    def place_within(self, index: int, width: int) -> Place:
+        return self.part(index, width).place
 
     @cached_property
     def pieces(self) -> tuple[str | Mention | TexFormula, ...]:
@@ -86,9 +94,9 @@ class Prose:
         if match["dollar"]:
             return "$"
         if match["formula"]:
-            return TexFormula(self.scalar.piece(start + 1, end - start - 2))
+            return TexFormula(self.part(start + 1, end - start - 2))
         of = PROBLEM if match["problem"] else match["of"] or ""
-        return Mention(match["name"] or match["problem"] or "", self.scalar.place_within(start, end - start), of)
+        return Mention(match["name"] or match["problem"] or "", self.place_within(start, end - start), of)
 
     @property
     def mentions(self) -> tuple[Mention, ...]:
@@ -117,7 +125,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
         if odd := match["odd"]:
             place = node.place_within(match.start(), len(odd))
             faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help=_HOW)
-    prose = Prose(node)
+    prose = Prose(node.text, node.place, node.piece)
     for formula in prose.formulas:
         _check_formula(formula, node.style, faults)
     _check_dollars(node, faults)
@@ -176,7 +184,7 @@ def latex_in(prose: Prose) -> Complaint | None:
     return Complaint(
         "latex-in-prose",
         f"LaTeX is read only between dollar signs: `{abridged(first[0])}` is printed unchanged",
-        prose.scalar.place_within(first.start(), len(first[0])),
+        prose.place_within(first.start(), len(first[0])),
         notes,
         f"write `${first[0]}$`" if first[0][-1] not in "([" else "write a formula between dollar signs: `$x^2$`",
         severity="warning",

@@ -358,7 +358,9 @@ class _Reader:
             return Scalar(f"*{event.anchor}", "", start, end, self.source)
         if odd := _ODD.search(event.value):
             # In double quotes a character can be written as its code.
-            self.refuse("control-character", f"the character U+{ord(odd[0]):04X} is not text", event, end - start)
+            help_line = "put LaTeX in single quotes, or write `\\\\` for a backslash" if event.style == '"' else None
+            message = f"the character U+{ord(odd[0]):04X} is not text"
+            self.refuse("control-character", message, event, end - start, help_line)
         return Scalar(event.value, event.style or "", start, end, self.source)
 
     def mapping(self, opening: Any, depth: int) -> Mapping:

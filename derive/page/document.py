@@ -33,6 +33,7 @@ from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
+from derive.page.numbers_given import numbers_left, numbers_of_cases
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
@@ -58,6 +59,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
+CASES = "cases"  # in a question, the numbers of the cases of its plots
 HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
 
@@ -139,6 +141,8 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        asked = [node for part in parts for node in part.ask]
+        statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
@@ -238,7 +242,19 @@ class _Writer:
             self._append(blocks, value, framed=True)
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
-        return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
+        return PartPage(label, self._question(part, own), part.points, placed, part.extra)
+
+    def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
+        """Return the question of a part; the numbers of the cases of its plots belong to the question."""
+        plots = {part.cases, *(drawing.key for drawing in drawings)}
+        cases = [n for each in self.problem.drawings if each.key in plots for n in [numbers_of_cases(each.cases)] if n]
+        if not cases:
+            return self._told(part.ask.pieces)
+        named = {CASES: joined(cases, self.words.labels["and"])}
+        asked = self._told(part.ask.pieces, named)
+        if any(mention.name == CASES and not mention.of for mention in part.ask.mentions):
+            return asked
+        return (*asked, Text(" "), *filled(self.words.labels["take"], {"numbers": named[CASES]}))
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""

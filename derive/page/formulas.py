@@ -22,7 +22,7 @@ from derive.course.problem import Problem
 from derive.course.prose import TexFormula
 from derive.course.transcript import Transcript
 from derive.errors import Complaint, Rejected
-from derive.page.wording import Math
+from derive.page.wording import Math, Text
 
 if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
@@ -61,17 +61,17 @@ class Formulas:
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
 
-    def node(self, formula: TexFormula) -> Math:
-        """Return the formula for the page. After an error or a warning it is printed as it is written."""
+    def node(self, formula: TexFormula) -> Math | Text:
+        """Return the formula for the page; after an error, its characters."""
         from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
 
         try:
             read = self._read(formula)
         except Rejected as error:
-            self._complain(formula, error.complaints)
-            return Math(Transcript(formula.tex))
+            is_printable = self._complain(formula, error.complaints)
+            return Math(Transcript(quoted_formula(formula.tex))) if is_printable else Text(formula.tex)
         values = [value for side in read.sides for entries in side.branches for value, _ in entries]
-        if len(values) == 1 and (lone := _LETTER.fullmatch(formula.tex)):
+        if len(values) == 1 and isinstance(values[0], Symbol) and (lone := _LETTER.fullmatch(formula.tex)):
             return Math(self._letter(values[0], bool(lone["arrow"])))
         letters = {letter.name for value in values for letter in value.free_symbols}
         vectors = [vector for name, vector in self.vectors.items() if name in letters]
@@ -119,24 +119,26 @@ class Formulas:
         entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
         return any(self.unknown & value.free_symbols for value in entries)
 
-    def _complain(self, formula: TexFormula, reasons: tuple[Complaint, ...]) -> None:
-        """Record errors, or a warning that the formula is printed without being checked."""
+    def _complain(self, formula: TexFormula, reasons: tuple[Complaint, ...]) -> bool:
+        """Record errors, or a warning that the formula is printed without being checked; return whether it is
+        printed."""
         from derive.course.latex.quoting import Unquotable, quoted_formula
 
         wrong = [each for each in reasons if each.code in _WRONG]
         first = reasons[0]
         if wrong:
             self.faults.update(dict.fromkeys(wrong))
-            return
+            return False
         try:
             quoted_formula(formula.scalar.text)
         except Unquotable as error:
             refused = first if first.code != "latex" or "not known" in first.message else _unquotable(formula, error)
             self.faults[replace(refused, code="formula-in-prose")] = None
-            return
+            return False
         message = f"this formula is printed, but its letters and dimensions are not checked: {first.message}"
         help_line = first.help if first.code == "ambiguous" else None
         self.warnings[Complaint("unread-formula", message, first.place, (), help_line, severity="warning")] = None
+        return True
 
 
 def _unquotable(formula: TexFormula, error: Any) -> Complaint:

@@ -24,6 +24,8 @@ from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Rejected, did_you_mean
 
+_SPACES = re.compile(r"\\[, ]|~")
+_NO_BRACES = str.maketrans("", "", "{}")
 _DIFFERENTIAL = re.compile(r"(\s|\\[,!])*\\?[A-Za-z]")
 
 
@@ -132,23 +134,37 @@ class Functions(Grids):
 
     # -- units ----------------------------------------------------------------------------------------------------
 
-    def unit_at(self, cursor: Cursor) -> Term | None:
-        r"""Return the size in the SI of the unit at the cursor, `\mathrm{m/s^2}` or `\text{ kg}`; only prose has units.
+    def unit_at(self, cursor: Cursor) -> str:
+        r"""Return the unit at the cursor, `\mathrm{m/s^2}` or `\text{ kg}`, as plain text; "" without a unit.
 
-        An upright word is a declared letter rather than a unit, except after a number.
+        Only prose has units. An upright word is a declared letter rather than a unit, except after a number.
         """
         token = cursor.token
         if not self.in_prose or token is None or token.kind != "command" or token.text not in FONTS | WORDS:
-            return None
+            return ""
         inside = token.arguments[0]
-        text = re.sub(r"\\[, ]|~|[{}]", " ", self.text[inside.start : inside.end]).strip() if inside else ""
-        if text in self.letters.declared and not (cursor.at and cursor.before.kind == "number"):
-            return None
+        text = _SPACES.sub(" ", self.text[inside.start : inside.end].translate(_NO_BRACES)).strip() if inside else ""
+        is_letter = text in self.letters.declared and not (cursor.at and cursor.before.kind == "number")
+        return "" if is_letter or self.size_of_unit(text, token) is None else text
+
+    def size_of_unit(self, text: str, token: Token) -> Term | None:
         try:
-            unit = read_unit(re.sub(r"\^ *", "^", text))
+            unit = read_unit(text)
         except Rejected:
             return None
         return Term(unit.factor, unit.dimension, token.start, token.end)
+
+    def unit(self, text: str, cursor: Cursor) -> Term:
+        r"""Return the size in the SI of the unit at the cursor; a power belongs to its last factor: `\text{m/s}^2`."""
+        token = cursor.token
+        assert token is not None
+        cursor.at += 1
+        if cursor.written == "^":
+            text += "^" + "".join(each.text for each in self.script(cursor).tokens)
+        size = self.size_of_unit(text, token)
+        if size is None:
+            self.refuse("latex", f"`{text}` is not a unit", token.start, cursor.before.end)
+        return size
 
     # -- functions ------------------------------------------------------------------------------------------------
 

@@ -291,9 +291,8 @@ class Formula(Brackets):
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
         token = cursor.token
         assert token is not None
-        if (unit := self.unit_at(cursor)) is not None:
-            cursor.at += 1
-            return unit
+        if unit := self.unit_at(cursor):
+            return self.unit(unit, cursor)
         if (letter := self.letter_or_axis(cursor)) is not None:
             return letter
         cursor.at += 1

@@ -20,7 +20,7 @@ _COMMANDS |= ONLY_PRINTED | {"{", "}", "|"}
 _PIECE = re.compile(r"\\(?P<name>[A-Za-z]+)|\\(?P<sign>.)|(?P<plain>.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\s*\{([a-z]+\*?)\}(?:\{([lcr|\s]+)\})?")
 _SIGNS = frozenset("+-*/=<>,.'()[]|^_:;! \n&{}~") | frozenset(map(chr, range(48, 58)))
-_WORD = re.compile(r"\s*\{([A-Za-z0-9 ,.\-]*)\}")
+_WORD = re.compile(r"\s*\{([A-Za-z0-9 ,.\-/]*)\}")
 _ARGUMENT = re.compile(r"\s*(?:\{|[A-Za-z0-9]|\\[A-Za-z])")
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import accumulate
 
 from derive.course.latex.quoting import Quoted, quoted
 from derive.course.latex.vocabulary import (
@@ -59,7 +60,7 @@ _OPERATORS = {
 }
 _UPRIGHT = {"\\partial": "partial", "\\circ": "°", "\\min": "min", "\\max": "max", "\\lim": "lim"}
 _PRIMES = (Sign("prime"), Upright("'"))
-_OTHER_LETTERS = {"ell": "ℓ", "hbar": "ħ", "imath": "i", "jmath": "j"}
+_OTHER_LETTERS = {"imath": "i", "jmath": "j"}
 _OPENING = {"(": "(", "[": "[", "\\{": "{", "\\lbrace": "{", "|": "|", "\\lvert": "|", "\\|": "|"}
 _CLOSING = frozenset([")", "]", "\\}", "\\rbrace", "|", "\\rvert", "\\|", "."])
 _NOTHING = Row(())
@@ -115,7 +116,8 @@ class _Reader:
                 continue
             if _is_of_letters(item) and items and isinstance(items[-1], Name):
                 items.append(Operator("start"))  # U(x) is a function, so no space follows U
-            if isinstance(item, Upright) and item.text[:1].isalpha() and items and isinstance(items[-1], Digits):
+            word = item.base if isinstance(item, Raised) else item
+            if isinstance(word, Upright) and word.text[:1].isalpha() and items and isinstance(items[-1], Digits):
                 items.append(THIN_SPACE)  # between a number and its unit
             items += [] if item is None else [item]
         return row(*items) if items else _NOTHING
@@ -198,12 +200,14 @@ class _Reader:
 
     def words(self) -> Layout:
         """Return the argument of a command for upright text as a word; a unit keeps the spaces between its factors."""
-        end = self.tokens.index("}", self.at) if self.next == "{" else self.at
-        text = "".join(" " if token == "\\," else token for token in self.tokens[self.at : end + 1])
-        if re.fullmatch(r"\{[A-Za-z0-9 /^-]*\}", text):
-            self.at = end + 1
-            return Upright(text[1:-1].strip())
-        return Upright(in_one_line(self.group()).replace(" ", ""))
+        rest = self.tokens[self.at :]
+        depths = list(accumulate({"{": 1, "}": -1}.get(token, 0) for token in rest))
+        end = depths.index(0) + 1 if 0 in depths else 0
+        text = "".join({"\\,": " ", "{": "", "}": ""}.get(token, token) for token in rest[:end]).strip()
+        if re.fullmatch(r"[A-Za-z0-9 /^-]+", text):
+            self.at += end
+            return Upright(text)
+        return self.group()
 
     def function(self, name: str) -> Layout:
         """Return a function with its argument: the next factor, or a number and a letter."""

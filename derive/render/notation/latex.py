@@ -14,6 +14,7 @@ from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
     SCRIPT_LETTERS,
+    SIGNS,
     Applied,
     Array,
     Bracketed,
@@ -102,10 +103,15 @@ def _with_strokes(layout: Layout) -> Layout:
         return Fenced(_with_strokes(layout.inside), layout.kind)
     items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
-    alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
+    alone = [all(x is None or _parts_terms(x) for x in (around[i], around[i + 2])) for i in range(len(items))]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
         return row(*items)  # if one fraction cannot be written a/b, no fraction is changed
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
+
+
+def _parts_terms(item: Layout) -> bool:
+    """Return whether an item separates terms: a sign of a sum, or a relation."""
+    return item in BETWEEN_TERMS or isinstance(item, Sign) and SIGNS[item.command].startswith(" ")
 
 
 def _flat(item: Layout) -> Layout:
@@ -223,7 +229,7 @@ class _Printer:
 
     def _row(self, items: tuple[Layout, ...]) -> str:
         shown: list[str] = []
-        for before, item in zip((None, *items[:-1]), items, strict=True):
+        for before, item in zip((None, *items), items, strict=False):
             text = self.show(item)
             if before is not None and _runs_into(before, item):
                 shown.append(r"\,")

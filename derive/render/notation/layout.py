@@ -172,7 +172,7 @@ GREEK_LETTERS = {
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
     "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
-    "Omega": "Ω", "infty": "∞",
+    "Omega": "Ω", "infty": "∞", "ell": "ℓ", "hbar": "ħ",
 }  # fmt: skip
 SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is taken
 

@@ -115,7 +115,8 @@ class Notation:
         if isinstance(expr, Transcript):
             from derive.render.notation.from_latex import layout_of_latex  # needed by few problems
 
-            return layout_of_latex(expr.tex)
+            laid_out = layout_of_latex(expr.tex)
+            return laid_out if laid_out != row() else Upright("")
         sign, size = sign_and_size(expr)
         if sign:
             return signed(sign, self.layout(size))
