@@ -33,7 +33,7 @@ from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
-from derive.page.numbers_given import numbers_left, numbers_of_cases
+from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
@@ -247,14 +247,13 @@ class _Writer:
     def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
         """Return the question of a part; the numbers of the cases of its plots belong to the question."""
         plots = {part.cases, *(drawing.key for drawing in drawings)}
-        cases = [n for each in self.problem.drawings if each.key in plots for n in [numbers_of_cases(each.cases)] if n]
-        if not cases:
-            return self._told(part.ask.pieces)
-        named = {CASES: joined(cases, self.words.labels["and"])}
-        asked = self._told(part.ask.pieces, named)
-        if any(mention.name == CASES and not mention.of for mention in part.ask.mentions):
+        cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
+        numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
+        asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
+        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
+        if is_mentioned or all(are_told(each, asked) for each in cases):
             return asked
-        return (*asked, Text(" "), *filled(self.words.labels["take"], {"numbers": named[CASES]}))
+        return (*asked, *take(numbers, self.words))
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""

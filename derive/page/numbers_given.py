@@ -18,12 +18,24 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 def numbers_left(problem: Problem, shown: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
     """Return a sentence with the numbers that the statement and the questions, `shown`, do not give; () if none is
     left."""
+    left = _untold(problem.measured, shown)
+    return take(joined(map(_stated, left), words.labels["and"]), words) if left else ()
+
+
+def take(numbers: tuple[Inline, ...], words: Phrases) -> tuple[Inline, ...]:
+    """Return the sentence with these numbers, to follow other sentences."""
+    return (Text(" "), *filled(words.labels["take"], {"numbers": numbers}))
+
+
+def are_told(cases: Iterable[Sequence[Measured]], question: Sequence[Inline]) -> bool:
+    """Return whether a question has all the numbers of the cases of its plot."""
+    return not any(_untold(case, question) for case in cases)
+
+
+def _untold(measured: Iterable[Measured], shown: Sequence[Inline]) -> list[Measured]:
     told = {*_letters_with_numbers(shown)}
     text = "".join(node.text for node in shown if isinstance(node, Text))
-    left = [each for each in problem.measured if each.symbol not in told and not _is_in_words(each, text)]
-    if not left:
-        return ()
-    return (Text(" "), *filled(words.labels["take"], {"numbers": joined(map(_stated, left), words.labels["and"])}))
+    return [each for each in measured if each.symbol not in told and not _is_in_words(each, text)]
 
 
 def numbers_of_cases(cases: Iterable[Sequence[Measured]]) -> tuple[Inline, ...]:
