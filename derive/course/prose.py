@@ -109,7 +109,9 @@ class Prose:
     @property
     def plain(self) -> str | None:
         """The text if it has no mention and no formula."""
-        return None if self.mentions or self.formulas else " ".join("".join(map(str, self.pieces)).split())
+        if any(not match["dollar"] for match in _PIECE.finditer(self.text)):
+            return None
+        return " ".join(self.text.replace("\\$", "$").split())
 
     def place_of(self, name: str) -> Place:
         """Return the place where the text first mentions a name; if there is no mention, the place of the text."""

@@ -111,6 +111,7 @@ class Drawing:
     view          whether the marks are shown in space or in the plane (x, y)
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
+    left_out      conditions of the system that the drawing does not show
     """
 
     key: str
@@ -118,6 +119,7 @@ class Drawing:
     view: str = SPACE
     coordinates: tuple[tuple[Any, str], ...] = ()
     values: tuple[tuple[Any, Any], ...] = ()
+    left_out: tuple[Any, ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -119,6 +119,7 @@ class Rule:
     shown       how a page shows the steps of this rule
     quotes      the theorems that the steps of this rule use
     prepares    the theorem that a page states before a step of this rule, if a later step uses the theorem
+    names_value whether the symbol of a result may replace its value in later results
     """
 
     name: str
@@ -130,6 +131,7 @@ class Rule:
     shown: Shown = SHOWN
     quotes: Sequence[Quote] = ()
     prepares: Theorem | None = None
+    names_value: bool = False
 
     def __post_init__(self) -> None:
         RULES[self.name] = self

@@ -44,7 +44,6 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.lagrange.facts import ForceOf
-from derive.mechanics.model.acted_on import check_ground
 from derive.mechanics.model.part import moved
 from derive.steps.derivation import returned_quantities
 from derive.steps.record import assume, assumed, current_run
@@ -129,11 +128,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         weights = [weight(described.gravity)] if described.gravity is not None else []
         with told_at_part(described.acting, acting, described.place):
             parts = chain(*map(parts_of, acting))
-            system = System(*self.bodies.values(), *self.particles.values(), *parts, *weights, *self.rolling)
-        for rolling in described.rolling:
-            with told_at(rolling.place):
-                check_ground(system, rolling.named["ground"])
-        return system
+            return System(*self.bodies.values(), *self.particles.values(), *parts, *weights)
 
     @cached_property
     def particles(self) -> dict[str, Any]:
@@ -162,11 +157,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def acting(self) -> list[Any]:
         """Return what acts on the particles and bodies, in the order of the description."""
         return [part.made(self.parts_by_name) for part in self.described.acting]
-
-    @cached_property
-    def rolling(self) -> tuple[Any, ...]:
-        """Return the conditions of `rolling:`."""
-        return tuple(chain(*(one.made(self.bodies) for one in self.described.rolling)))
 
     # -- energies and equations of motion --------------------------------------------------------------------------
 
@@ -272,9 +262,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def no_slip(self) -> tuple[Quantity, ...]:
         kept = "constraint forces enforce rolling here, so `no_slip` eliminates no coordinate"
-        parts = [*self.rolling, *chain(*map(parts_of, self.acting))]
-        solved = [each for each in parts if isinstance(each, Quantity)]
-        return _some(solved, kept if self.rolling else "nothing rolls in this system")
+        solved = [each for each in chain(*map(parts_of, self.acting)) if isinstance(each, Quantity)]
+        is_kept = any(each.enforcer == "friction" for each in self.system.constraints)
+        return _some(solved, kept if is_kept else "nothing rolls in this system")
 
     @answer
     def angular_velocity(self) -> tuple[Quantity, ...]:

@@ -305,6 +305,10 @@ class StringKeys(Record):
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
+    mass_of: Word | None = key(
+        "for a uniform rope with mass: the particle that has its mass and moves with its speed, at a constant height",
+        TEXT,
+    )
 
     def symbols(self) -> list[Word]:
         return [self.tension] if self.tension is not None else []
@@ -316,10 +320,11 @@ class StringKeys(Record):
             rejected("missing-key", "a string needs `to`, or `wound_on`", self.places[""])
         over = tuple(_over(each, known) for each in self.over)
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over)
+        mass = {"mass_of": material(self.mass_of, known)} if self.mass_of else {}
+        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over, **mass)
 
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
-        for name in ("to", "over", "length"):
+        for name in ("to", "over", "length", "mass_of"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string that is `wound_on` a body"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
