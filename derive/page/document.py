@@ -29,9 +29,11 @@ from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases, limits_left_out
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, letters_not_drawn
+from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
+from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
@@ -58,6 +60,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
+CASES = "cases"  # in a question, the numbers of the cases of its plots
 HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
 
@@ -110,6 +113,7 @@ class _Writer:
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []
         self.dimensions = dict(like.dimensions) if like else self._dimensions()
+        self.formulas = Formulas(problem, self.dimensions)
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
@@ -138,14 +142,18 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        asked = [node for part in parts for node in part.ask]
+        statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
+        title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
+        self.faults += self.formulas.faults
         checks = checks_of([*self.selection.steps, *self.values.values()], self.words, compared)
         self.faults += unknown_keys(problem, self.derivation, self.words)
         return Document(
             id=problem.id,
-            title=told(problem.title.pieces, self.page_names, self._unknown),
+            title=title,
             points=problem.points,
             statement=statement,
             strategy=strategy,
@@ -163,6 +171,7 @@ class _Writer:
                 # An author cannot edit a script of the engine, so its warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
+                *self.formulas.warnings,
                 *unused_definitions(problem, self.derivation),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
@@ -186,7 +195,7 @@ class _Writer:
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
-        return told(pieces, names, self._unknown, self.references.node)
+        return told(pieces, names, self._unknown, self.references.node, self.formulas.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = (
@@ -235,7 +244,18 @@ class _Writer:
             self._append(blocks, value, framed=True)
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
-        return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
+        return PartPage(label, self._question(part, own), part.points, placed, part.extra)
+
+    def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
+        """Return the question of a part; the numbers of the cases of its plots belong to the question."""
+        plots = {part.cases, *(drawing.key for drawing in drawings)}
+        cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
+        numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
+        asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
+        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
+        if is_mentioned or all(are_told(each, asked) for each in cases):
+            return asked
+        return (*asked, *take(numbers, self.words))
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""

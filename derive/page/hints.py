@@ -16,6 +16,7 @@ from sympy import Basic, Derivative, Integral, MatrixBase, Symbol
 from derive.algebra.equality import equal
 from derive.algebra.expressions import BLANK, MassIntegral, Partial, Relation, Slope, TimeRate, explicit, rate
 from derive.course.problem import Problem
+from derive.course.transcript import Transcript
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.clauses import Clauses
 from derive.page.folding import Sentence, sentences
@@ -141,7 +142,8 @@ class _Hints:
 
     def _tells(self, nodes: Sequence[Inline]) -> bool:
         """Return whether a formula in the words is an answer."""
-        formulas = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
+        written = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
+        formulas = [value for each in written for value in (each.values if isinstance(each, Transcript) else (each,))]
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:

@@ -27,7 +27,7 @@ from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
 from derive.course.parts import points_text
 from derive.course.problem import Problem
-from derive.course.prose import Mention
+from derive.course.prose import Mention, TexFormula
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
@@ -284,15 +284,19 @@ def told(
     names: Mapping[str, Any],
     missing: Callable[[str, Place], None],
     referred: Callable[[Mention], Inline | None] = lambda mention: None,
+    formula: Callable[[TexFormula], Inline] = lambda formula: Text(f"${formula.tex}$"),
 ) -> tuple[Inline, ...]:
     """Return the author's prose with its mentions replaced by values; an unknown name is reported and omitted.
 
-    `referred` returns the node for a mention of an equation, drawing or problem, or None.
+    `referred` returns the node for a mention of an equation, drawing or problem, or None; `formula` returns the node
+    for a formula.
     """
     nodes: list[Inline] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif isinstance(piece, TexFormula):
+            nodes.append(formula(piece))
         elif piece.of:
             node = referred(piece)
             nodes += [node] if node else []
