@@ -104,7 +104,7 @@ class _Writer:
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
-        self.theorems = Theorems(words, level, derivation.steps)
+        self.theorems = Theorems(words, level)
         self.numbers = Numbering(like.numbers if like else None)
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []

@@ -106,8 +106,8 @@ class ToldIn:
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: its statement, and the sentence that replaces the statement if an earlier problem of the document
-    states the theorem."""
+    """A theorem: its statement, and the shorter sentence that replaces the statement if an earlier problem of the
+    document states the theorem."""
 
     name: str
     nodes: tuple[Inline, ...]

@@ -327,16 +327,18 @@ def change_under_shift_gain(facts: Judged) -> bool:
 noether_with_gain: Predicate = negated(noether_symmetry)
 
 
-def squared_speed_alone(facts: Judged) -> bool:
-    return bool(len(facts.subject.body.particles) == 1 and free_bodies(facts) == 0)
+def _has_speed(facts: Judged, places: list[tuple[Expr, ...]]) -> bool:
+    """Whether the result is the square of the speed of one of these points."""
+    moving = list(facts.subject.body.coordinates)
+    return any(equal(facts.result, Add(*(by_functions_of_time(c, moving) ** 2 for c in place))) for place in places)
 
 
-def squared_speed_centre(facts: Judged) -> bool:
-    return bool(not facts.subject.body.particles and free_bodies(facts) <= 1)
+def speed_of_particle(facts: Judged) -> bool:
+    return _has_speed(facts, [particle.at.components for particle in facts.subject.body.particles])
 
 
-def squared_speed_of_several(facts: Judged) -> bool:
-    return bool(len(facts.subject.body.masses) > 1)
+def speed_of_centre(facts: Judged) -> bool:
+    return _has_speed(facts, [placed.centre.components for placed in facts.subject.body.bodies if not placed.is_held])
 
 
 def magnetic_term_alone(facts: Judged) -> bool:
