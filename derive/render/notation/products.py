@@ -265,6 +265,7 @@ def _is_fourth_root(factor: Pow) -> bool:
 class Place(IntEnum):
     """The places of factors in a product, in the order of print."""
 
+    COEFFICIENT = auto()  # a coefficient of friction: mu N, mu m g
     PER_MASS = auto()  # the gravitational constant comes before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
