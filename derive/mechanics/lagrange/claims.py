@@ -33,7 +33,7 @@ from derive.steps.claims import lasts, letters_in, negated, parallel, value_of_r
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
-from derive.steps.trial_numbers import Point, everywhere, trial_points
+from derive.steps.trial_numbers import Point, everywhere, sign_found, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
@@ -375,6 +375,15 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 
 
 multiplier_generic: Predicate = both(lasts, negated(is_stretched))
+
+
+def multiplier_negative(facts: Judged) -> bool:
+    """Whether, numerically, the force is negative, and acts on the body in the sense that the sentence states."""
+    x, y = facts.inputs["positive"]
+    across, wanted = {"up": (y, 1), "down": (y, -1), "right": (x, 1), "left": (x, -1)}[facts.words["sense"]]
+    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
+    acts = sign_found(facts.result * across) == wanted
+    return lasts(facts) and not is_stretched(facts) and is_level and sign_found(facts.result) == -1 and acts
 
 
 multiplier_multiplier: Predicate = both(lasts, is_stretched)
