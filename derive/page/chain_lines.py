@@ -43,10 +43,11 @@ class Equations:
     framed: int = 0
 
     @property
-    def frames_bare_number(self) -> bool:
-        """Return whether the frame contains only a number such as 0, which has no meaning without the left side."""
+    def frames_bare_value(self) -> bool:
+        """Return whether the frame contains only a number such as 0 or a letter, which has no meaning without the left
+        side."""
         last = self.lines[-1]
-        return self.framed == 1 and last.left is None and _is_bare_number(last.right)
+        return self.framed == 1 and last.left is None and _is_bare(last.right)
 
     def beside(self, other: Equations) -> Equations:
         """Return the lines of both steps under one number; the steps share a row if there is room."""
@@ -174,11 +175,11 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
     return found
 
 
-def _is_bare_number(value: Any) -> bool:
-    """Return whether the value is a rational number such as 0 or 2, or a zero vector."""
+def _is_bare(value: Any) -> bool:
+    """Return whether the value is a rational number such as 0 or 2, a single letter, or a zero vector."""
     if isinstance(value, MatrixBase):
         return all(entry == 0 for entry in value)
-    return isinstance(value, Rational)
+    return isinstance(value, Rational | Symbol)
 
 
 def names_results(symbol: Any) -> bool:

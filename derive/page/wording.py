@@ -167,10 +167,11 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return the note next to an answer that is only a definition or that repeats an earlier equation."""
+        """Return the note next to an answer that repeats an earlier equation, or that is only a definition. A definition
+        that contains derived results is itself derived."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
-        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
+        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
         """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
