@@ -10,6 +10,7 @@ from sympy import Integral, MatrixBase, Rational, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
+from derive.page.assumptions import MIRRORED
 from derive.page.numbering import Number
 from derive.page.signs import name_before, sign_before, sign_behind_name, sign_of_relation
 from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
@@ -161,6 +162,16 @@ class ChainWriter:
             return [key]
         letters = {letter for form in of.chain for letter in getattr(form.expr, "free_symbols", ())}
         return [each for each in step.inputs if self.symbols.get(each) in letters]
+
+
+def conditions_of(step: Step) -> tuple[ChainLine, ...]:
+    """Return a line for each condition under which the answer holds, if the sentence of the step states conditions."""
+    told = dict(step.roles)
+    found = [told[role] for role in step.display.conditions if role in told]
+    if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:
+        lower, upper = found  # 2 g l < v^2 < 5 g l
+        found = [Relation(Relation(lower.right, MIRRORED[lower.operator], lower.left), upper.operator, upper.right)]
+    return tuple(ChainLine(each.left, each.word, each.right) for each in found)
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:

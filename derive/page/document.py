@@ -23,7 +23,7 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds
-from derive.page.chain_lines import ChainWriter, Equations
+from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases, limits_left_out
@@ -280,6 +280,8 @@ class _Writer:
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
         count = results(step, lines) if framed and not again else 0
+        conditions = conditions_of(step) if count else ()
+        lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))

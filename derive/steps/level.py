@@ -46,6 +46,7 @@ class Display:
     repeats           the key of the equation that the step repeats, if any
     result_in         names of rules: the lines of an input of such a rule may already contain the result; below the
                       level `full`, the sentence points to these lines
+    conditions        roles of the conditions in the sentence that are part of the answer, so the frame shows them too
     """
 
     brief: Manner = Manner.OWN
@@ -58,6 +59,7 @@ class Display:
     names_formula: bool = False
     repeats: str = ""
     result_in: tuple[str, ...] = ()
+    conditions: tuple[str, ...] = ()
 
     def manner(self, level: Level) -> Manner:
         return self.brief if level is Level.BRIEF else self.standard
@@ -96,6 +98,7 @@ class Shown:
     taken_in_if: Callable[[Any], bool] = lambda step: False
     repeats: Callable[[Any], str] = lambda step: ""
     result_in: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    conditions: tuple[str, ...] = ()
 
     def of(self, step: Any) -> Display:
         """Return how this step is shown."""
@@ -113,6 +116,7 @@ class Shown:
             names_formula=self.names_formula,
             repeats=self.repeats(step),
             result_in=self.result_in.get(step.outcome, ()),
+            conditions=self.conditions,
         )
 
 
