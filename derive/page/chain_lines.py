@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from sympy import Integral, MatrixBase, Rational, Symbol, preorder_traversal
@@ -42,6 +43,12 @@ class Equations:
     lines: tuple[ChainLine, ...]
     number: Number
     framed: int = 0
+
+    @property
+    def chains(self) -> tuple[tuple[ChainLine, ...], ...]:
+        """Return the lines of each chain; in a list of results each line is a separate chain."""
+        starts = [i for i, l in enumerate(self.lines) if not i or l.beside or (l.left is not None and not l.because)]
+        return tuple(self.lines[i:j] for i, j in pairwise([*starts, len(self.lines)]))
 
     @property
     def frames_bare_value(self) -> bool:

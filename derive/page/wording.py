@@ -128,6 +128,7 @@ class Phrases:
     theorems_again: Mapping[str, str]
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
+    tasks: Mapping[str, str]
     terms: Mapping[str, str]
     bodies: Mapping[str, str]
     sizes: Mapping[str, str]
@@ -167,8 +168,10 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return the note next to an answer that repeats an earlier equation, or that is only a definition. A definition
-        that contains derived results is itself derived."""
+        """Return the note next to an answer that repeats an earlier equation, or that is only a definition.
+
+        A definition that contains derived results is itself derived.
+        """
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()

@@ -190,10 +190,15 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 def names_its_slider(facts: Judged, outcome: str) -> bool:
     """Whether the sentence calls the body that would slip by the name that the contact has for it."""
     constraint = _constraint_of(facts.quantities["friction"])
-    return constraint is not None and constraint.limit is not None and facts.words == {
-        **facts.words,
-        "slider": constraint.limit.slider or "body",
-    }
+    return (
+        constraint is not None
+        and constraint.limit is not None
+        and facts.words
+        == {
+            **facts.words,
+            "slider": constraint.limit.slider or "body",
+        }
+    )
 
 
 def needs_no_friction(facts: Judged) -> bool:

@@ -1,8 +1,8 @@
 """The order in which terms and factors are written.
 
 Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
-Factors have this order: coefficients of friction, masses, accelerations of gravity, lengths, sums, numbers, roots, rates,
-functions.
+Factors have this order: coefficients of friction, masses, accelerations of gravity, lengths, sums, numbers, roots,
+rates, functions.
 """
 
 from __future__ import annotations

@@ -188,10 +188,12 @@ FRICTION: Reader[Any] = Reader(
 
 def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
     """Return the parts of a contact; static friction knows the name of the body that would slip."""
-    parts = contact(**given)
-    return tuple(
-        replace(each, limit=replace(each.limit, slider=name)) if getattr(each, "limit", None) else each for each in parts
-    )
+
+    def with_name(part: Any) -> Any:
+        limit = getattr(part, "limit", None)
+        return replace(part, limit=replace(limit, slider=name)) if limit is not None else part
+
+    return tuple(map(with_name, contact(**given)))
 
 
 @dataclass(frozen=True)
