@@ -25,6 +25,7 @@ from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, within
 from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
 from derive.course.declared import declared_letters
+from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
 from derive.course.parts import Question
@@ -38,6 +39,7 @@ from derive.course.unused import unused_in
 from derive.course.written import SCRIPT, LimitKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
+from derive.steps.defined import define
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4
@@ -71,6 +73,8 @@ class Problem:
     strategy: Prose | None = None
     note: Prose | None = None
     limits: tuple[LimitKeys, ...] = ()
+    defined: tuple[Defined, ...] = ()
+    uses_natural_quantities: bool = True
     reference: str = ""
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
@@ -178,6 +182,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
+    moving = pinned.described.letters if pinned.described else {}
+    defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     _check_cases(written.parts, drawings, faults)
     asked, given = _asked(written.parts, written.limits), (pinned.givens, pinned.measured, pinned.described)
@@ -205,6 +211,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         strategy=written.strategy,
         note=written.note,
         limits=written.limits,
+        defined=defined,
+        uses_natural_quantities=written.define.are_used,
         reference=as_text(written.reference),
         warnings=warnings,
     )
@@ -251,6 +259,8 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
             _assume_range(declared)
         for each in problem.assumed:
             assume(each.relation)
+        record.is_natural = problem.uses_natural_quantities
+        define((each.symbol, each.formula) for each in problem.defined)
         yield
 
 

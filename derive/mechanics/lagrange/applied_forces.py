@@ -256,6 +256,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     constraints = [c for c in (kept.constraints if kept else ()) if c.along(q.symbol) != 0]
     applied = applied_force(of, q) if acted is not None else None
     acts = applied is not None and applied.value != 0
+    outside = [applied.value] if applied is not None and acts else []
     reaction = [spread(c.along(q.symbol)) * c.force for c in constraints]
 
     def right_side(*others: Expr) -> Expr:
@@ -276,7 +277,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
         lines=Lines(
             put_in=None,
-            between=with_derivatives(derivatives, right_side(*([applied.value] if acts else [])), moving),
+            between=with_derivatives(derivatives, right_side(*given), moving),
             arranged=lambda found: _sides(found, moving, constraints),
         ),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),

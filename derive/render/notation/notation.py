@@ -193,7 +193,7 @@ class Notation:
         return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
-        return ordered_factors(factors, self.known_dimensions.get)
+        return ordered_factors(factors, self.known_dimensions.get, self._places)
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:

@@ -7,7 +7,7 @@ rates, functions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -75,9 +75,22 @@ def _coordinate(letter: Symbol) -> str:
     return next(name.removesuffix(end) for end in RATE_ENDS if name.endswith(end))
 
 
-def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
-    """Return the factors of a product in the order of print."""
-    return _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+def ordered_factors(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str] = ()
+) -> list[Expr]:
+    """Return the factors of a product in the order of print; `moving` has the names of the coordinates and rates."""
+    ordered = _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+    return _coordinates_last(ordered, dimension_of, moving)
+
+
+def _coordinates_last(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
+) -> list[Expr]:
+    """Write a coordinate after a force or a constant frequency: omega_0^2 x, not x omega_0^2."""
+    ranks = [rank_of_factor(factor, dimension_of) for factor in factors]
+    last = max((i for i, rank in enumerate(ranks) if rank[1] in (Place.FORCE, Place.RATE)), default=0)
+    before = [f for f in factors[:last] if f"{f.as_base_exp()[0]}{RATE_ENDS[1]}" in moving]
+    return [*(f for f in factors[: last + 1] if f not in before), *before, *factors[last + 1 :]] if before else factors
 
 
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
