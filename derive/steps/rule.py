@@ -104,23 +104,19 @@ class Quote:
 class Rule:
     """A law that makes steps.
 
-        name        folder and function
-        source      book and section
-        outcomes    outcome -> the predicate that must be true of the result
-        evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
-                    it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
-                    error of algebra. A rule without evidence is a definition
-        statements  predicates for the roles, points and formulas that occur only in the sentence; they must be true for
-                    every outcome
-        named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges
-                    `value_1`
-        shown       how a page shows the steps of this rule
-        quotes      the theorems that the steps of this rule use
-    <<<<<<< HEAD
-    =======
-        prepares    the theorem that a page states before a step of this rule, if a later step uses the theorem
-        names_value whether the symbol of a result may replace its value in later results
-    >>>>>>> main
+    name        folder and function
+    source      book and section
+    outcomes    outcome -> the predicate that must be true of the result
+    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
+                it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
+                error of algebra. A rule without evidence is a definition
+    statements  predicates for the roles, points and formulas that occur only in the sentence; they must be true for
+                every outcome
+    named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges
+                `value_1`
+    shown       how a page shows the steps of this rule
+    quotes      the theorems that the steps of this rule use
+    names_value whether the symbol of a result may replace its value in later results
     """
 
     name: str

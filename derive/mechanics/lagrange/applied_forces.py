@@ -277,7 +277,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
         lines=Lines(
             put_in=None,
-            between=with_derivatives(derivatives, right_side(*given), moving),
+            between=with_derivatives(derivatives, right_side(*outside), moving),
             arranged=lambda found: _sides(found, moving, constraints),
         ),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
