@@ -134,7 +134,7 @@ def test_a_hint_has_only_the_last_sentence_before_an_answer() -> None:
 def test_a_speed_is_answered_where_the_speed_is_asked_for(tmp_path: Path) -> None:
     text = page(tmp_path, library("constraints/loop"))
     assert "√(v_0² - 2g R + 2g R cos θ)" in text and "v = R θ" in text
-    same = edited(library("constraints/loop"), ("{root: speed}", "{root: force}"))
+    same = edited(library("constraints/loop"), ("{square_root: speed}", "{square_root: force}"))
     with pytest.raises(DeriveError, match="is not the square of a rate"):
         solved(tmp_path, same)
 

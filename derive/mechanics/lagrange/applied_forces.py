@@ -315,8 +315,12 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return the difference, with the second expression in brackets if it has several terms."""
-    return first if second == 0 else Terms(first, -second if len(Add.make_args(second)) == 1 else -Group(second))
+    """Return the difference; several terms of the second expression are in brackets, with a positive first term."""
+    terms = Add.make_args(second)
+    if second == 0 or len(terms) == 1:
+        return Terms(first, -second) if second != 0 else first
+    all_negative = all(term.could_extract_minus_sign() for term in terms)
+    return Terms(first, Group(-second) if all_negative else -Group(second))
 
 
 def _between(constraints: Sequence[Constraint]) -> str:

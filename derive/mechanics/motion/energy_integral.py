@@ -213,9 +213,9 @@ RATE_BY_ENERGY = Rule(
 
 
 @in_results(
-    "root",
+    "square_root",
     "the rate of a coordinate, or its magnitude if the sign is unknown, from its square",
-    squared="root: a squared rate, as `speed` finds it",
+    squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
     """Rate of a coordinate, the root of its square; the sign is that of the motion from its start.
