@@ -194,12 +194,18 @@ def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol,
 
 
 def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:
-    """Substitute, and bring to lowest terms what is under a root or in a function. Return the tidy form if it is
-    shorter than the form in which sums and products remain as they are."""
+    """Substitute, and bring to lowest terms what is under a root or in a function.
+
+    A sum is written term by term, unless this gives more terms. Any other value has its tidy form, or its own form if
+    that is shorter.
+    """
     if not value.free_symbols & known.keys():
         return value
     kept = value.subs(known).replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
     kept = kept.replace(lambda part: isinstance(part, Function), lambda part: part.func(*map(tidied, part.args)))
+    by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
+    if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
+        return by_terms
     return min((tidied(kept), kept), key=_cost)
 
 
@@ -232,5 +238,7 @@ def _under_one_root(value: Expr) -> Expr:
     return Mul(*(f for f in value.args if f not in roots), Pow(inside, HALF, evaluate=False), evaluate=False)
 
 
-def _cost(value: Any) -> int:
-    return _size(value) + SIGNS_OF_A_SYMBOL * len(value.free_symbols)
+def _cost(value: Any) -> tuple[int, int]:
+    """The length with its symbols; of two forms with the same length, the one with fewer symbols is preferred."""
+    symbols = len(value.free_symbols)
+    return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

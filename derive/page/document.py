@@ -37,6 +37,7 @@ from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
+from derive.page.unused import unused_definitions
 from derive.page.wording import (
     Chain,
     Inline,
@@ -162,6 +163,7 @@ class _Writer:
                 # An author cannot edit a script of the engine, so its warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
+                *unused_definitions(problem, self.derivation),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),
@@ -258,7 +260,7 @@ class _Writer:
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
         """
         mode = self.problem.show.get(step.key, "")
-        if mode == "hidden" and step.key not in self.asked:
+        if mode == "hidden" and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
             return
         if step.key not in self.asked and step.display.repeats in self.numbers:
             self.numbers[step.key] = self.numbers[step.display.repeats]
@@ -293,6 +295,7 @@ class _Writer:
                 self.numbers[step.key] = blocks[-1].groups[-1].number
         else:
             before = (*self._clause(blocks), *self.clauses.begun(), *before)
+            self.clauses.said = before
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
         if after:

@@ -12,8 +12,8 @@ from derive.steps.level import Level, Manner
 from derive.steps.rule import Rule, Shown
 from derive.steps.step import Quantity
 
-DEFINED = Rule(
-    "steps.defined",
+QUANTITY = Rule(
+    "defined.quantity",
     source="none needed: a definition",
     shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
     names_value=True,
@@ -22,20 +22,18 @@ DEFINED = Rule(
 
 def define(formulas: Iterable[tuple[Symbol, Expr]]) -> None:
     """Make a step for each quantity of `define:`. A formula may contain quantities that are defined before it."""
-    run = record.current_run.get()
-    assert run is not None
     for symbol, formula in formulas:
-        run.defined.append(_defined(symbol, formula, run.defined))
+        record.add_definition(_quantity(symbol, formula, record.defined_quantities()))
 
 
-def _defined(symbol: Symbol, formula: Expr, before: Iterable[Quantity]) -> Quantity:
+def _quantity(symbol: Symbol, formula: Expr, before: Iterable[Quantity]) -> Quantity:
     """Name for a formula in the letters of the problem: a definition that the author sets up.
 
     Source: none needed: a definition.
     """
     used = {quantity.symbol: quantity for quantity in before if formula.has(quantity.symbol)}
     return establish(
-        DEFINED,
+        QUANTITY,
         symbol,
         lambda *names: formula.subs(dict(zip(used, names, strict=True))),
         {name.name: quantity for name, quantity in used.items()},

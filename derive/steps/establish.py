@@ -212,15 +212,14 @@ def establish(
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     _check_named(key, rule, judged, phrase_data.named)
     _check_handed_on(key, judged, facts)
+    roles = {**inputs, **phrase_data.told, **written, **phrase_data.points_to}
     step = Step(
         key=key,
         rule=rule.name,
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple(
-            (role, _called(q)) for role, q in {**inputs, **phrase_data.told, **written, **phrase_data.points_to}.items()
-        ),
+        roles=tuple((role, _called(q)) for role, q in roles.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,

@@ -7,7 +7,7 @@ radius r_0 of a circular orbit. The line is compared with the line before it lik
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -15,7 +15,7 @@ from typing import Any
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Relation, bound, explicit, rate
+from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
 from derive.algebra.natural import Shortened, shortened
 from derive.steps import record
 from derive.steps.level import Level
@@ -50,43 +50,63 @@ class NaturalQuantities:
     """
 
     def __init__(self, symbol: Any, result: Any, inputs: Sequence[Quantity], proposals: Sequence[Proposal]):
-        found = {each.symbol: each for each in (*proposals, *_named(inputs))} if record.may_use_quantities() else {}
-        self._known = {name: each for name, each in found.items() if name != symbol and each.value != result}
+        constants, states = [], []
+        if record.may_use_quantities():
+            constants = [*proposals, *_named(record.defined_quantities())]
+            states = list(_named(_ancestors(inputs)))
+        self._constants = _by_symbol(constants, symbol, result)
+        self._known = {**_by_symbol(states, symbol, result), **self._constants}
         self.used: list[Quantity] = []
 
     def chain(self, chain: Sequence[Form], result: Any) -> list[Form]:
         """Return the chain, with a line in natural quantities if this line is shorter than the result."""
         last = next((i for i in reversed(range(len(chain))) if chain[i].because not in NUMBERS), None)
-        found = None if last is None or chain[last].because in ONLY_ABOUT else self._shortened(result)
+        found = None if last is None or chain[last].because in ONLY_ABOUT else self._shortened(result, self._known)
         if last is None or found is None:
             return list(chain)
         before = chain[last] if found.nonzero else replace(chain[last], level=Level.FULL)
         return [*chain[:last], before, Form(found.value, NATURAL, nonzero=found.nonzero), *chain[last + 1 :]]
 
     def formulas(self, formulas: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
-        """Return role -> the formula of a sentence in natural quantities, where this is shorter."""
-        found = {role: self._shortened(formula) for role, (formula, _) in formulas.items()}
+        """Return role -> the formula of a sentence in defined and proposed quantities, where this is shorter.
+
+        A condition for a state must not contain the symbols of this state.
+        """
+        found = {role: self._shortened(formula, self._constants) for role, (formula, _) in formulas.items()}
         return {role: short.value for role, short in found.items() if short is not None}
 
-    def _shortened(self, value: Any) -> Shortened | None:
-        if not self._known or not isinstance(value, Expr | Relation):
+    def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
+        """Return the shortest form of a value or a condition; None for a value that is to remain in the given letters,
+        such as an energy: a formula of the coordinates that is neither an equation nor a motion."""
+        moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
+        is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
+        if not known or not (is_value or isinstance(value, Relation)):
             return None
-        kept = {TIME, *(rate(q, order) for q in record.named_coordinates() for order in range(3))}
-        found = shortened(value, {name: each.value for name, each in self._known.items()}, kept)
+        kept = {TIME, *moving}
+        found = shortened(value, {name: each.value for name, each in known.items()}, kept)
         if found is None:
             return None
         names = [name for name in found.used if name in found.value.free_symbols]
-        values = {name: self._known[name].value for name in names}
+        values = {name: known[name].value for name in names}
         if not equal(value, explicit(bound(found.value, values)), found.nonzero):
             return None
-        self.used += [made for name in names if (made := self._known[name].make()) not in self.used]
+        self.used += [made for name in names if (made := known[name].make()) not in self.used]
         return found
 
 
-def _named(quantities: Sequence[Quantity]) -> Iterator[Proposal]:
-    """The defined quantities, and all quantities among these and their ancestors whose symbols may be used."""
+def _by_symbol(proposals: Sequence[Proposal], symbol: Any, result: Any) -> dict[Symbol, Proposal]:
+    """Return symbol -> proposal, without the result itself."""
+    return {each.symbol: each for each in proposals if each.symbol != symbol and each.value != result}
+
+
+def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
+    """The quantities and their ancestors whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
-    for quantity in (*(q for q in ancestors if q.fact(NamesValue)), *record.defined_quantities()):
+    return (quantity for quantity in ancestors if quantity.fact(NamesValue))
+
+
+def _named(quantities: Iterable[Quantity]) -> Iterator[Proposal]:
+    for quantity in quantities:
         for symbol, value in _named_values(quantity):
             if isinstance(symbol, Symbol) and isinstance(value, Expr) and value.free_symbols:
                 yield Proposal(symbol, value, partial(_itself, quantity))

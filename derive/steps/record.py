@@ -140,6 +140,14 @@ def is_taken(name: str) -> bool:
     return name in run.letters or any(str(quantity.symbol) == name for quantity in _before_call(run))
 
 
+@question
+def result_called(name: str) -> Quantity | None:
+    """Return the earlier result with this symbol; None if there is none."""
+    run = current_run.get()
+    before = _before_call(run) if run is not None else ()
+    return next((quantity for quantity in before if str(quantity.symbol) == name), None)
+
+
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
     """Return a symbol for the limit of a result: omega_2_lim if a letter goes to a finite value, omega_2_infty if it
     goes to infinity.
@@ -233,6 +241,13 @@ def _established_before() -> tuple[Quantity, ...]:
 
 def _before_call(run: Run) -> tuple[Quantity, ...]:
     return tuple(run.established[: run.call.before if run.call else None])
+
+
+def add_definition(quantity: Quantity) -> None:
+    """Record a quantity that the problem defines."""
+    run = current_run.get()
+    if run is not None:
+        run.defined.append(quantity)
 
 
 @question

@@ -43,6 +43,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.oscillator_constants import oscillator_constants
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told
@@ -172,6 +173,7 @@ def solution(
             outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
         parents=approximations_among(start, start_rate),
+        proposals=list(oscillator_constants(equation, linear.a, linear.b, linear.c)) if linear.order == 2 else (),
     )
 
 

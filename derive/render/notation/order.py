@@ -33,13 +33,17 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions.
+    Plain terms come before fractions, roots and functions; a number precedes a term with
+    the time: 1 + omega_0 t.
     """
 
-    def place(term: Any) -> tuple[int, bool, bool]:
+    is_timed = any(term.has(ex.TIME) for term in terms)
+
+    def place(term: Any) -> tuple[int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
-        return len(functions[:1]) + changing, bool(fraction(term, exact=True)[1].free_symbols), _has_root(term)
+        is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
+        return len(functions[:1]) + changing, is_fraction, _has_root(term), is_timed and not term.is_number
 
     return sorted(terms, key=place)
 
@@ -89,7 +93,11 @@ def _coordinates_last(
     """Write a coordinate after a force or a constant frequency: omega_0^2 x, not x omega_0^2."""
     ranks = [rank_of_factor(factor, dimension_of) for factor in factors]
     last = max((i for i, rank in enumerate(ranks) if rank[1] in (Place.FORCE, Place.RATE)), default=0)
-    before = [f for f in factors[:last] if f"{f.as_base_exp()[0]}{RATE_ENDS[1]}" in moving]
+    before = [
+        factor
+        for factor, rank in zip(factors[:last], ranks, strict=False)
+        if rank[1] is not Place.RATE and f"{factor.as_base_exp()[0]}{RATE_ENDS[1]}" in moving
+    ]
     return [*(f for f in factors[: last + 1] if f not in before), *before, *factors[last + 1 :]] if before else factors
 
 

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from sympy import Expr, pi
 
 from derive.algebra.tidy import tidied
-from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    YES_OR_NO,
+    Record,
+    as_written,
+    key,
+    list_of,
+    mapping_of,
+    one_of,
+    record_of,
+)
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Rejected, rejected
@@ -18,6 +29,7 @@ from derive.mechanics import RigidBody, no_slip, rolling_constraint
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Axes, Location, angle_of
 from derive.mechanics.model.surfaces import dot, unit
+from derive.mechanics.rotation.inertia import QUOTED_SHAPES
 from derive.steps.step import is_zero
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.deferred import Deferred, Material
@@ -71,6 +83,11 @@ class MovingBodyKeys(BodyKeys):
         "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
         COMPONENTS,
     )
+    is_integrated: bool = key(
+        "whether the page integrates a standard moment of inertia, such as that of a disc, in place of quoting it",
+        YES_OR_NO,
+        called="derive",
+    )
     across: str | None = key(
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
     )
@@ -81,7 +98,9 @@ class MovingBodyKeys(BodyKeys):
         self._check_one("orientation", "turned", "along", "to")
         self._check_used()
         body: DescribedBody | RigidBody = (
-            self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
+            self._by_moments(called, letters)
+            if self.moments
+            else replace(Bodies(letters).body(self, called), is_integrated=self.is_integrated)
         )
         turned = self._turned(places, letters)
         named: dict[str, Any] = {"across": self.across}
@@ -114,6 +133,9 @@ class MovingBodyKeys(BodyKeys):
             if name in self.values_at and "moments" not in self.values_at:
                 message = f"`{name}` has no effect on a body without `moments`"
                 faults.error("unused-key", message, self.places[name], help=f"the shape determines {what}")
+        if self.is_integrated and self.shape is not None and self.shape.strip() not in QUOTED_SHAPES:
+            message = f"`derive` has no effect: the moment of inertia of `{self.shape}` is always integrated"
+            faults.error("unused-key", message, self.places["derive"], help="leave it out")
         faults.stop()
 
     def _check_one(self, what: str, *names: str) -> None:
