@@ -103,7 +103,7 @@ class Clauses:
 def _in_a_row(value: Any) -> tuple[Inline, ...]:
     """Return a value for use in a sentence: a vector is written (a, 2a, 3a) instead of as a column."""
     shown = explicit(value)
-    if not isinstance(shown, MatrixBase):
+    if not isinstance(shown, MatrixBase) or shown.shape[1] > 1:
         return (Math(value),)
     entries = [node for entry in shown for node in (Text(", "), Math(entry))]
     return Text("("), *entries[1:], Text(")")

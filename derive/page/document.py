@@ -23,7 +23,7 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds
-from derive.page.chain_lines import ChainWriter, Equations
+from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases, limits_left_out
@@ -108,7 +108,7 @@ class _Writer:
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
-        self.theorems = Theorems(words, level, derivation.steps)
+        self.theorems = Theorems(words, level)
         self.numbers = Numbering(like.numbers if like else None)
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []
@@ -302,6 +302,8 @@ class _Writer:
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
         count = results(step, lines) if framed and not again else 0
+        conditions = conditions_of(step) if count else ()
+        lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
@@ -352,6 +354,7 @@ class _Writer:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
+        own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own)
@@ -359,6 +362,10 @@ class _Writer:
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
+
+    def _states(self, word: tuple[Inline, ...]) -> bool:
+        """Return whether the statement uses the name that the author gave to a body."""
+        return all(isinstance(each, Text) and each.text in self.problem.statement.text for each in word)
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """Return the unit conversions of the numbers that this step is the first to substitute."""

@@ -6,9 +6,9 @@ evaluate. Hints omit such a line and all lines after it. A step that only substi
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from typing import Any
 
 from sympy import Basic, Derivative, Integral, MatrixBase, Symbol
@@ -22,10 +22,11 @@ from derive.page.clauses import Clauses
 from derive.page.folding import Sentence, sentences
 from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
 from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
-from derive.page.wording import Inline, Math, Phrases
+from derive.page.wording import Inline, Math, Phrases, Text
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Step
 
+_FULL_STOP = re.compile(r"[.:] (?=[A-Z]|$)")
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -73,7 +74,7 @@ class _Hints:
 
     def _what(self, sentence: Sentence) -> list[Block]:
         """Return the first hint of a sentence: the words before each display, and the display with ? in place of
-        results."""
+        results. Of the words before an answer only the last sentence remains: the others may state a verdict."""
         found: list[Block] = []
         before: list[Block] = []
         for block in sentence:
@@ -81,14 +82,15 @@ class _Hints:
                 sought = tuple(replace(group, lines=self._sought(group), framed=0) for group in block.groups)
                 found += [*before, replace(block, groups=sought, end="")]
                 before = []
-            elif isinstance(block, Paragraph) and not self._tells(block.nodes):
-                before.append(block)
+            elif isinstance(block, Paragraph):
+                nodes = _last_sentence(block.nodes) if _is_answer_next(sentence, block) else block.nodes
+                before += [Paragraph(nodes)] if not self._tells(nodes) else []
         self._introduce(letters_in(expressions_in(found)))
         return found
 
     def _sought(self, group: Equations) -> tuple[ChainLine, ...]:
         """Return T = ?; for a relation return ? = ?, or ? = 0 if the right side is 0."""
-        firsts = [lines[0] for lines in _chains(group)]
+        firsts = [lines[0] for lines in group.chains]
         if self.by_key[group.key].symbol is not None or isinstance(firsts[0].left, Symbol):
             return tuple(ChainLine(line.left, line.relation, BLANK, beside=line.beside) for line in firsts)
         return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
@@ -118,7 +120,7 @@ class _Hints:
         self.introduced |= letters.union(*(each for each in known if each & letters))
 
     def _part_of(self, group: Equations, rung: slice) -> Equations | None:
-        lines = tuple(line for chain in _chains(group) for line in self._kept(chain, self.by_key[group.key], rung))
+        lines = tuple(line for chain in group.chains for line in self._kept(chain, self.by_key[group.key], rung))
         return replace(group, lines=lines, framed=0) if lines else None
 
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
@@ -152,12 +154,19 @@ class _Hints:
         return is_plain and any(equal(formula, answer) for answer in self.answers)
 
 
-def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
-    """Yield the lines of each chain in the group; in a list of results each line is a separate chain."""
-    starts = [
-        i for i, line in enumerate(group.lines) if not i or line.beside or (line.left is not None and not line.because)
-    ]
-    return (group.lines[i:j] for i, j in pairwise([*starts, len(group.lines)]))
+def _is_answer_next(sentence: Sentence, block: Block) -> bool:
+    """Return whether the display after a paragraph contains an answer."""
+    following = next((each for each in sentence[sentence.index(block) :] if isinstance(each, Display)), None)
+    return following is not None and any(group.framed for group in following.groups)
+
+
+def _last_sentence(nodes: Sequence[Inline]) -> tuple[Inline, ...]:
+    """Return the nodes after the last full stop that another sentence follows."""
+    for i in range(len(nodes) - 1, -1, -1):
+        node = nodes[i]
+        if isinstance(node, Text) and (ends := [*_FULL_STOP.finditer(node.text)]):
+            return (Text(node.text[ends[-1].end() :]), *nodes[i + 1 :])
+    return tuple(nodes)
 
 
 def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:

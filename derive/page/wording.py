@@ -106,8 +106,8 @@ class ToldIn:
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: its statement, and the sentence that replaces the statement if an earlier problem of the document
-    states the theorem."""
+    """A theorem: its statement, and the shorter sentence that replaces the statement if an earlier problem of the
+    document states the theorem."""
 
     name: str
     nodes: tuple[Inline, ...]
@@ -128,6 +128,7 @@ class Phrases:
     theorems_again: Mapping[str, str]
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
+    tasks: Mapping[str, str]
     terms: Mapping[str, str]
     bodies: Mapping[str, str]
     sizes: Mapping[str, str]
@@ -167,10 +168,13 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return the note next to an answer that is only a definition or that repeats an earlier equation."""
+        """Return the note next to an answer that repeats an earlier equation, or that is only a definition.
+
+        A definition that contains derived results is itself derived.
+        """
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
-        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
+        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
         """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""

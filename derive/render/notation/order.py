@@ -1,7 +1,8 @@
 """The order in which terms and factors are written.
 
 Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
-Factors have this order: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
+Factors have this order: coefficients of friction, masses, accelerations of gravity, lengths, sums, numbers, roots,
+rates, functions.
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
     if isinstance(base, Symbol | ex.Amount):
         if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
             return 0, Place.CHANGING, 0, str(base)
-        return 0, rank_of_dimension(dimension_of(base)), -1, str(base)
+        return 0, _place_of_letter(base, dimension_of), -1, str(base)
     if isinstance(base, exp):
         return 0, Place.SUM, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
@@ -145,6 +146,13 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
         swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
         return 0, place, 2 if swings else 0, str(factor)
     return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)
+
+
+def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
+    """Return the `Place` of a letter; the letter mu without a dimension is a coefficient of friction."""
+    dimension = dimension_of(letter)
+    is_coefficient = str(letter).partition("_")[0] == "mu" and dimension is not None and dimension.is_number
+    return Place.COEFFICIENT if is_coefficient else rank_of_dimension(dimension)
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:

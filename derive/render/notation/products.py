@@ -269,6 +269,7 @@ FORCE = dimension_of_kind("force")
 class Place(IntEnum):
     """The places of factors in a product, in the order of print."""
 
+    COEFFICIENT = auto()  # a coefficient of friction: mu N, mu m g
     PER_MASS = auto()  # the gravitational constant comes before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
+from derive.page.chain_lines import ChainLine
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.theorems import standalone
@@ -88,12 +89,17 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the sides of a result; a line may end between two sides or within one."""
-        line = credit.result
+        """Return the results of a step; a line may end between two sides or within one."""
+        return Html(", ".join(self._sides_of(line) for line in credit.results))
+
+    def _sides_of(self, line: ChainLine) -> str:
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
         shown = (in_pieces(side, inline=True, sign=TEX_OPERATORS[relation]) for relation, side in sides)
-        return Html("<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown))
+        return "<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown)
+
+    def task_of(self, credit: Credit) -> Html:
+        return Html(escape(credit.task))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"

@@ -111,8 +111,11 @@ class LatexPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Tex:
-        formula = equation_latex(credit.result, self.notation)
-        return Tex(formula)
+        """Return the results of a step in one row."""
+        return Tex(r",\quad ".join(equation_latex(line, self.notation) for line in credit.results))
+
+    def task_of(self, credit: Credit) -> Tex:
+        return Tex(escaped(credit.task))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"

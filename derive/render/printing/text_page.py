@@ -158,5 +158,5 @@ class _Page:
         if line.number is not None:
             number = f"({line.number})"
             room = PAGE_COLUMNS - len(number) - columns(lines[middle])
-            lines[middle] += (" " * room if room > 0 else "  ") + number
+            lines[middle] += (" " * room if room > 1 else "  ") + number
         return lines

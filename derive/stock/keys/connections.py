@@ -186,6 +186,16 @@ FRICTION: Reader[Any] = Reader(
 )
 
 
+def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
+    """Return the parts of a contact; static friction knows the name of the body that would slip."""
+
+    def with_name(part: Any) -> Any:
+        limit = getattr(part, "limit", None)
+        return replace(part, limit=replace(limit, slider=name)) if limit is not None else part
+
+    return tuple(map(with_name, contact(**given)))
+
+
 @dataclass(frozen=True)
 class ContactKeys(Record):
     """The keys of one entry of `contacts:`, a body that touches a surface."""
@@ -220,7 +230,11 @@ class ContactKeys(Record):
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
         forces = tuple(map(str, [*self.symbols(), *self._components(known)]))
-        return Deferred(contact, (), named, forces=forces, place=self.places[""])
+        return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
+
+    def _name(self) -> str:
+        """Return the name of the body that touches the surface, `block` or that of `ladder.end`; empty for a place."""
+        return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
         """Return the symbols of the components that the friction of rolling has in space."""
