@@ -47,6 +47,7 @@ class FigureRef(Text):
     """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently."""
 
     key: str
+    number: int
 
 
 @dataclass(frozen=True)

@@ -147,4 +147,6 @@ def test_a_line_may_end_before_a_term_of_a_wide_side_and_never_before_its_punctu
     page, _ = page_of(tmp_path, "slab")
     rows = re.findall(r'<div class="row".*?</div>', page, re.DOTALL)
     assert any('<wbr><math displaystyle="true"><mo form="infix">' in row for row in rows)
-    assert not re.search(r'class="side[^"]*">(?:(?!</span>).)*</span><span class="stop">', page)
+    assert not re.search(r'</math>(?:</span>)*[.,;]', page)
+    stops = [stop for row in rows for stop in re.findall(r'.{8}<span class="stop">', row)]
+    assert stops and all(stop.startswith(("</math>", "</span>")) for stop in stops)
