@@ -194,6 +194,10 @@ class Phrases:
         article."""
         return self.bodies.get(id) or with_article(id)
 
+    def rule(self, rule: str) -> str:
+        """Return a short name for the result of a rule: "kinetic energy" for `lagrange.kinetic_energy`."""
+        return str(self.labels["rules"].get(rule, rule.rpartition(".")[2].replace("_", " ")))
+
     def size(self, id: str) -> str:
         """Return the text for a size of a body: `base_radius` is "base radius"."""
         return self.sizes.get(id) or id.replace("_", " ")

@@ -105,11 +105,13 @@ def test_the_contents_give_the_pages_on_which_the_problems_begin(solutions: PdfR
     assert "E Noether" in cover
 
 
-def test_a_problem_follows_the_one_before_on_its_page(course: Path, solutions: PdfReader) -> None:
+def test_a_problem_follows_the_one_before_on_its_page(
+    course: Path, solved: list[Rendered], solutions: PdfReader
+) -> None:
     assert page_of(solutions, "hw9.cube") == page_of(solutions, "hw9.cube.a") == 1
-    brief = [rendered_once(course, problem_id, "brief") for problem_id in problem_set(course, "hw9").problems]
-    target = course / "brief.pdf"
-    typeset(set_document(course, problem_set(course, "hw9"), brief), target, chosen_engine(None))
+    short = replace(solved[0], latex=Tex("A short solution. " * 20))
+    target = course / "short.pdf"
+    typeset(set_document(course, problem_set(course, "hw9"), [short, solved[1]]), target, chosen_engine(None))
     reader = PdfReader(target)
     above = reader.pages[page_of(reader, "hw9.block") - 1].extract_text().partition("A uniform block")[0]
     assert len(above.split()) > 40, "the end of the problem before it"
@@ -205,18 +207,18 @@ def test_the_last_page_counts_steps_lines_routes_and_references(solved: list[Ren
 
 
 def test_errata_are_told_with_what_is_printed_and_what_is_right(solved: list[Rendered]) -> None:
-    told = solved[1].report
+    told = solved[1].source
     assert r"\theta = 22.64\mathrm{{}^\circ}" in told
     assert r"\theta = 21.64\mathrm{{}^\circ}" in told
     assert "22 for 21" in told
     assert r"\told{printed}{$\bm{r}_{C} = (" in told and r"\ \tfrac{5}{2}\,a)$}" in told
     assert solved[0].counts["errata"] == 0
-    assert "Errata" not in solved[0].report
+    assert solved[0].source == "" and "Errata" not in solved[1].report
 
 
 def test_second_routes_are_told_by_result(solved: list[Rendered]) -> None:
     (row,) = [line for line in solved[1].report.splitlines() if r"{J_{xx}}" in line]
-    assert r"\cell{entry of the tensor}" in row and r"{J_{yz}}" in row
+    assert r"\cell{component of the tensor}" in row and r"{J_{yz}}" in row
     assert r"equimomental" in row and r"& \cell{--} \tabularnewline" in row
 
 

@@ -147,6 +147,7 @@ def test_a_line_may_end_before_a_term_of_a_wide_side_and_never_before_its_punctu
     page, _ = page_of(tmp_path, "slab")
     rows = re.findall(r'<div class="row".*?</div>', page, re.DOTALL)
     assert any('<wbr><math displaystyle="true"><mo form="infix">' in row for row in rows)
-    assert not re.search(r'</math>(?:</span>)*[.,;]', page)
-    stops = [stop for row in rows for stop in re.findall(r'.{8}<span class="stop">', row)]
-    assert stops and all(stop.startswith(("</math>", "</span>")) for stop in stops)
+    prose = re.sub(r"<nav.*?</nav>", "", page, flags=re.DOTALL)  # the list of parts has no elements in its formulas
+    assert not re.search(r"</(?:math|span)>[.,;:](?!</span>)", prose)
+    stops = [stop for row in rows for stop in re.findall(r'.{7}<span class="stop">', row)]
+    assert stops and set(stops) <= {"</math>", "</span>"}

@@ -135,6 +135,8 @@ class HtmlPage:
         match node:
             case FigureRef(number=number):
                 return self._figure(number, "&nbsp;")
+            case Text(" = "):
+                return "&nbsp;=&nbsp;"
             case Text(text):
                 return escape(text)
             case Math(expr):

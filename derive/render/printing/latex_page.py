@@ -92,6 +92,7 @@ class LatexPage:
         rubric: Mapping[str, Sequence[Credit]] | None = None,
     ):
         self.document, self.words, self.notation, self.rubric = document, words, notation, rubric or {}
+        self._placed: set[Number] = set()
 
     @property
     def id(self) -> Tex:
@@ -145,6 +146,8 @@ class LatexPage:
         match node:
             case FigureRef(number=number):
                 return self._figure(number, "~")
+            case Text(" = "):
+                return "~=~"
             case Text(text):
                 return escaped(text)
             case Math(expr):
@@ -218,10 +221,13 @@ class LatexPage:
         else:
             command, body = "row", _sides(first)
         reason = rf"\why{{{self.inline(last.reason)}}}" if last.reason else ""
-        number = "" if last.number is None else self._numbered(last.number)
+        is_new = last.number is not None and last.number not in self._placed
+        number = self._numbered(last.number) if last.number is not None and is_new else ""
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
     def _numbered(self, number: Number) -> str:
+        """Return the number of an equation, which a page shows once: hints show further lines of an equation."""
+        self._placed.add(number)
         return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
     def in_statement(self) -> Sequence[Illustration]:
