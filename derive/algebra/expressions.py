@@ -80,7 +80,6 @@ def stand_in(name: str, **assumptions: bool) -> Symbol:
 PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign, + or -: its square is 1, so b + PLUS_MINUS*c is b +- c
 
 
-
 @lru_cache(maxsize=1024)
 def rate(coordinate: Symbol, order: int = 1) -> Symbol:
     """The name of a coordinate's rate of change: theta -> theta_dot, theta_dot -> theta_ddot."""

@@ -25,9 +25,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Step
 
-NAMELESS = "answers.", "numeric."  # rules whose symbols have no name of their own
-PUT_IN = "answers.put_in"
-LETTERS = Symbol, MatrixSymbol
+LETTERS = Symbol, MatrixSymbol, type(None)  # a relation has no symbol
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -38,6 +36,7 @@ def with_hints(
     hints = _Hints([*derivation.steps, *values.values()], problem.dimensions, words)
     asked = [step for part in problem.parts for step in derivation.answering(part.answers)]
     hints.answers = {_of(step.result) for step in asked}
+    hints.shown = {part for step in derivation.steps if step.key in document.numbers for part in _parts(step.result)}
     hints.worded_answers = {step.key for step in asked if step.key in problem.wording}
     parts = tuple(hints.of(part) for part in document.parts_shown)
     return replace(document, parts=parts, limits=None, note=(), closing=())
@@ -47,6 +46,7 @@ def with_hints(
 class _Hints:
     """The hints of one page.
 
+    shown           the results of the page, and the components of vectors and tensors
     introduced      symbols that the statement or a hint has explained
     worded_answers  answers in the author's own words, which may contain the answer: "no, unless"
     """
@@ -55,6 +55,7 @@ class _Hints:
     given: Collection[Any]
     words: Phrases
     answers: set[Any] = field(default_factory=set)
+    shown: set[Any] = field(default_factory=set)
     worded_answers: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
@@ -98,10 +99,10 @@ class _Hints:
 
     def _name(self, step: Step) -> str:
         """Return what a relation or a letter is; another symbol, such as dL/dt, needs no name."""
-        if step.symbol is None:
-            return "" if step.rule == PUT_IN else f"the {self.words.rule(step.rule)}"
-        is_named = isinstance(step.symbol, LETTERS) and not step.rule.startswith(NAMELESS)
-        return self.words.rule(step.rule) if is_named else ""
+        if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
+            return ""
+        name = self.words.rule(step.rule)
+        return f"the {name}" if step.symbol is None else name
 
     def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
         """Return symbols with their name behind them: `I_1, I_2 (principal moment)`."""
@@ -127,7 +128,7 @@ class _Hints:
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
             due = self._due(groups)
-            clause = self.clauses.meanings(due)
+            clause = self.clauses.meanings([step for step in due if self.shown.isdisjoint(_parts(step.result))])
             found += [replace(display, groups=groups, end="," if clause else ".")] if groups else []
             found += [Paragraph(clause)] if clause else []
         return found
@@ -202,6 +203,13 @@ def _sides(line: ChainLine, step: Step) -> list[Any]:
 def _is_to_be_done(line: ChainLine) -> bool:
     sides = [side for side in (line.left, line.right) if isinstance(side, Basic | MatrixBase)]
     return any(side.has(*TO_BE_DONE) for side in sides)
+
+
+def _parts(value: Any) -> list[Any]:
+    """Return the formulas of a value: itself, or the components of a vector or tensor other than plain numbers."""
+    found = _of(value)
+    components = list(found) if isinstance(found, MatrixBase) else [found]
+    return [each for each in components if not getattr(each, "is_Atom", False)]
 
 
 def _of(value: Any) -> Any:

@@ -144,7 +144,9 @@ def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
     assert not is_made_anew(a, {c: MASS}) and is_made_anew(a, {b: MASS})
 
 
-def test_each_letter_is_set_once_in_each_font(problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_letter_is_set_once_in_each_font(
+    problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Not again for other numbers, nor for a drawing that has others beside it."""
     a, b = (Symbol(name, positive=True) for name in "ab")
     made: list[str] = []

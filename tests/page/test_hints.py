@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sympy import Basic, MatrixBase, Symbol
+from sympy import Basic, MatrixBase
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation

@@ -149,5 +149,5 @@ def test_a_line_may_end_before_a_term_of_a_wide_side_and_never_before_its_punctu
     assert any('<wbr><math displaystyle="true"><mo form="infix">' in row for row in rows)
     prose = re.sub(r"<nav.*?</nav>", "", page, flags=re.DOTALL)  # the list of parts has no elements in its formulas
     assert not re.search(r"</(?:math|span)>[.,;:](?!</span>)", prose)
-    stops = [stop for row in rows for stop in re.findall(r'.{7}<span class="stop">', row)]
+    stops = [stop for row in rows for stop in re.findall(r'(.{7})<span class="stop">', row)]
     assert stops and set(stops) <= {"</math>", "</span>"}

@@ -23,7 +23,11 @@ def numbered_in_a_row(problems: Iterable[str]) -> list[Html]:
     """Return the problems of a page with the final numbers of their figures."""
     found: list[Html] = []
     before = 0
+
+    def in_a_row(number: re.Match[str]) -> str:
+        return str(before + int(number[1]))
+
     for body in problems:
-        found.append(Html(_MARKED.sub(lambda match, before=before: str(before + int(match[1])), body)))
+        found.append(Html(_MARKED.sub(in_a_row, body)))
         before += max(map(int, _MARKED.findall(body)), default=0)
     return found

@@ -18,7 +18,19 @@ from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
-from derive.page.wording import DimensionMark, FigureRef, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    FigureRef,
+    Inline,
+    Math,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    ToldIn,
+    ToldOnce,
+    UnitMark,
+)
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import in_pieces, mathml, of_latex
@@ -133,8 +145,8 @@ class HtmlPage:
 
     def _node(self, node: Inline) -> str:
         match node:
-            case FigureRef(number=number):
-                return self._figure(number, "&nbsp;")
+            case FigureRef(number=figure):
+                return self._figure(figure, "&nbsp;")
             case Text(" = "):
                 return "&nbsp;=&nbsp;"
             case Text(text):

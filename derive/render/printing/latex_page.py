@@ -16,7 +16,19 @@ from derive.page.folding import sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.tree import Block, Display, Document, Illustration, PartPage
-from derive.page.wording import DimensionMark, FigureRef, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    FigureRef,
+    Inline,
+    Math,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    ToldIn,
+    ToldOnce,
+    UnitMark,
+)
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
@@ -145,7 +157,7 @@ class LatexPage:
     def _node(self, node: Inline) -> str:
         match node:
             case FigureRef(number=number):
-                return self._figure(number, "~")
+                return self._figure_name(number, "~")
             case Text(" = "):
                 return "~=~"
             case Text(text):
@@ -235,11 +247,11 @@ class LatexPage:
 
     def drawing(self, drawing: Illustration) -> Tex:
         """Return the file of a drawing, the text that replaces a missing file, the figure number and the caption."""
-        number = "" if drawing.number is None else f"{self._figure(drawing.number, ' ')}."
+        number = "" if drawing.number is None else f"{self._figure_name(drawing.number, ' ')}."
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
 
-    def _figure(self, number: int, space: str) -> str:
+    def _figure_name(self, number: int, space: str) -> str:
         """Return the name of a figure; TeX adds the figures of earlier problems of the document to its number."""
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
