@@ -102,7 +102,9 @@ def test_each_display_says_what_it_is_in_latex(tmp_path: Path) -> None:
 def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     solved = rendered_once(root, "hw9/block", draws=True, only=("html",))
-    tags = read(index_page(root, problem_set(root, "hw9"), [solved]))
+    page = index_page(root, problem_set(root, "hw9"), [solved])
+    assert "A uniform block of mass" in page and "<svg" in page, "its statement and its drawing"
+    tags = read(page)
     assert (tags.open, tags.faults) == ([], [])
     assert {"block.html", "solutions.pdf", "problems.pdf", "problems.html", "report.pdf"} <= set(tags.links)
 
