@@ -34,6 +34,7 @@ _SHAPE: dict[str, Any] = {
     "labels": {
         _ANY: _TEXT,
         "points": [_TEXT],
+        "unnamed": [_TEXT],
         "rules": _TABLE,
         "explain": _TABLE,
         "documents": _TABLE,

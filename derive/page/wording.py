@@ -47,6 +47,7 @@ class FigureRef(Text):
     """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently."""
 
     key: str
+    number: int
 
 
 @dataclass(frozen=True)
@@ -196,6 +197,10 @@ class Phrases:
         """Return the text for a kind of body: "a hollow ball" for `thick_shell`; by default the id of the kind with an
         article."""
         return self.bodies.get(id) or with_article(id)
+
+    def rule(self, rule: str) -> str:
+        """Return a short name for the result of a rule: "kinetic energy" for `lagrange.kinetic_energy`."""
+        return str(self.labels["rules"].get(rule, rule.rpartition(".")[2].replace("_", " ")))
 
     def size(self, id: str) -> str:
         """Return the text for a size of a body: `base_radius` is "base radius"."""

@@ -82,7 +82,6 @@ BETWEEN_TERMS = {
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
-BLANK = "?"  # an unknown result in a hint
 # Extra height for columns of fractions: the first string is added to a row, the second between two rows.
 SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
@@ -287,8 +286,6 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 def _name(name: Name) -> str:
     base = name.letter
-    if base == BLANK:
-        return "{?}"  # braces give the question mark the spacing of a letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"
