@@ -15,8 +15,7 @@ from derive.errors import DeriveError
 from derive.mechanics.lagrange import applied_forces, claims
 from derive.mechanics.motion import energy_integral
 from derive.page.chain_lines import conditions_of
-from derive.page.hints import _last_sentence
-from derive.page.wording import Math, Text, phrases
+from derive.page.wording import Text, phrases
 from derive.steps.level import Display
 from tests.courses import ROOT
 from tests.stock.described import course_with, edited, solved
@@ -122,13 +121,6 @@ def test_the_conditions_of_an_answer_are_in_its_frame_as_one_line() -> None:
     Lost.roles = Lost.roles[:1]
     (line,) = conditions_of(Lost())  # type: ignore[arg-type]
     assert (line.left, line.relation, line.right) == (v, "greater", 2 * g)
-
-
-def test_a_hint_has_only_the_last_sentence_before_an_answer() -> None:
-    verdict = (Text("In the body frame: no, unless "), Math(Symbol("w")))
-    said = (*verdict, Text(" is principal. By Euler's equations it is "))
-    assert _last_sentence(said) == (Text("By Euler's equations it is "),)
-    assert _last_sentence(verdict) == verdict
 
 
 def test_a_speed_is_answered_where_the_speed_is_asked_for(tmp_path: Path) -> None:
