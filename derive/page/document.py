@@ -39,7 +39,7 @@ from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
-from derive.page.unused import unused_definitions
+from derive.page.unused import laws_without_steps, unused_definitions
 from derive.page.wording import (
     Chain,
     Inline,
@@ -173,6 +173,7 @@ class _Writer:
                 *filter(None, map(latex_in, problem.texts)),
                 *self.formulas.warnings,
                 *unused_definitions(problem, self.derivation),
+                *laws_without_steps(problem, self.derivation, self.words),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),

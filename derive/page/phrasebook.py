@@ -26,6 +26,7 @@ _SHAPE: dict[str, Any] = {
     "setups": {_ANY: _TABLE},
     "clauses": {_ANY: _TABLE},
     "tasks": _TABLE,
+    "laws": _TABLE,
     "terms": _TABLE,
     "bodies": _TABLE,
     "sizes": _TABLE,

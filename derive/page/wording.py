@@ -130,6 +130,7 @@ class Phrases:
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
     tasks: Mapping[str, str]
+    laws: Mapping[str, str]
     terms: Mapping[str, str]
     bodies: Mapping[str, str]
     sizes: Mapping[str, str]
