@@ -336,7 +336,7 @@ def test_a_question_that_cannot_be_meant_is_told(old: str, new: str, said: str, 
 
 def test_only_a_fixed_corner_may_touch_a_body(tmp_path: Path) -> None:
     text = library("rod_over_edge")
-    assert any("needs a particle" in each for each in messages(tmp_path, edited(text, ("of: [0, 0]", "of: [h, 0]"))))
+    assert any("needs a particle" in each for each in messages(tmp_path, edited(text, ("of: [0, 0]", "of: [d, 0]"))))
 
 
 def test_a_slip_whose_place_depends_on_the_letters_is_refused(tmp_path: Path) -> None:
