@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
+from derive.course.parts import LAGRANGE
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -51,6 +52,7 @@ from derive.steps.record import assume, assumed, current_run
 from derive.steps.step import Quantity, is_zero
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
+from derive.stock.answering.methods import ABOUT, by_newton
 from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.answering.sticking import state_static_friction
@@ -69,6 +71,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         self.coordinates = {
             name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
         }
+
+    @property
+    def method(self) -> str:
+        """Return the way to the equations of motion."""
+        return str(self.described.methods.whole or LAGRANGE)
 
     def solve(self, asked: Sequence[Word]) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw the system."""
@@ -238,6 +245,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
+        if self.method in ABOUT:
+            balances = [by_newton(self.system, q, f"balance_{name}", at_rest=True) for name, q in self.coordinates.items()]
+            return rest_with_forces(balances, self.coordinates, forces)
         return rest_with_forces(self.equations_of_motion, self.independent, forces)
 
     @answer
@@ -294,7 +304,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer_for_each("motion_{}", lambda self: self.coordinates)
     def motion(self, name: str) -> Quantity:
-        return equation_of_motion(self.lagrangian, self.coordinates[name], key=f"motion_{name}")
+        q, key = self.coordinates[name], f"motion_{name}"
+        if self.method in ABOUT:
+            return by_newton(self.system, q, key, ABOUT[self.method])
+        return equation_of_motion(self.lagrangian, q, key=key)
 
     @answer_for_each("momentum_{}", lambda self: self.coordinates)
     def momentum(self, name: str) -> Quantity:
@@ -364,6 +377,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
         """Return the coordinates that remain in the Lagrangian after the conditions of rolling eliminated some."""
+        if self.method in ABOUT:
+            return {name: q for name, q in self.coordinates.items() if q.symbol in self.system.coordinates}
         moving = self.lagrangian.coordinates
         return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
 

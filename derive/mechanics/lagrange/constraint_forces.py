@@ -24,11 +24,12 @@ from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
 from derive.solving.divisors import told_of_divisors
 from derive.steps.claims import lasts, says_what_it_divides_by, vanishes
-from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
@@ -220,7 +221,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         outcome="in_rates" if each.in_rates else "in_coordinates",
         phrase_data=PhraseData(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
         key=key or f"constraint_{each.force.name}",
-        parents=[of],
+        facts=[described] if (described := description_behind(of)) is not None else [],
+        scope=Scope(coordinates=of.coordinates),
     )
 
 

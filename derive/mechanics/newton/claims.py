@@ -1,0 +1,135 @@
+"""Predicates of Newton's laws: each judges whether an outcome, or a statement in its sentence, is correct."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sympy import Add, Expr, Integer, Rational, diff
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import TIME, explicit, rate
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
+from derive.steps.claims import both as both
+from derive.steps.rule import Judged, Predicate
+from derive.steps.step import is_zero
+
+Vector = tuple[Expr, ...]
+AXES = {"to_the_right": (1, 0), "to_the_left": (-1, 0), "upwards": (0, 1), "downwards": (0, -1)}
+SLOPES = {"up_the_slope": 1, "down_the_slope": -1}
+
+
+def of_masses(several: bool, alike: bool = False) -> Predicate:
+    """Return a predicate: whether the system has several masses, and whether another one equals that of the law."""
+
+    def is_so(facts: Judged) -> bool:
+        masses = facts.inputs["masses"]
+        same = [each for each in masses if is_zero(each - facts.inputs["weight"])]
+        return (len(masses) > 1, len(same) > 1) == (several, alike)
+
+    return is_so
+
+
+def at_rest(wanted: bool) -> Predicate:
+    """Return a predicate: whether the left side of the equation is zero because all bodies are at rest."""
+    return lambda facts: is_zero(explicit(facts.result).left) == wanted
+
+
+def mass_of_the_body(facts: Judged, mass: Any) -> bool:
+    return is_zero(mass - facts.inputs["weight"])
+
+
+def coordinate_of_the_law(facts: Judged, q: Any) -> bool:
+    """Whether the coordinate moves or rotates the body."""
+    turn = diff(facts.inputs.get("angle", Integer(0)), q)
+    return any(not is_zero(c) for c in (*_way(facts, q), turn))
+
+
+def _way(facts: Judged, q: Any = None) -> Vector:
+    """The displacement of the body for a small change of the coordinate."""
+    return tuple(explicit(diff(c, q or facts.inputs["coordinate"])) for c in facts.inputs["place"])
+
+
+def _positive(value: Expr) -> bool:
+    """Whether an expression is positive for positive numbers in place of its symbols; angles lie below a right angle."""
+    there = {s: Rational(3 + 2 * i, 11 + 2 * i) for i, s in enumerate(sorted(value.free_symbols, key=str))}
+    return bool(value.xreplace(there).evalf(30) > 0)
+
+
+def _dot(a: Vector, b: Vector) -> Expr:
+    return Add(*(x * y for x, y in zip(a, b, strict=True)))
+
+
+def _cross(a: Vector, b: Vector) -> Expr:
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def _is_fixed(place: Vector, moving: Any) -> bool:
+    return all(not explicit(c).has(*moving, TIME) for c in place)
+
+
+def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
+    """Whether the left side is the mass times the acceleration along the displacement of the coordinate, and not
+    against it."""
+    way, moving = _way(facts), list(facts.inputs["moving"])
+    along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
+    left = explicit(facts.result).left
+    if outcome.endswith("at_rest"):
+        return is_zero(left) and is_zero(_still(along, moving))
+    return bool(equal(left**2 * _dot(way, way), along**2)) and (is_zero(along) or _positive(left * along))
+
+
+def _acceleration(facts: Judged) -> Vector:
+    moving = list(facts.inputs["moving"])
+    return tuple(by_functions_of_time(c, moving, 2) for c in facts.inputs["place"])
+
+
+def _still(value: Expr, moving: Any) -> Expr:
+    """An expression with all rates and accelerations zero."""
+    return explicit(value).xreplace({rate(q, n): Integer(0) for q in moving for n in (1, 2)})
+
+
+def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
+    """Whether the left side is the rate of change of the angular momentum of the particles of the body about the point:
+    the sum of m r x a, in the sense in which the coordinate rotates the body."""
+    moving, angle = list(facts.inputs["moving"]), facts.inputs["angle"]
+    arm = tuple(a - b for a, b in zip(facts.inputs["place"], facts.inputs["about"], strict=True))
+    whole = facts.inputs["weight"] * _cross(arm, _acceleration(facts))
+    whole += facts.inputs["spread"] * by_functions_of_time(angle, moving, 2)
+    turn, left = diff(angle, facts.inputs["coordinate"]), explicit(facts.result).left
+    if outcome.endswith("at_rest"):
+        return is_zero(left) and is_zero(_still(whole, moving))
+    return is_zero(left - whole) if _positive(turn) else is_zero(left + whole)
+
+
+def point_of_the_torques(facts: Judged, outcome: str) -> bool:
+    """Whether the point has the property for which the sentence names it."""
+    word, about, place = facts.words["where"], facts.inputs["about"], facts.inputs["place"]
+    if word == "centre_of_mass":
+        return all(is_zero(a - b) for a, b in zip(about, place, strict=True))
+    if word == "axis":
+        return _is_fixed(about, facts.inputs["moving"])
+    here = [letter for at, letter in facts.inputs["forces"] if all(is_zero(a - b) for a, b in zip(at, about, strict=True))]
+    return word in ("contact", "point") and any(letter is not None for letter in here)
+
+
+def direction(facts: Judged, outcome: str) -> bool:
+    """Whether the displacement of the coordinate has the direction that the sentence names."""
+    word, way, moving = facts.words["way"], _way(facts), facts.inputs["moving"]
+    if word in AXES:
+        axis = tuple(Integer(c) for c in AXES[word])
+        return is_zero(_cross(axis, way)) and _positive(_dot(axis, way))
+    if word in SLOPES:
+        on_slope = any(is_zero(_dot(normal, way)) for normal in facts.inputs["normals"])
+        return _is_fixed(way, moving) and on_slope and _positive(SLOPES[word] * way[1])
+    if word == "away_from_the_slope":
+        across = [n for n in facts.inputs["normals"] if is_zero(_cross(n, way))]
+        return _is_fixed(way, moving) and any(_positive(_dot(n, way)) for n in across)
+    if word in ("outwards", "inwards", "along_the_tangent"):
+        centre = facts.inputs["centre"]
+        arm = tuple(a - b for a, b in zip(facts.inputs["place"], centre, strict=True))
+        if not _is_fixed(centre, moving):
+            return False
+        if word == "along_the_tangent":
+            return is_zero(_dot(arm, way))
+        return is_zero(_cross(arm, way)) and _positive(_dot(arm, way)) == (word == "outwards")
+    return word == "increasing"

@@ -1,0 +1,75 @@
+"""The words for the direction along which Newton's second law is resolved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sympy import Expr, ImmutableDenseMatrix, Integer
+
+from derive.algebra.expressions import depends_on_time
+from derive.algebra.tidy import tidied
+from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.strings import Line
+from derive.mechanics.model.surfaces import Circle
+from derive.mechanics.newton.alone import Alone, Vector, dot
+from derive.steps.record import coordinates_in
+from derive.steps.signs import sign_known
+from derive.steps.step import is_zero
+
+AXES = {(1, 0): "to_the_right", (-1, 0): "to_the_left", (0, 1): "upwards", (0, -1): "downwards"}
+
+
+@dataclass(frozen=True)
+class Direction:
+    """The word for a direction, and the fixed place to which a radial or tangential direction refers."""
+
+    word: str
+    centre: Vector = ()
+
+
+def direction_of(body: Alone, way: Vector) -> Direction:
+    """Return the word for a unit vector: along an axis, along or across a slope, radial or tangential; otherwise the
+    direction in which the coordinate increases."""
+    if way in AXES:
+        return Direction(AXES[way])
+    if _is_fixed(way):
+        return Direction(_on_slope(body, way))
+    for centre in _centres(body):
+        arm = tuple(a - b for a, b in zip(body.centre, centre, strict=True))
+        if is_zero(tidied(dot(arm, way))):
+            return Direction("along_the_tangent", centre)
+        if is_zero(tidied(arm[0] * way[1] - arm[1] * way[0])) and (sign := sign_known(tidied(dot(arm, way)))):
+            return Direction("outwards" if sign == 1 else "inwards", centre)
+    return Direction("increasing")
+
+
+def _on_slope(body: Alone, way: Vector) -> str:
+    for normal in normals(body):
+        if is_zero(tidied(dot(normal, way) - 1)):
+            return "away_from_the_slope"
+        if is_zero(tidied(dot(normal, way))) and (sign := sign_known(way[1])):
+            return "up_the_slope" if sign == 1 else "down_the_slope"
+    return "increasing"
+
+
+def normals(body: Alone) -> list[Vector]:
+    """The unit normals of the surfaces that touch the body, or that the body carries."""
+    touching = [part for part in body.system.parts if isinstance(part, Contact)]
+    return [each.normal.components for each in touching if body.part in (each.of, each.surface.of)]
+
+
+def _centres(body: Alone) -> Iterator[Vector]:
+    """The fixed places about which the body may circle: the ends of strings and rods, centres of circles, the origin."""
+    for part in body.system.parts:
+        places: list[Vector] = []
+        if isinstance(part, Line):
+            places = [place.components for place in part.places]
+        elif isinstance(part, Contact) and isinstance(part.surface, Circle):
+            places = [part.surface.centre.components]
+        yield from (place for place in places if _is_fixed(place))
+    yield tuple(Integer(0) for _ in body.centre)
+
+
+def _is_fixed(place: tuple[Expr, ...]) -> bool:
+    return not coordinates_in(ImmutableDenseMatrix(place)) and not any(depends_on_time(c) for c in place)
