@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import wraps
 from typing import Any, Protocol, TypeVar
 
@@ -100,6 +100,18 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
     try:
         with own_meaning():
             yield run
+    finally:
+        current_run.reset(token)
+
+
+@contextmanager
+def unrecorded() -> Iterator[None]:
+    """Derive steps that only a check needs: the run does not record them."""
+    run = current_run.get()
+    own = replace(run, established=[], cases=[], assumed=[*run.assumed], in_words=[*run.in_words], drawings=[], memory=None, call=None) if run is not None else Run()
+    token = current_run.set(own)
+    try:
+        yield
     finally:
         current_run.reset(token)
 

@@ -10,7 +10,7 @@ from typing import Any
 from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
-from derive.course.parts import LAGRANGE
+from derive.course.parts import ENERGY, LAGRANGE
 from derive.course.stock import Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -24,6 +24,7 @@ from derive.mechanics import (
     conserved,
     coordinate,
     effective_potential,
+    energy_equation,
     energy_function,
     energy_function_rate,
     equation_of_motion,
@@ -42,6 +43,7 @@ from derive.mechanics import (
     put_in,
     routhian,
     stability,
+    total_energy,
     weight,
 )
 from derive.mechanics.lagrange.facts import ForceOf
@@ -207,7 +209,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        return energy_function(self.lagrangian)
+        """Return the energy function h of the Lagrangian; without a Lagrangian, the energy T + U if it is constant."""
+        return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer
     def energy_function_rate(self) -> Quantity:
@@ -307,6 +310,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         q, key = self.coordinates[name], f"motion_{name}"
         if self.method in ABOUT:
             return by_newton(self.system, q, key, ABOUT[self.method])
+        if self.method == ENERGY:
+            return energy_equation(self.energy_function, self.system, q, key)
         return equation_of_motion(self.lagrangian, q, key=key)
 
     @answer_for_each("momentum_{}", lambda self: self.coordinates)
@@ -377,7 +382,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
         """Return the coordinates that remain in the Lagrangian after the conditions of rolling eliminated some."""
-        if self.method in ABOUT:
+        if self.method != LAGRANGE:
             return {name: q for name, q in self.coordinates.items() if q.symbol in self.system.coordinates}
         moving = self.lagrangian.coordinates
         return {name: q for name, q in self.coordinates.items() if q.symbol in moving}

@@ -8,31 +8,40 @@ from forces on bodies.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 from sympy import Add, Expr, Integer, Symbol
 
 from derive.algebra.expressions import Relation, explicit
-from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.lagrangian import equation_of_motion, lagrangian
+from derive.mechanics.model.constraint import Constrained
+from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
-from derive.steps.step import Quantity
+from derive.steps.record import unrecorded
+from derive.steps.step import Fact, Quantity
 
 
+@lru_cache(maxsize=16)  # each equation of a system needs its Lagrangian
 def lagrangian_behind(system: System) -> Quantity:
     """The Lagrangian of a system, for second routes; it is not shown."""
-    return lagrangian(system)
+    with unrecorded():
+        return lagrangian(system)
+
+
+def facts_of_motion(system: System, q: Coordinate) -> list[Fact]:
+    """The facts that later steps need of an equation of motion: its coordinate, the masses, forces and constraints."""
+    of = lagrangian_behind(system)
+    kept = of.fact(Constrained)
+    found: list[Fact] = [OfCoordinate(q), ForcedMotion(of), of.needed(Matter), system.described]
+    return [*found, *([kept] if kept is not None else [])]
 
 
 def virtual_work(of: Quantity, changes: Mapping[Symbol, Expr]) -> Relation:
     """The sum of Lagrange's equations, each times the change of its coordinate."""
-    total: Expr = Integer(0)
-    for q, change in changes.items():
-        own = equation_of_motion(of, Coordinate(q, of.coordinates[q]), f"lagrange_{q.name}", derivatives=False)
-        total = Add(total, change * explicit(own.value).residual)
-    return Relation(total, "=", Integer(0))
+    with unrecorded():
+        equations = {q: equation_of_motion(of, Coordinate(q, of.coordinates[q]), derivatives=False) for q in changes}
+    terms = [change * explicit(equations[q].value).residual for q, change in changes.items()]
+    return Relation(Add(*terms), "=", Integer(0))
 
-
-def same_motion(of: Quantity) -> ForcedMotion:
-    """The fact with which `accelerations` and `multipliers` find the masses, forces and constraints of an equation."""
-    return ForcedMotion(of)

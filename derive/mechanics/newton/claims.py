@@ -133,3 +133,19 @@ def direction(facts: Judged, outcome: str) -> bool:
             return is_zero(_dot(arm, way))
         return is_zero(_cross(arm, way)) and _positive(_dot(arm, way)) == (word == "outwards")
     return word == "increasing"
+
+
+def no_constraint_force(facts: Judged) -> bool:
+    return not facts.inputs["letters"]
+
+
+def constraint_forces_do_no_work(facts: Judged) -> bool:
+    """Whether constraint forces act, and no constraint depends on the time: for velocities that a constraint allows, its
+    force then has no power."""
+    return bool(facts.inputs["letters"]) and all(not explicit(v).has(TIME) for v in facts.inputs["velocities"])
+
+
+def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
+    """Whether the rate that the sentence states is the rate of the coordinate times the left side of the equation."""
+    told, left = explicit(facts.inputs["rate"]), explicit(facts.result).left
+    return is_zero(told - rate(facts.inputs["coordinate"]) * left)

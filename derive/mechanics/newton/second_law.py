@@ -11,11 +11,10 @@ from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import Factors, Relation, Terms, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
-from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.newton import claims
 from derive.mechanics.newton.alone import Alone, bodies_alone, body_of, changes_alone, unit_along
-from derive.mechanics.newton.by_lagrange import lagrangian_behind, same_motion, virtual_work
+from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
 from derive.mechanics.newton.directions import direction_of, normals
 from derive.mechanics.model.system import System
 from derive.steps.establish import Lines, PhraseData, Scope, establish
@@ -82,7 +81,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
             outcome_data={**data_of(body), "normals": tuple(normals(body)), "centre": along.centre},
         ),
         key=key or f"motion_{q.symbol.name}",
-        facts=[OfCoordinate(q), same_motion(of), of.needed(Matter), system.described],
+        facts=facts_of_motion(system, q),
         scope=Scope(coordinates={**system.coordinates, **forces_in(system)}),
     )
 

@@ -10,13 +10,12 @@ from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import Factors, Relation, Terms, depends_on_time, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
-from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.rigid import inertia_of, is_about_the_point
 from derive.mechanics.model.system import System
 from derive.mechanics.newton import claims
 from derive.mechanics.newton.alone import ZERO, Alone, Vector, body_of, changes_alone, dot, is_free
-from derive.mechanics.newton.by_lagrange import lagrangian_behind, same_motion, virtual_work
+from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
 from derive.mechanics.newton.second_law import at_rest_in, data_of, forces_in, sum_of, which_of_several
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in
@@ -111,7 +110,7 @@ def torque_law(
             },
         ),
         key=key or f"motion_{q.symbol.name}",
-        facts=[OfCoordinate(q), same_motion(of), of.needed(Matter), system.described],
+        facts=facts_of_motion(system, q),
         scope=Scope(coordinates={**system.coordinates, **forces_in(system)}, differ=("body", "mass", "point", "axis")),
     )
 
