@@ -111,6 +111,7 @@ class Drawing:
     view          whether the marks are shown in space or in the plane (x, y)
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
+    leads_to      the keys of steps that the drawing precedes, as a force diagram precedes Newton's laws
     """
 
     key: str
@@ -118,6 +119,7 @@ class Drawing:
     view: str = SPACE
     coordinates: tuple[tuple[Any, str], ...] = ()
     values: tuple[tuple[Any, Any], ...] = ()
+    leads_to: tuple[str, ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -40,7 +40,13 @@ DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of an arrow, relative to the body
 
 
-def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[Any, Any] | None = None) -> Drawing:
+def drawing(
+    key: str,
+    *marks: Marks,
+    view: str | None = None,
+    values: Mapping[Any, Any] | None = None,
+    leads_to: Sequence[str] = (),
+) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
     key      the name of the drawing, for `drawings:` in the problem
@@ -48,6 +54,7 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
     view     "space" (seen from the front and a little from above, z upwards) or "plane" (x to the right, y upwards);
              by default "plane" if a position has two components
     values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`
+    leads_to the keys of steps before which the drawing is placed, by default after the steps that it shows
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -58,7 +65,7 @@ def drawing(key: str, *marks: Marks, view: str | None = None, values: Mapping[An
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
-    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()))
+    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(leads_to))
     noted(found)
     return found
 

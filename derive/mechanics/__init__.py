@@ -57,6 +57,7 @@ from derive.mechanics.motion.flight import *
 from derive.mechanics.motion.leaving import *
 from derive.mechanics.motion.slipping import *
 from derive.mechanics.motion.steady import *
+from derive.mechanics.newton.agreement_of_laws import *
 from derive.mechanics.newton.energy import *
 from derive.mechanics.newton.second_law import *
 from derive.mechanics.newton.torque_law import *

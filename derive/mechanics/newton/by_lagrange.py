@@ -8,6 +8,7 @@ from forces on bodies.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 
 from sympy import Add, Expr, Integer, Symbol
@@ -23,6 +24,14 @@ from derive.steps.record import unrecorded
 from derive.steps.step import Fact, Quantity
 
 
+@dataclass(frozen=True)
+class MovedAlone(Fact):
+    """The changes of the coordinates in which only the body of a law moves."""
+
+    missing = "is not a law of one body"
+    changes: tuple[tuple[Symbol, Expr], ...]
+
+
 @lru_cache(maxsize=16)  # each equation of a system needs its Lagrangian
 def lagrangian_behind(system: System) -> Quantity:
     """The Lagrangian of a system, for second routes; it is not shown."""
@@ -30,11 +39,13 @@ def lagrangian_behind(system: System) -> Quantity:
         return lagrangian(system)
 
 
-def facts_of_motion(system: System, q: Coordinate) -> list[Fact]:
-    """The facts that later steps need of an equation of motion: its coordinate, the masses, forces and constraints."""
+def facts_of_motion(system: System, q: Coordinate, changes: Mapping[Symbol, Expr]) -> list[Fact]:
+    """The facts that later steps need of an equation of motion: its coordinate, the masses, forces and constraints, and
+    the displacement whose virtual work is the equation."""
     of = lagrangian_behind(system)
     kept = of.fact(Constrained)
     found: list[Fact] = [OfCoordinate(q), ForcedMotion(of), of.needed(Matter), system.described]
+    found.append(MovedAlone(tuple(changes.items())))
     return [*found, *([kept] if kept is not None else [])]
 
 

@@ -10,6 +10,7 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, explicit, rate
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.steps.claims import both as both
+from derive.steps.claims import parallel
 from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
 
@@ -149,3 +150,13 @@ def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
     """Whether the rate that the sentence states is the rate of the coordinate times the left side of the equation."""
     told, left = explicit(facts.inputs["rate"]), explicit(facts.result).left
     return is_zero(told - rate(facts.inputs["coordinate"]) * left)
+
+
+def same_equation(facts: Judged) -> bool:
+    """Whether the law of the one body and the result have the same forces, and the result has the accelerations of the
+    law up to a common factor."""
+    law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
+    letters = law.free_symbols | found.free_symbols
+    accelerations = [s for s in letters if s.name.endswith("_ddot")]
+    slopes = [{s: diff(each, s) for s in accelerations} for each in (found, law)]
+    return found.free_symbols == law.free_symbols and (not accelerations or parallel(*slopes))

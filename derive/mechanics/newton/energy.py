@@ -106,7 +106,7 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
         raise Rejected(Complaint("method", message, help="describe the positions by one coordinate, or use another method"))
     changing = explicit(TimeRate(explicit(energy.value), *moving))
     left = by_accelerations(tidied((changing / q.rate).expand()), moving)
-    of = lagrangian_behind(system)
+    of, changes = lagrangian_behind(system), {q.symbol: Integer(1)}
     return establish(
         ENERGY_EQUATION,
         None,
@@ -114,10 +114,10 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
         {"energy": energy},
         lines=Lines(put_in=None, arranged=explicit, law=Level.BRIEF, result=False),
         routes={
-            "lagrange": compared_with(lambda: virtual_work(of, {q.symbol: Integer(1)})),
+            "lagrange": compared_with(lambda: virtual_work(of, changes)),
             "rate": lambda found: (explicit(found).residual * q.rate, by_functions_of_time(energy.value, moving)),
         },
         phrase_data=PhraseData(formulas={"rate": (Factors(Group(left), q.rate), by_functions_of_time(energy.value, moving))}, outcome_data={"coordinate": q.symbol}),
         key=key or f"motion_{q.symbol.name}",
-        facts=facts_of_motion(system, q),
+        facts=facts_of_motion(system, q, changes),
     )

@@ -59,6 +59,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
         message = f"`second_law`: the coordinate {q.symbol.name} also rotates the body"
         raise Rejected(Complaint("wrong-argument", message, help="use `torque_law`"))
     way, of = unit_along(shift), lagrangian_behind(system)
+    changes = changes_alone(body, way, ZERO)
     forces = sum_of([force.along(way) for force in body.forces])
     moving = body.moving
 
@@ -73,7 +74,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
         law,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"lagrange": compared_with(lambda: at_rest_in(virtual_work(of, changes_alone(body, way, ZERO)), system, at_rest))},
+        routes={"lagrange": compared_with(lambda: at_rest_in(virtual_work(of, changes), system, at_rest))},
         outcome=which_of_several(body) + ("_at_rest" if at_rest else ""),
         phrase_data=PhraseData(
             words={"way": along.word},
@@ -81,7 +82,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
             outcome_data={**data_of(body), "normals": tuple(normals(body)), "centre": along.centre},
         ),
         key=key or f"motion_{q.symbol.name}",
-        facts=facts_of_motion(system, q),
+        facts=facts_of_motion(system, q, changes),
         scope=Scope(coordinates={**system.coordinates, **forces_in(system)}),
     )
 

@@ -89,14 +89,14 @@ def torque_law(
         left = [Factors(moment[0], turning), *([by_accelerations(carried, body.moving)] if carried != 0 else [])]
         return Relation(Terms(*left) if len(left) > 1 else left[0], "=", torques)
 
-    shift = tuple(sense * c for c in rotated(body, point.place))
+    changes = changes_alone(body, tuple(sense * c for c in rotated(body, point.place)), sense)
     return establish(
         TORQUE_LAW,
         None,
         law,
         {} if inertia is None else {"inertia": inertia},
         lines=Lines(result=False, arranged=explicit),
-        routes={"lagrange": compared_with(lambda: at_rest_in(virtual_work(of, changes_alone(body, shift, sense)), system, at_rest))},
+        routes={"lagrange": compared_with(lambda: at_rest_in(virtual_work(of, changes), system, at_rest))},
         outcome=which_of_several(body) + ("_at_rest" if at_rest else ""),
         phrase_data=PhraseData(
             words={"where": point.word},
@@ -110,7 +110,7 @@ def torque_law(
             },
         ),
         key=key or f"motion_{q.symbol.name}",
-        facts=facts_of_motion(system, q),
+        facts=facts_of_motion(system, q, changes),
         scope=Scope(coordinates={**system.coordinates, **forces_in(system)}, differ=("body", "mass", "point", "axis")),
     )
 
