@@ -97,9 +97,7 @@ def free_body_diagram(key: str, system: System, of: Any, leads_to: Sequence[str]
         pushes = isinstance(force.of, PlacedBody) and size in _of_surfaces(system)
         drawn.append(_Drawn(at, way, size, times * size, (), pushes))
     long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
-    return drawing(
-        key, [*_outline(of), *(each.arrow(long) for each in drawn)], values=scene.values, leads_to=leads_to
-    )
+    return drawing(key, [*_outline(of), *(each.arrow(long) for each in drawn)], values=scene.values, leads_to=leads_to)
 
 
 def _of_surfaces(system: System) -> set[Symbol]:

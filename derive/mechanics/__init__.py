@@ -30,6 +30,7 @@ from derive.mechanics.hamilton.effective import *
 from derive.mechanics.hamilton.phase_space import *
 from derive.mechanics.impacts.impact import *
 from derive.mechanics.impacts.impulses import *
+from derive.mechanics.impacts.momentum_laws import *
 from derive.mechanics.kinematics.coordinates import *
 from derive.mechanics.kinematics.places import *
 from derive.mechanics.lagrange.applied_forces import *

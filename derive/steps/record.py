@@ -106,10 +106,9 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
 
 @contextmanager
 def unrecorded() -> Iterator[None]:
-    """Derive steps that only a check needs: the run does not record them."""
-    run = current_run.get()
-    own = replace(run, established=[], cases=[], assumed=[*run.assumed], in_words=[*run.in_words], drawings=[], memory=None, call=None) if run is not None else Run()
-    token = current_run.set(own)
+    """Derive steps that only a check needs. The run does not record these steps, but it keeps their assumptions."""
+    run = current_run.get() or Run()
+    token = current_run.set(replace(run, established=[], cases=[], drawings=[], memory=None, call=None))
     try:
         yield
     finally:
@@ -217,6 +216,13 @@ def assumed() -> list[Relation]:
     """Return the assumptions of the page."""
     run = current_run.get()
     return list(run.assumed) if run is not None else []
+
+
+def forget_words() -> None:
+    """State all assumptions after the statement of the problem, because no step states them in words."""
+    run = current_run.get()
+    if run is not None:
+        run.in_words.clear()
 
 
 def assumed_in_words() -> list[Relation]:

@@ -51,8 +51,8 @@ from derive.mechanics import (
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.acted_on import check_ground
 from derive.mechanics.model.part import moved
-from derive.steps.derivation import returned_quantities
-from derive.steps.record import assume, assumed, current_run
+from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
@@ -71,6 +71,7 @@ from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
+POTENTIAL_ENERGY = "lagrange.potential_energy"  # the rule whose steps state assumptions about springs in words
 SYSTEM = "system"  # the key of the drawing of a system
 
 
@@ -103,6 +104,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                 with told_at(sliding):
                     check_starts(self.described.results, assumed())
         answers = self._by_methods(asked)
+        steps = with_ancestors(returned_quantities(list(answers.values()))).values()
+        if not any(each.step.rule == POTENTIAL_ENERGY for each in steps):
+            forget_words()
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
@@ -299,7 +303,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
         if self.method in ABOUT:
-            balances = [by_newton(self.system, q, f"balance_{name}", at_rest=True) for name, q in self.coordinates.items()]
+            balances = [
+                by_newton(self.system, q, f"balance_{name}", at_rest=True) for name, q in self.coordinates.items()
+            ]
             return rest_with_forces(balances, self.coordinates, forces)
         return rest_with_forces(self.motions, self.independent, forces)
 

@@ -46,7 +46,7 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
         raise Rejected(Complaint("wrong-argument", message))
     used = {f"lagrange_{i}": by_coordinate[s] for i, s in enumerate(changes, 1)}
 
-    shown = used["lagrange_1"] if len(used) == 1 else newton
+    shown = (used["lagrange_1"] if len(used) == 1 else newton).step.chain[-1].expr
 
     def by_virtual_work(found: Relation) -> tuple[Relation, Relation]:
         residuals = (explicit(by_coordinate[s].value).residual * change for s, change in changes.items())
@@ -55,7 +55,7 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
     return establish(
         AGREEMENT_OF_LAWS,
         None,
-        lambda *_: shown.value,
+        lambda *_: shown,
         {"newton": newton, **used},
         lines=Lines(put_in=None, arranged=explicit, result=False),
         routes={"virtual_work": by_virtual_work},

@@ -10,19 +10,19 @@ Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.1 and 7.6
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
 
-from derive.algebra.expressions import TimeRate, explicit
+from derive.algebra.expressions import Terms, TimeRate, explicit
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody, central_second_moments
 from derive.mechanics.model.dalembert import Load, Reaction
-from derive.mechanics.model.system import Particle, System
+from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 Vector = tuple[Expr, ...]
@@ -53,7 +53,7 @@ class Force:
         """The torque about a place, N m, positive counterclockwise."""
         if self.at is None:
             return self.couple
-        x, y = (a - b for a, b in zip(self.at, about, strict=True))
+        x, y = arm(self.at, about)
         fx, fy = self.components
         return x * fy - y * fx
 
@@ -80,7 +80,8 @@ class Alone:
     @property
     def centre(self) -> Vector:
         """The place of the particle, or of the centre of mass."""
-        return (self.part.centre if self.is_body else self.part.at).components
+        place: Vector = (self.part.centre if self.is_body else self.part.at).components
+        return place
 
     @property
     def angle(self) -> Expr:
@@ -90,6 +91,12 @@ class Alone:
     @property
     def moving(self) -> list[Symbol]:
         return list(self.system.coordinates)
+
+    @property
+    def axis(self) -> Vector | None:
+        """The place of the fixed point about which the body rotates; None if the body is not held at a fixed point."""
+        held: Vector | None = self.part.at.components if self.is_body and self.part.is_held else None
+        return held
 
     def shift(self, q: Symbol) -> Vector:
         """The displacement of the centre for a small change of a coordinate, per unit of the change."""
@@ -105,7 +112,7 @@ class Alone:
     def carried(self, place: Vector, q: Symbol) -> Vector:
         """The displacement of the particle of the body at a place."""
         (dx, dy), turn = self.shift(q), self.turn(q)
-        x, y = (a - b for a, b in zip(place, self.centre, strict=True))
+        x, y = arm(place, self.centre)
         return dx - turn * y, dy + turn * x
 
     @cached_property
@@ -163,9 +170,8 @@ def body_of(system: System, q: Symbol) -> Alone:
             if s not in taken and each.moves_with(s) and _moves_alone(each, s):
                 taken[s] = each
     if q not in taken:
-        message = (
-            f"no body can move along {q.name} alone, because the coordinates keep a connection whose force has no letter"
-        )
+        why = "because the coordinates keep a connection whose force has no letter"
+        message = f"no body can move along {q.name} alone, {why}"
         help_line = (
             "give each body coordinates of its own, and each string, rod, joint or contact the letter of its force; "
             "or use `method: lagrange`"
@@ -180,34 +186,56 @@ def _moves_alone(body: Alone, q: Symbol) -> bool:
 
 def is_free(body: Alone, shift: Vector, turn: Expr) -> bool:
     """Whether the coordinates allow this displacement of the centre and this rotation while all other bodies rest."""
-    matrix, column = _displacements(body, shift, turn)
-    return _rank(matrix) == _rank(matrix.row_join(column))
+    return allows(body.system, {body.part: (*shift, turn)})
 
 
 def changes_alone(body: Alone, shift: Vector, turn: Expr) -> dict[Symbol, Expr]:
     """The changes of the coordinates for this displacement of one body while all other bodies rest."""
-    matrix, column = _displacements(body, shift, turn)
+    return changes_for(body.system, {body.part: (*shift, turn)})
+
+
+def allows(system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], Any] = explicit) -> bool:
+    """Whether the coordinates allow a displacement of the whole system.
+
+    wanted   a particle or body -> the displacement of its centre, and its rotation; all others rest
+    there    a function that substitutes the coordinates at which the displacement begins
+    """
+    matrix, column = _displacements(system, wanted, there)
+    return _rank(matrix) == _rank(matrix.row_join(column))
+
+
+def changes_for(
+    system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], Any] = explicit
+) -> dict[Symbol, Expr]:
+    """The changes of the coordinates for a displacement that they allow; the arguments are as for `allows`."""
+    matrix, column = _displacements(system, wanted, there)
+    rows = _independent(matrix)
+    columns = _independent(matrix.extract(rows, range(matrix.cols)).T)
+    solved = matrix.extract(rows, columns).LUsolve(column.extract(rows, [0]))
+    moving = list(system.coordinates)
+    return {moving[k]: tidied(value) for k, value in zip(columns, solved, strict=True) if not is_zero(value)}
+
+
+def _independent(matrix: ImmutableDenseMatrix) -> list[int]:
+    """The indices of rows that are independent and span all rows."""
     rows: list[int] = []
     for i in range(matrix.rows):
         if _rank(matrix.extract([*rows, i], range(matrix.cols))) > len(rows):
             rows.append(i)
-    columns: list[int] = []
-    for k in range(matrix.cols):
-        if _rank(matrix.extract(rows, [*columns, k])) > len(columns):
-            columns.append(k)
-    solved = matrix.extract(rows, columns).LUsolve(column.extract(rows, [0]))
-    return {body.moving[k]: tidied(value) for k, value in zip(columns, solved, strict=True) if not is_zero(value)}
+    return rows
 
 
-def _displacements(body: Alone, shift: Vector, turn: Expr) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
-    """The derivatives of all places and angles with respect to the coordinates, and the displacement of one body."""
-    rows, wanted = [], []
-    for each in bodies_alone(body.system):
-        own = each.part is body.part
-        for value, change in zip((*each.centre, each.angle), (*shift, turn), strict=True):
-            rows.append([diff(value, s) for s in body.moving])
-            wanted.append(change if own else ZERO)
-    return ImmutableDenseMatrix(rows), ImmutableDenseMatrix(wanted)
+def _displacements(
+    system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], Any]
+) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
+    """The derivatives of all places and angles with respect to the coordinates, and the displacement."""
+    rows, column = [], []
+    for each in bodies_alone(system):
+        own = next((change for part, change in wanted.items() if part is each.part), (ZERO, ZERO, ZERO))
+        for value, change in zip((*each.centre, each.angle), own, strict=True):
+            rows.append([there(diff(value, s)) for s in system.coordinates])
+            column.append(there(change))
+    return ImmutableDenseMatrix(rows), ImmutableDenseMatrix(column)
 
 
 def _rank(matrix: ImmutableDenseMatrix) -> int:
@@ -234,12 +262,16 @@ def _on_its_body(load: Load | Reaction, system: System) -> list[tuple[Force, Any
         return []
     bodies = bodies_alone(system)
     if len(load.place) == 1:
-        couples = [(Force((ZERO, ZERO), None, torque, load.multiplier), each.part) for each in bodies if (torque := _couple_on(load, each))]
+        couples = [
+            (Force((ZERO, ZERO), None, torque, load.multiplier), each.part)
+            for each in bodies
+            if (torque := _couple_on(load, each))
+        ]
         if len(couples) != 1:
             raise _on_no_body(f"a force along {load.place[0]} is given")
         return couples
     place = tuple(c.xreplace(dict(load.held)) for c in load.place)
-    on = [each for each in bodies if _moves_like(each, place, slopes)]
+    on = [each for each in bodies if moves_like(each, place, slopes)]
     if len(on) != 1:
         raise _on_no_body(f"a force acts at ({', '.join(map(str, place))})")
     return [(Force(load.force, place, letter=load.multiplier), on[0].part)]
@@ -252,19 +284,50 @@ def _on_no_body(what: str) -> Rejected:
 
 
 def _couple_on(load: Load, body: Alone) -> Expr:
-    """The torque on a body, positive counterclockwise, if the load is a torque along the angle of this body; else zero."""
+    """The torque on a body, positive counterclockwise, if the load acts along the angle of this body; else zero."""
     (angle,) = load.place
     slopes = [(diff(angle, q), body.turn(q)) for q in body.moving]
     sense = next((tidied(a / b) for a, b in slopes if b != 0), ZERO)
     return load.force[0] * sense if all(is_zero(a - b * sense) for a, b in slopes) else ZERO
 
 
-def _moves_like(body: Alone, place: Vector, slopes: dict[Symbol, Vector]) -> bool:
+def moves_like(
+    body: Alone, place: Vector, slopes: Mapping[Symbol, Vector], there: Callable[[Any], Any] = explicit
+) -> bool:
+    """Whether the particle of a body at a place moves with this place.
+
+    slopes   coordinate -> the displacement of the place, per unit of the change of the coordinate
+    there    a function that substitutes the coordinates at one instant
+    """
     return all(
-        is_zero(a - b)
-        for q, slope in slopes.items()
-        for a, b in zip(slope, body.carried(place, q), strict=True)
+        is_zero(there(a - b)) for q, slope in slopes.items() for a, b in zip(slope, body.carried(place, q), strict=True)
     )
+
+
+def arm(place: Vector, about: Vector) -> Vector:
+    return tuple(a - b for a, b in zip(place, about, strict=True))
+
+
+def rotated(body: Alone, about: Vector) -> Vector:
+    """The displacement of the centre in a rotation about a place by a unit angle, counterclockwise."""
+    x, y = arm(body.centre, about)
+    return tidied(-y), tidied(x)
+
+
+def is_same(one: Vector, other: Vector) -> bool:
+    return all(is_zero(a - b) for a, b in zip(one, other, strict=True))
+
+
+def sense_of(turn: Expr) -> Expr:
+    """1 if a rotation is counterclockwise, otherwise -1."""
+    return Integer(-1 if turn.could_extract_minus_sign() else 1)
+
+
+def sum_of(terms: Sequence[Expr]) -> Expr:
+    """The sum of the components of forces, or of torques: positive terms first, and no term that vanishes."""
+    present = [term for term in (tidied(each) for each in terms) if term != 0]
+    ordered = sorted(present, key=lambda term: term.could_extract_minus_sign())
+    return Terms(*ordered) if len(ordered) > 1 else ordered[0] if ordered else ZERO
 
 
 def unit_along(shift: Vector) -> Vector:

@@ -55,4 +55,3 @@ def virtual_work(of: Quantity, changes: Mapping[Symbol, Expr]) -> Relation:
         equations = {q: equation_of_motion(of, Coordinate(q, of.coordinates[q]), derivatives=False) for q in changes}
     terms = [change * explicit(equations[q].value).residual for q, change in changes.items()]
     return Relation(Add(*terms), "=", Integer(0))
-

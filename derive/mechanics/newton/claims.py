@@ -51,7 +51,7 @@ def _way(facts: Judged, q: Any = None) -> Vector:
 
 
 def _positive(value: Expr) -> bool:
-    """Whether an expression is positive for positive numbers in place of its symbols; angles lie below a right angle."""
+    """Whether an expression is positive for positive numbers in place of its symbols; angles are acute."""
     there = {s: Rational(3 + 2 * i, 11 + 2 * i) for i, s in enumerate(sorted(value.free_symbols, key=str))}
     return bool(value.xreplace(there).evalf(30) > 0)
 
@@ -99,6 +99,9 @@ def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
     turn, left = diff(angle, facts.inputs["coordinate"]), explicit(facts.result).left
     if outcome.endswith("at_rest"):
         return is_zero(left) and is_zero(_still(whole, moving))
+    if facts.words["term"] == "alone":
+        moment = facts.inputs["spread"] + facts.inputs["weight"] * _dot(arm, arm)
+        whole = moment * by_functions_of_time(angle, moving, 2)
     return is_zero(left - whole) if _positive(turn) else is_zero(left + whole)
 
 
@@ -109,8 +112,29 @@ def point_of_the_torques(facts: Judged, outcome: str) -> bool:
         return all(is_zero(a - b) for a, b in zip(about, place, strict=True))
     if word == "axis":
         return _is_fixed(about, facts.inputs["moving"])
-    here = [letter for at, letter in facts.inputs["forces"] if all(is_zero(a - b) for a, b in zip(at, about, strict=True))]
-    return word in ("contact", "point") and any(letter is not None for letter in here)
+    if word == "contact" and _is_at_rest(facts, about):
+        return True
+    return word in ("contact", "point") and any(letter is not None for letter in _letters_at(facts, about))
+
+
+def _letters_at(facts: Judged, place: Vector) -> list[Any]:
+    """The symbols of the forces that act at a place, and None for each known force there."""
+    forces = facts.inputs["forces"]
+    return [letter for at, letter in forces if all(is_zero(a - b) for a, b in zip(at, place, strict=True))]
+
+
+def force_at_the_point(facts: Judged, letter: Any) -> bool:
+    return letter in _letters_at(facts, facts.inputs["about"])
+
+
+def _is_at_rest(facts: Judged, about: Vector) -> bool:
+    """Whether the particle of the body at this place is at rest in every motion that the coordinates allow."""
+    for q in facts.inputs["moving"]:
+        (dx, dy), turn = _way(facts, q), diff(facts.inputs["angle"], q)
+        x, y = (a - b for a, b in zip(about, facts.inputs["place"], strict=True))
+        if not is_zero(dx - turn * y) or not is_zero(dy + turn * x):
+            return False
+    return True
 
 
 def direction(facts: Judged, outcome: str) -> bool:
@@ -141,8 +165,8 @@ def no_constraint_force(facts: Judged) -> bool:
 
 
 def constraint_forces_do_no_work(facts: Judged) -> bool:
-    """Whether constraint forces act, and no constraint depends on the time: for velocities that a constraint allows, its
-    force then has no power."""
+    """Whether constraint forces act, and no constraint depends on the time: for velocities that a constraint allows,
+    its force then has no power."""
     return bool(facts.inputs["letters"]) and all(not explicit(v).has(TIME) for v in facts.inputs["velocities"])
 
 

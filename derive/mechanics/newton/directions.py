@@ -17,6 +17,7 @@ from derive.steps.record import coordinates_in
 from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
+INCREASING = "increasing"
 AXES = {(1, 0): "to_the_right", (-1, 0): "to_the_left", (0, 1): "upwards", (0, -1): "downwards"}
 
 
@@ -33,7 +34,7 @@ def direction_of(body: Alone, way: Vector) -> Direction:
     direction in which the coordinate increases."""
     if way in AXES:
         return Direction(AXES[way])
-    if _is_fixed(way):
+    if is_fixed(way):
         return Direction(_on_slope(body, way))
     for centre in _centres(body):
         arm = tuple(a - b for a, b in zip(body.centre, centre, strict=True))
@@ -41,7 +42,7 @@ def direction_of(body: Alone, way: Vector) -> Direction:
             return Direction("along_the_tangent", centre)
         if is_zero(tidied(arm[0] * way[1] - arm[1] * way[0])) and (sign := sign_known(tidied(dot(arm, way)))):
             return Direction("outwards" if sign == 1 else "inwards", centre)
-    return Direction("increasing")
+    return Direction(INCREASING)
 
 
 def _on_slope(body: Alone, way: Vector) -> str:
@@ -50,7 +51,7 @@ def _on_slope(body: Alone, way: Vector) -> str:
             return "away_from_the_slope"
         if is_zero(tidied(dot(normal, way))) and (sign := sign_known(way[1])):
             return "up_the_slope" if sign == 1 else "down_the_slope"
-    return "increasing"
+    return INCREASING
 
 
 def normals(body: Alone) -> list[Vector]:
@@ -60,16 +61,16 @@ def normals(body: Alone) -> list[Vector]:
 
 
 def _centres(body: Alone) -> Iterator[Vector]:
-    """The fixed places about which the body may circle: the ends of strings and rods, centres of circles, the origin."""
+    """The fixed places about which the body may circle: ends of strings and rods, centres of circles, the origin."""
     for part in body.system.parts:
         places: list[Vector] = []
         if isinstance(part, Line):
             places = [place.components for place in part.places]
         elif isinstance(part, Contact) and isinstance(part.surface, Circle):
             places = [part.surface.centre.components]
-        yield from (place for place in places if _is_fixed(place))
+        yield from (place for place in places if is_fixed(place))
     yield tuple(Integer(0) for _ in body.centre)
 
 
-def _is_fixed(place: tuple[Expr, ...]) -> bool:
+def is_fixed(place: tuple[Expr, ...]) -> bool:
     return not coordinates_in(ImmutableDenseMatrix(place)) and not any(depends_on_time(c) for c in place)

@@ -101,9 +101,15 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
     """
     moving = list(system.coordinates)
     if moving != [q.symbol] or system.constraints:
-        many = f"{len(moving)} coordinates and {len(system.constraints)} forces" if system.constraints else f"{len(moving)} coordinates"
+        many = (
+            f"{len(moving)} coordinates and {len(system.constraints)} forces"
+            if system.constraints
+            else f"{len(moving)} coordinates"
+        )
         message = f"conservation of energy is one equation, but this system has {many}"
-        raise Rejected(Complaint("method", message, help="describe the positions by one coordinate, or use another method"))
+        raise Rejected(
+            Complaint("method", message, help="describe the positions by one coordinate, or use another method")
+        )
     changing = explicit(TimeRate(explicit(energy.value), *moving))
     left = by_accelerations(tidied((changing / q.rate).expand()), moving)
     of, changes = lagrangian_behind(system), {q.symbol: Integer(1)}
@@ -117,7 +123,10 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
             "lagrange": compared_with(lambda: virtual_work(of, changes)),
             "rate": lambda found: (explicit(found).residual * q.rate, by_functions_of_time(energy.value, moving)),
         },
-        phrase_data=PhraseData(formulas={"rate": (Factors(Group(left), q.rate), by_functions_of_time(energy.value, moving))}, outcome_data={"coordinate": q.symbol}),
+        phrase_data=PhraseData(
+            formulas={"rate": (Factors(Group(left), q.rate), by_functions_of_time(energy.value, moving))},
+            outcome_data={"coordinate": q.symbol},
+        ),
         key=key or f"motion_{q.symbol.name}",
         facts=facts_of_motion(system, q, changes),
     )

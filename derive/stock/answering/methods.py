@@ -25,11 +25,12 @@ def by_newton(system: System, q: Coordinate, key: str, about: str = "", at_rest:
 
 ABOUT: Mapping[str, str] = {NEWTON: "", BOTH: "", ANGULAR_MOMENTUM: "contact"}  # method -> argument of `torque_law`
 LAWS = ("newton.second_law", "newton.torque_law")
+OF_IMPACTS = ("impacts.momentum_law", "impacts.angular_momentum_law")
 RULES: Mapping[str, tuple[str, ...]] = {  # method -> the rules by which it derives an equation
-    NEWTON: LAWS,
+    NEWTON: (*LAWS, *OF_IMPACTS),
     BOTH: LAWS,
     ENERGY: ("newton.energy_equation", "newton.total_energy"),
-    ANGULAR_MOMENTUM: ("newton.torque_law", "impacts.angular_momentum_kept", "impacts.momentum_law"),
+    ANGULAR_MOMENTUM: ("newton.torque_law", *OF_IMPACTS),
 }
 OF_A_LAGRANGIAN = (
     "lagrangian", "momenta", "momentum", "conserved", "constant", "energy_function_rate", "hamiltonian",
