@@ -7,7 +7,7 @@ from typing import Any
 from sympy import Add, Expr, Integer, Rational, diff
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, explicit, rate
+from derive.algebra.expressions import depends_on_time, explicit, rate
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.steps.claims import both as both
 from derive.steps.claims import parallel
@@ -65,7 +65,7 @@ def _cross(a: Vector, b: Vector) -> Expr:
 
 
 def _is_fixed(place: Vector, moving: Any) -> bool:
-    return all(not explicit(c).has(*moving, TIME) for c in place)
+    return not any(explicit(c).has(*moving) or depends_on_time(c) for c in place)
 
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
@@ -167,7 +167,7 @@ def no_constraint_force(facts: Judged) -> bool:
 def constraint_forces_do_no_work(facts: Judged) -> bool:
     """Whether constraint forces act, and no constraint depends on the time: for velocities that a constraint allows,
     its force then has no power."""
-    return bool(facts.inputs["letters"]) and all(not explicit(v).has(TIME) for v in facts.inputs["velocities"])
+    return bool(facts.inputs["letters"]) and not any(map(depends_on_time, facts.inputs["velocities"]))
 
 
 def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
