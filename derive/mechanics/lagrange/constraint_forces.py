@@ -174,6 +174,12 @@ def _not_all_negative(left: Expr) -> Expr:
     return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
 
 
+def _told(of: Constraint) -> Relation:
+    """Return a constraint without a minus sign in front: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
+    is_negative = of.right == 0 and of.left.could_extract_minus_sign()
+    return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
+
+
 CONSTRAINT_RATE = Rule(
     "lagrange.constraint_rate",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
@@ -219,7 +225,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "in_coordinates",
-        phrase_data=PhraseData(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
+        phrase_data=PhraseData(formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))}),
         key=key or f"constraint_{each.force.name}",
         facts=[described] if (described := description_behind(of)) is not None else [],
         scope=Scope(coordinates=of.coordinates),

@@ -324,9 +324,12 @@ def sense_of(turn: Expr) -> Expr:
 
 
 def sum_of(terms: Sequence[Expr]) -> Expr:
-    """The sum of the components of forces, or of torques: positive terms first, and no term that vanishes."""
-    present = [term for term in (tidied(each) for each in terms) if term != 0]
-    ordered = sorted(present, key=lambda term: term.could_extract_minus_sign())
+    """The sum of the components of forces, or of torques: positive terms first. Equal terms are combined, as in 2 T."""
+    numbers: dict[Expr, Expr] = {}
+    for number, rest in (tidied(each).as_coeff_Mul() for each in terms):
+        numbers[rest] = numbers.get(rest, ZERO) + number
+    found = [number * rest for rest, number in numbers.items() if number != 0]
+    ordered = sorted(found, key=lambda term: term.could_extract_minus_sign())
     return Terms(*ordered) if len(ordered) > 1 else ordered[0] if ordered else ZERO
 
 
