@@ -121,5 +121,6 @@ class ImpactAnswers(Answers[DescribedImpact]):
             return solved
         symbol = next(each.letter for each in self.impact.meetings if each.letter.name == letter)
         law = next(each for each in self.jumps if explicit(each.value).has(symbol))
-        (found,) = solved_for(put_in(law, *self.after, key=f"{law.key}_after"), symbol, keys=[letter])
+        known = [q for q in self.after if explicit(law.value).has(q.symbol)]
+        (found,) = solved_for(put_in(law, *known, key=f"{law.key}_after"), symbol, keys=[letter])
         return found
