@@ -335,7 +335,7 @@ def test_an_acceleration_without_its_centripetal_term_is_refused(
     assert "disagrees" in refused(tmp_path, POLAR)
 
 
-@pytest.mark.parametrize("word", ["upwards", "to_the_right", "inwards", "down_the_slope", "away_from_the_slope"])
+@pytest.mark.parametrize("word", ["upwards", "to_the_right", "outwards", "down_the_slope", "away_from_the_slope"])
 def test_a_wrong_word_for_the_direction_is_refused(word: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     centre = (Integer(0), Integer(0))
     monkeypatch.setattr(second_law, "direction_of", lambda body, way: Direction(word, centre))

@@ -255,40 +255,32 @@ def _forces(system: System) -> tuple[tuple[Force, Any], ...]:
 
 def _on_its_body(load: Load | Reaction, system: System) -> list[tuple[Force, Any]]:
     """The force with the particle or body on which it acts; none for a force on the ground."""
-    if isinstance(load, Reaction):
-        raise _on_no_body(f"the constraint force `{load.multiplier}` is described by a formula")
+    works = {q: load.work_along(q) for q in system.coordinates}
+    if isinstance(load, Reaction) or len(load.place) == 1:
+        return [_couple(load, works, system)] if any(not is_zero(work) for work in works.values()) else []
     slopes = {q: load.slopes(q) for q in system.coordinates}
     if all(is_zero(c) for slope in slopes.values() for c in slope):
         return []
-    bodies = bodies_alone(system)
-    if len(load.place) == 1:
-        couples = [
-            (Force((ZERO, ZERO), None, torque, load.multiplier), each.part)
-            for each in bodies
-            if (torque := _couple_on(load, each))
-        ]
-        if len(couples) != 1:
-            raise _on_no_body(f"a force along {load.place[0]} is given")
-        return couples
     place = tuple(c.xreplace(dict(load.held)) for c in load.place)
-    on = [each for each in bodies if moves_like(each, place, slopes)]
+    on = [each for each in bodies_alone(system) if moves_like(each, place, slopes)]
     if len(on) != 1:
-        raise _on_no_body(f"a force acts at ({', '.join(map(str, place))})")
+        raise _on_no_body(f"the force at ({', '.join(map(str, place))})")
     return [(Force(load.force, place, letter=load.multiplier), on[0].part)]
 
 
+def _couple(load: Load | Reaction, works: Mapping[Symbol, Expr], system: System) -> tuple[Force, Any]:
+    """A couple on the body whose rotation alone determines its work; reject a force that is given by its work alone."""
+    for each in bodies_alone(system):
+        torque = next((tidied(work / turn) for q, work in works.items() if (turn := each.turn(q)) != 0), ZERO)
+        if all(is_zero(work - torque * each.turn(q)) for q, work in works.items()):
+            return Force((ZERO, ZERO), None, torque, load.multiplier), each.part
+    raise _on_no_body("the force" if load.multiplier is None else f"the force `{load.multiplier}`")
+
+
 def _on_no_body(what: str) -> Rejected:
-    message = f"{what}, so it is unknown on which body this force acts"
+    message = f"it is unknown on which body {what} acts"
     help_line = "describe a contact, a string, a rod or a force at a place; or use `method: lagrange`"
     return Rejected(Complaint("method", message, help=help_line))
-
-
-def _couple_on(load: Load, body: Alone) -> Expr:
-    """The torque on a body, positive counterclockwise, if the load acts along the angle of this body; else zero."""
-    (angle,) = load.place
-    slopes = [(diff(angle, q), body.turn(q)) for q in body.moving]
-    sense = next((tidied(a / b) for a, b in slopes if b != 0), ZERO)
-    return load.force[0] * sense if all(is_zero(a - b * sense) for a, b in slopes) else ZERO
 
 
 def moves_like(

@@ -149,14 +149,14 @@ def direction(facts: Judged, outcome: str) -> bool:
     if word == "away_from_the_slope":
         across = [n for n in facts.inputs["normals"] if is_zero(_cross(n, way))]
         return _is_fixed(way, moving) and any(_positive(_dot(n, way)) for n in across)
-    if word in ("outwards", "inwards", "along_the_tangent"):
+    if word in ("outwards", "along_the_tangent"):
         centre = facts.inputs["centre"]
         arm = tuple(a - b for a, b in zip(facts.inputs["place"], centre, strict=True))
         if not _is_fixed(centre, moving):
             return False
         if word == "along_the_tangent":
             return is_zero(_dot(arm, way))
-        return is_zero(_cross(arm, way)) and _positive(_dot(arm, way)) == (word == "outwards")
+        return is_zero(_cross(arm, way)) and _positive(_dot(arm, way))
     return word == "increasing"
 
 

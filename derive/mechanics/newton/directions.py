@@ -40,8 +40,8 @@ def direction_of(body: Alone, way: Vector) -> Direction:
         arm = tuple(a - b for a, b in zip(body.centre, centre, strict=True))
         if is_zero(tidied(dot(arm, way))):
             return Direction("along_the_tangent", centre)
-        if is_zero(tidied(arm[0] * way[1] - arm[1] * way[0])) and (sign := sign_known(tidied(dot(arm, way)))):
-            return Direction("outwards" if sign == 1 else "inwards", centre)
+        if is_zero(tidied(arm[0] * way[1] - arm[1] * way[0])) and sign_known(tidied(dot(arm, way))) == 1:
+            return Direction("outwards", centre)
     return Direction(INCREASING)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sympy import Expr, Integer, Symbol
@@ -88,7 +89,7 @@ def torque_law(
         message = f"`torque_law`: the coordinate {q.symbol.name} rotates no body"
         raise Rejected(Complaint("wrong-argument", message, help="use `second_law`"))
     point, sense = _point(body, about, at_rest), sense_of(turn)
-    torques = sum_of([sense * force.torque(point.place) for force in body.forces])
+    torques = _sum_of_torques([sense * force.torque(point.place) for force in body.forces], at_rest)
     inertia = None if at_rest else inertia_of(body.part)
     turning = by_accelerations(tidied(sense * body.angular_acceleration), body.moving)
     carried = by_accelerations(tidied(sense * _moment_of_the_centre(body, point)), body.moving)
@@ -122,6 +123,13 @@ def torque_law(
         facts=facts_of_motion(system, q, changes),
         scope=scope_of(system),
     )
+
+
+def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
+    """The sum of the torques; if it is zero, all signs change where all would be negative."""
+    found = sum_of(terms)
+    negative = all(term.could_extract_minus_sign() for term in explicit(found).as_ordered_terms())
+    return sum_of([-term for term in terms]) if at_rest and negative else found
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
