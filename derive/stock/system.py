@@ -139,18 +139,16 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body, if parts of the problem derive the constraint forces on the body."""
+        """Draw the forces on each body: before Newton's laws of this body, or else if parts of the problem derive the
+        constraint forces on the body."""
         run = current_run.get()
         steps = run.established if run is not None else ()
-        if self.method in ABOUT:
-            for name, part in self.parts_by_name.items():
-                if laws := laws_of(steps, self.system, moved(part, self.system.known)):
-                    free_body_diagram(f"forces_{name}", self.system, moved(part, self.system.known), laws)
-            return
         at_rest, along = _forces_found(steps, self.system)
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
-            if force_diagram(key, self.system, of, at_rest | along) is None:
+            if laws := laws_of(steps, self.system, of):
+                free_body_diagram(key, self.system, of, laws)
+            elif force_diagram(key, self.system, of, at_rest | along) is None:
                 force_diagram(key, self.system, of, at_rest)
 
     def asks(self) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Integer, Symbol, cos, diff, sin, symbols
+from sympy import Integer, Symbol, cos, diff, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit, rate, scalar
@@ -215,6 +215,22 @@ def test_the_tension_is_in_the_radial_component(tmp_path: Path) -> None:
     assert not residual(steps["motion_theta"]).has(scalar("T"))
     ways = [dict(steps[f"motion_{q}"].step.words)["way"] for q in ("r", "theta")]
     assert ways == ["outwards", "along_the_tangent"]
+
+
+def test_a_particle_in_space_has_three_components(tmp_path: Path) -> None:
+    """The conical pendulum: m (rho_ddot - rho phi_dot^2) = -T rho/l where the string has the length l."""
+    text = edited(
+        POLAR,
+        ("{r: positive length, theta: angle}", "{rho: positive length, phi: angle, z: positive length}"),
+        ("[r*sin(theta), -r*cos(theta)]", "[rho*cos(phi), rho*sin(phi), -z]"),
+        ("from: [0, 0]", "from: [0, 0, 0]"),
+    )
+    steps = solved(tmp_path, text)
+    rho, z, T = Symbol("rho", positive=True), Symbol("z", positive=True), scalar("T")
+    phi, whole = scalar("phi"), sqrt(rho**2 + z**2)
+    assert equal(residual(steps["motion_rho"]), m * (rate(rho, 2) - rho * rate(phi) ** 2) + T * rho / whole)
+    assert equal(residual(steps["motion_z"]), m * rate(z, 2) - m * g + T * z / whole)
+    assert dict(steps["motion_z"].step.words) == {"way": "downwards"}
 
 
 def test_at_rest_the_torques_are_taken_about_the_foot_of_the_ladder(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ class Struck:
 
 def impulses_on_bodies(impact: Impact) -> list[Struck]:
     """All impulses at places; the impulse of a collision acts on both bodies, in opposite directions."""
-    found = [Force(each.components, each.at) for each in impact.impulses if len(each.at) == 2]
+    found = [Force(each.components, each.at) for each in impact.impulses if len(each.at) > 1]
     for each in impact.meetings:
         if each.ends is not None:
             start, end, along = each.ends

@@ -111,6 +111,8 @@ class Alone:
 
     def carried(self, place: Vector, q: Symbol) -> Vector:
         """The displacement of the particle of the body at a place."""
+        if not self.is_body:
+            return self.shift(q)
         (dx, dy), turn = self.shift(q), self.turn(q)
         x, y = arm(place, self.centre)
         return dx - turn * y, dy + turn * x
@@ -150,9 +152,9 @@ def second_rate(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def bodies_alone(system: System) -> list[Alone]:
-    """The particles and bodies of a system in a plane."""
-    if len(system.places[0].components) != 2:
-        message = "Newton's laws are written for motions in a plane, but this system moves in space"
+    """The particles and bodies of a system; bodies move in a plane, and particles also in space."""
+    if any(not body.is_plane for body in system.bodies):
+        message = "the laws of one body are written for motions in a plane, but a body moves in space"
         raise Rejected(Complaint("method", message, help="use `method: lagrange`"))
     return [Alone(part, system) for part in (*system.particles, *system.bodies)]
 
@@ -231,7 +233,7 @@ def _displacements(
     """The derivatives of all places and angles with respect to the coordinates, and the displacement."""
     rows, column = [], []
     for each in bodies_alone(system):
-        own = next((change for part, change in wanted.items() if part is each.part), (ZERO, ZERO, ZERO))
+        own = next((change for part, change in wanted.items() if part is each.part), (ZERO,) * (len(each.centre) + 1))
         for value, change in zip((*each.centre, each.angle), own, strict=True):
             rows.append([there(diff(value, s)) for s in system.coordinates])
             column.append(there(change))

@@ -15,7 +15,8 @@ from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
 
 Vector = tuple[Expr, ...]
-AXES = {"to_the_right": (1, 0), "to_the_left": (-1, 0), "upwards": (0, 1), "downwards": (0, -1)}
+SIDEWAYS = {"to_the_right": 1, "to_the_left": -1}
+VERTICAL = {"upwards": 1, "downwards": -1}
 SLOPES = {"up_the_slope": 1, "down_the_slope": -1}
 
 
@@ -62,6 +63,10 @@ def _dot(a: Vector, b: Vector) -> Expr:
 
 def _cross(a: Vector, b: Vector) -> Expr:
     return a[0] * b[1] - a[1] * b[0]
+
+
+def _are_parallel(a: Vector, b: Vector) -> bool:
+    return is_zero(_dot(a, a) * _dot(b, b) - _dot(a, b) ** 2)
 
 
 def _is_fixed(place: Vector, moving: Any) -> bool:
@@ -140,14 +145,15 @@ def _is_at_rest(facts: Judged, about: Vector) -> bool:
 def direction(facts: Judged, outcome: str) -> bool:
     """Whether the displacement of the coordinate has the direction that the sentence names."""
     word, way, moving = facts.words["way"], _way(facts), facts.inputs["moving"]
-    if word in AXES:
-        axis = tuple(Integer(c) for c in AXES[word])
-        return is_zero(_cross(axis, way)) and _positive(_dot(axis, way))
+    if word in VERTICAL:
+        return all(is_zero(c) for c in way[:-1]) and _positive(VERTICAL[word] * way[-1])
+    if word in SIDEWAYS:
+        return len(way) == 2 and is_zero(way[1]) and _positive(SIDEWAYS[word] * way[0])
     if word in SLOPES:
         on_slope = any(is_zero(_dot(normal, way)) for normal in facts.inputs["normals"])
-        return _is_fixed(way, moving) and on_slope and _positive(SLOPES[word] * way[1])
+        return _is_fixed(way, moving) and on_slope and _positive(SLOPES[word] * way[-1])
     if word == "away_from_the_slope":
-        across = [n for n in facts.inputs["normals"] if is_zero(_cross(n, way))]
+        across = [n for n in facts.inputs["normals"] if _are_parallel(n, way)]
         return _is_fixed(way, moving) and any(_positive(_dot(n, way)) for n in across)
     if word in ("outwards", "along_the_tangent"):
         centre = facts.inputs["centre"]
@@ -156,7 +162,7 @@ def direction(facts: Judged, outcome: str) -> bool:
             return False
         if word == "along_the_tangent":
             return is_zero(_dot(arm, way))
-        return is_zero(_cross(arm, way)) and _positive(_dot(arm, way))
+        return _are_parallel(arm, way) and _positive(_dot(arm, way))
     return word == "increasing"
 
 

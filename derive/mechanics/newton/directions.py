@@ -18,7 +18,14 @@ from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 INCREASING = "increasing"
-AXES = {(1, 0): "to_the_right", (-1, 0): "to_the_left", (0, 1): "upwards", (0, -1): "downwards"}
+AXES = {
+    (1, 0): "to_the_right",
+    (-1, 0): "to_the_left",
+    (0, 1): "upwards",
+    (0, -1): "downwards",
+    (0, 0, 1): "upwards",
+    (0, 0, -1): "downwards",
+}
 
 
 @dataclass(frozen=True)
@@ -38,9 +45,10 @@ def direction_of(body: Alone, way: Vector) -> Direction:
         return Direction(_on_slope(body, way))
     for centre in _centres(body):
         arm = tuple(a - b for a, b in zip(body.centre, centre, strict=True))
-        if is_zero(tidied(dot(arm, way))):
+        along = tidied(dot(arm, way))
+        if is_zero(along) and len(way) == 2:
             return Direction("along_the_tangent", centre)
-        if is_zero(tidied(arm[0] * way[1] - arm[1] * way[0])) and sign_known(tidied(dot(arm, way))) == 1:
+        if is_zero(tidied(dot(arm, arm) - along**2)) and sign_known(along) == 1:
             return Direction("outwards", centre)
     return Direction(INCREASING)
 
@@ -49,7 +57,7 @@ def _on_slope(body: Alone, way: Vector) -> str:
     for normal in normals(body):
         if is_zero(tidied(dot(normal, way) - 1)):
             return "away_from_the_slope"
-        if is_zero(tidied(dot(normal, way))) and (sign := sign_known(way[1])):
+        if is_zero(tidied(dot(normal, way))) and (sign := sign_known(way[-1])):
             return "up_the_slope" if sign == 1 else "down_the_slope"
     return INCREASING
 
