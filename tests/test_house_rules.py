@@ -521,6 +521,7 @@ CARRIED = {  # facts about the origin of a value; where they are read, values th
     },
     "words about the result, which have predicates": {"AtOneMoment", "Momentary", "Roots", "ValueOf"},
     "numbers that a test of their own compares": {"WholeSwing"},
+    "a mark: each use of the symbol is compared with the value": {"NamesValue"},
 }
 
 

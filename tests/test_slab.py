@@ -114,6 +114,26 @@ def test_an_answer_has_its_number_in_each_case_of_a_plot(tmp_path: Path) -> None
     assert "In case (ii) this is a maximum" in text and "= 2.450 J" in text
 
 
+GIVEN_IN_CASES = "(i) R = 20 cm, a = 5 cm, M = 1 kg, g = 9.8 m/s^2; (ii) R = 10 cm, a = 30 cm"
+
+
+@pytest.mark.parametrize(
+    ("question", "printed"),
+    [
+        ("Plot it for two slabs: <<cases>>.", f"Plot it for two slabs: {GIVEN_IN_CASES}. "),
+        ("Plot it for two slabs.", f"Plot it for two slabs. Take {GIVEN_IN_CASES}. "),
+        ("Plot it for 1 kg, 9.8 m/s², 20 cm and 5 cm, 10 cm and 30 cm.", "10 cm and 30 cm. ---"),
+    ],
+)
+def test_the_numbers_of_cases_belong_to_the_question_that_plots_them(
+    tmp_path: Path, question: str, printed: str
+) -> None:
+    edits = {**PLOTTED, "What is the potential energy <<potential_energy>> at <<theta>> = 0?": question}
+    root = course_in(tmp_path, edits, PLOT, problem="slab")
+    text = " ".join(rendered_once(root, "hw9/slab", only={"text"}).texts["text"].split())
+    assert printed in text
+
+
 def test_cases_are_those_of_a_plot(tmp_path: Path) -> None:
     with pytest.raises(Rejected, match="no drawing `potential` has cases"):
         text_of(tmp_path, {"answer: extreme_value\n": "answer: extreme_value\n    cases: potential\n"})

@@ -79,8 +79,6 @@ def stand_in(name: str, **assumptions: bool) -> Symbol:
 
 PLUS_MINUS = scalar("\u00b1", nonzero=True)  # a sign, + or -: its square is 1, so b + PLUS_MINUS*c is b +- c
 
-BLANK = scalar("?")  # a placeholder for a result that a page does not show
-
 
 @lru_cache(maxsize=1024)
 def rate(coordinate: Symbol, order: int = 1) -> Symbol:

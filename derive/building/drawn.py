@@ -31,7 +31,7 @@ from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Files
 
 if TYPE_CHECKING:
-    from derive.render.drawing.lettering import Lettered, Letters
+    from derive.render.drawing.lettering import Lettered
     from derive.render.drawing.sheets import Sheet
 
 SUFFIXES = ("pdf", "svg")
@@ -79,11 +79,11 @@ def _files(
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:
         try:
-            sheet = _drawn(drawing, known, notation, words, width, alt, partial(_letters, cache))
+            on_paper, on_screen = _drawn(drawing, known, notation, words, width, alt, cache)
         except Rejected as error:  # the error of a mark has no place in the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
-        pdf, svg = sheet.pdf, sheet.svg
+        pdf, svg = on_paper.pdf, on_screen.svg
         cache.keep(key, svg + b"\0" + pdf)
     return pdf, svg
 
@@ -102,32 +102,37 @@ def _drawn(
     words: Phrases,
     width: float | None,
     alt: str,
-    letters: Letters,
-) -> Sheet:
+    cache: Cache,
+) -> tuple[Sheet, Sheet]:
+    """Return the drawing with the letters of a PDF, and with those of formulas in a browser."""
+    from derive.render.drawing.lettering import PAPER, SCREEN
+
+    on_paper, on_screen = (partial(_letters, cache, font) for font in (PAPER, SCREEN))
     if isinstance(seen, Curves):
         from derive.render.drawing.plotting import plot_sheet
 
-        return plot_sheet(what, seen, notation, words, width, alt, letters)
+        plotted = partial(plot_sheet, what, seen, notation, words, width, alt)
+        return plotted(on_paper), plotted(on_screen)
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
-        sheet = sheet_of(pieces, notation, alt, letters)
+        sheet = sheet_of(pieces, notation, alt, on_paper)
         if sheet.height > LOW * sheet.width:
             break
-    return sheet
+    return sheet, sheet_of(pieces, notation, alt, on_screen)
 
 
-def _letters(cache: Cache, texts: Collection[str]) -> Mapping[str, Lettered]:
+def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Lettered]:
     """Return each text as typeset letters: stored if a drawing has needed this text before, else typeset now."""
-    keys = {text: digest("letters", engine_digest("matplotlib"), text) for text in texts}
+    keys = {text: digest("letters", engine_digest("matplotlib"), font, text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:
         from derive.render.drawing.lettering import letters_of
 
-        known |= letters_of(new)
+        known |= letters_of(new, font)
         for text in new:
             cache.keep_data(keys[text], known[text])
     return known

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from derive.course.parts import POINTS, Question, points_in_all, points_text
 from derive.course.problem_set import mapping_in, path_of
-from derive.course.prose import Prose
+from derive.course.prose import Prose, TexFormula
 from derive.course.schema import check_keys, keys_of
 from derive.course.written import ProblemKeys, written_problem
 from derive.course.yaml_tree import Mapping, Sequence, Tree
 from derive.errors import DeriveError, Faults
+
+if TYPE_CHECKING:
+    from derive.page.wording import Inline
 
 _OF_POINTS = ("points", "extra", "rubric")
 
@@ -39,9 +42,9 @@ def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
     title = keys["title"].reader.read(named, "title", faults) if named is not None else None
     points = POINTS.read(stated, "points", faults) if stated is not None else None
     total = points_in_all(points, None, parts, faults)
-    if faults or not isinstance(title, Prose) or title.mentions:
+    if faults or not isinstance(title, Prose) or title.plain is None:
         return None
-    return "" if total is None else points_text(total), " ".join(title.text.split())
+    return "" if total is None else points_text(total), title.plain
 
 
 def _glanced(node: Tree, faults: Faults) -> Question:
@@ -58,11 +61,22 @@ def _in_full(root: Path, problem_id: str) -> tuple[str, str]:
     faults = Faults()
     written = written_problem(root, problem_id, faults, quickly=True)
     points = written.points_in_all(faults)
-    if faults or not written.title or written.title.mentions:
+    title = written.title.plain if written.title and not faults else None
+    if title is None:
         title = _title_with_mathematics(root, problem_id)
-    else:
-        title = " ".join(written.title.text.split())
     return "" if points is None else points_text(points), title
+
+
+def _unread(formula: TexFormula) -> Inline:
+    """Return a formula as it is written, because its letters are known only after the derivation."""
+    from derive.course.latex.quoting import Unquotable, quoted_formula
+    from derive.course.transcript import Transcript
+    from derive.page.wording import Math, Text
+
+    try:
+        return Math(Transcript(quoted_formula(formula.tex)))
+    except Unquotable:
+        return Text(f"${formula.tex}$")
 
 
 def _title_with_mathematics(root: Path, problem_id: str) -> str:
@@ -76,5 +90,5 @@ def _title_with_mathematics(root: Path, problem_id: str) -> str:
     words = phrases(template_folder(root))
     names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
     names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
-    title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None)
+    title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None, formula=_unread)
     return inline_text(title, Notation(problem.dimensions))

@@ -108,8 +108,10 @@ class _Printing:
             title_latex=latex.title,
             sheet=latex.sheet,
             report=latex.report,
+            source=latex.source,
             html=html.solution,
             title_html=html.title,
+            card_html=html.card,
             documents=documents,
             texts=self._texts(warnings),
             warnings=warnings,
@@ -222,7 +224,10 @@ class _Printing:
         return {name: form.render(solution) for name, form in formats().items() if name in self.wanted.formats}
 
     def _documents(self) -> dict[str, str]:
-        points = credits_of(self.document, self.rubric, self.solved.values.values())
+        values = self.solved.values.values()
+        steps = [*self.solved.derivation.steps, *values]
+        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a script may have its own rules
+        points = credits_of(self.document, self.rubric, tasks, values)
         kinds = self.wanted.documents
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 

@@ -16,6 +16,7 @@ from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
+from derive.render.printing.figure_numbers import numbered_in_a_row
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
 from derive.render.printing.told_once import told_once
@@ -82,7 +83,8 @@ def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered],
     """Return a document that is made only on request, or the sheet, as one page for a browser."""
     label = phrases(template_folder(root)).labels["documents"][kind]
     listed = _listed(problems, kind)
-    bodies = told_once([(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed])
+    printed = [(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed]
+    bodies = numbered_in_a_row(told_once(printed))
     return _page(root, "document.html.j2", heading, listed, kind_of_document=label, bodies=bodies)
 
 
@@ -115,8 +117,9 @@ def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
 
 
 def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return the page of a set: its problems, and its documents to print."""
-    return _page(root, "index.html.j2", heading, _listed(problems))
+    """Return the page of a set: its documents to print, and the statement and the drawing of each problem."""
+    questions = numbered_in_a_row(each.card_html for each in problems)
+    return _page(root, "index.html.j2", heading, _listed(problems), questions=questions)
 
 
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:

@@ -65,15 +65,20 @@ def declared_letters(kinds: Table[Word, SortOfLetter], faults: Faults) -> dict[s
     symbols = {}
     for word, kind in kinds.items():
         name = str(word)
-        if not _SYMBOL.fullmatch(name) or name in RESERVED:
-            why = "has a meaning of its own" if name in RESERVED else "is not a letter or a name such as `omega_0`"
-            faults.error("symbol", f"`{name}` {why}, so it cannot be declared", word.place)
+        check_name(word, faults)
         if name == TIME.name and kind != "time":
             message = f"`t` is the time, but it is declared as {kind_with_article(kind)}"
             faults.error("time", message, word.place, help="use another letter")
         lies = range_of_sort(name, kind, faults)
         symbols[name] = Declared(name, symbol_of_kind(name, kind, lies), str(kind), lies)
     return symbols
+
+
+def check_name(word: Word, faults: Faults) -> None:
+    """Check that a word can be the name of a letter."""
+    if not _SYMBOL.fullmatch(word) or word in RESERVED:
+        why = "has a meaning of its own" if word in RESERVED else "is not a letter or a name such as `omega_0`"
+        faults.error("symbol", f"`{word}` {why}, so it cannot be declared", word.place)
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:

@@ -19,6 +19,13 @@ ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single 
 INDEX = "index"  # the page of a set for a browser
 
 
+class Paper(StrEnum):
+    """The size of the pages of a set's documents."""
+
+    LETTER = "letter"
+    A4 = "a4"
+
+
 class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 

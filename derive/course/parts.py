@@ -130,7 +130,9 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 class Question(Record):
     """One question; `forms` has an entry for each answer's key, or one entry under `None` for all answers."""
 
-    ask: Prose = key("the question, in prose", PROSE, required=True)
+    ask: Prose = key(
+        "the question, in prose; `<<cases>>` stands for the numbers of the cases of its plot", PROSE, required=True
+    )
     answers: tuple[Word, ...] = key(
         "key of the step that answers it, or a list of keys",
         Reader(one_or_more(KEY_OF_STEP), _answers, tuple),

@@ -53,6 +53,9 @@ class Placement:
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
+    plot: Word | None = None
+    against: Word | None = None
+    kind_against: str | None = None
 
 
 def placements(
@@ -71,6 +74,9 @@ def placements(
             names={letter: letter.place for letter in written.values},
             range=_range(written.ends) if written.ends else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
+            plot=written.plot,
+            against=written.against,
+            kind_against=letter.kind if (letter := symbols.get(str(written.against))) else None,
         )
         for name, written in drawings.items()
     )

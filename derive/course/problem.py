@@ -25,6 +25,7 @@ from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, within
 from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
 from derive.course.declared import declared_letters
+from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
 from derive.course.parts import Question
@@ -38,6 +39,7 @@ from derive.course.unused import unused_in
 from derive.course.written import SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
+from derive.steps.defined import define
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4
@@ -71,6 +73,8 @@ class Problem:
     strategy: Prose | None = None
     note: Prose | None = None
     limits: tuple[LimitKeys, ...] = ()
+    defined: tuple[Defined, ...] = ()
+    uses_natural_quantities: bool = True
     reference: str = ""
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
@@ -88,7 +92,7 @@ class Problem:
     @property
     def asked(self) -> tuple[Word, ...]:
         """The steps that the parts of the problem ask for, and the steps of its limiting cases."""
-        return _asked(self.parts, self.limits)
+        return _asked(self.parts, self.limits, self.drawings)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -179,9 +183,12 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     pinned = _by_method(pinned, written, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
+    moving = pinned.described.letters if pinned.described else {}
+    defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
     _check_cases(written.parts, drawings, faults)
-    asked, given = _asked(written.parts, written.limits), (pinned.givens, pinned.measured, pinned.described)
+    _check_plots(drawings, script, faults)
+    asked, given = _asked(written.parts, written.limits, drawings), (pinned.givens, pinned.measured, pinned.described)
     warnings = () if faults else unused_in(written, asked, *given)
     faults.stop()
     assert written.title is not None
@@ -206,16 +213,19 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         strategy=written.strategy,
         note=written.note,
         limits=written.limits,
+        defined=defined,
+        uses_natural_quantities=written.define.are_used,
         reference=as_text(written.reference),
         warnings=warnings,
     )
 
 
-def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys]) -> tuple[Word, ...]:
+def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Iterable[Placement]) -> tuple[Word, ...]:
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    for name in (*answers, *limited):  # the step of a limit may also be an answer of a part
+    plotted = [drawing.plot for drawing in drawings if drawing.plot]
+    for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
 
@@ -245,12 +255,30 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
             faults.error("unknown-drawing", f"no drawing `{cases}` has cases", cases.place, help=help_line)
 
 
+def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
+    """Check that a drawing with `plot` has `against` and `range`, and that a script of the engine draws it."""
+    for drawing in drawings:
+        if drawing.plot and isinstance(script, Script):
+            message, help_line = (
+                "`plot` has no effect: the script of the problem draws its plots",
+                "call `plot(...)` there",
+            )
+            faults.error("unused-key", message, drawing.plot.place, help=help_line)
+        elif drawing.plot and (drawing.against is None or drawing.range is None):
+            message = f"the plot `{drawing.key}` needs `against`, a letter, and `range`, its two ends"
+            faults.error(
+                "missing-key", message, drawing.place, help="such as `against: theta, range: [-90 deg, 90 deg]`"
+            )
+        elif drawing.against and not drawing.plot:
+            faults.error("unused-key", "`against` has no effect without `plot`", drawing.against.place)
+
+
 def run_solve(problem: Problem, record: Run | None = None) -> object:
     """Return what the script's `solve()` returns for the given values; its steps and assumptions are added to the
     record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
-            return problem.script.stock.answers(problem.described).solve(problem.asked)
+            return problem.script.stock.answers(problem.described).solve(problem.asked, problem.drawings)
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 
@@ -268,6 +296,8 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
             _assume_range(declared)
         for each in problem.assumed:
             assume(each.relation)
+        record.is_natural = problem.uses_natural_quantities
+        define((each.symbol, each.formula) for each in problem.defined)
         yield
 
 

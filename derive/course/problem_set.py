@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown
+from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown, Paper
 from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
@@ -33,6 +33,7 @@ class ProblemSet:
     inputs: tuple[str, ...]
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
+    paper: Paper = Paper.LETTER
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -85,6 +86,7 @@ class SetKeys(Record):
     date: Word | None = key("the date as it is to be printed", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
+    paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
     documents: dict[Word, Word] = key(
         "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
@@ -193,6 +195,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         (path,),
         evidence,
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
+        Paper(written.paper or Paper.LETTER),
     )
 
 

@@ -1,7 +1,10 @@
-"""Prose as an instructor writes it: plain text in which `<<name>>` stands for a symbol or a derived result.
+r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
-`<<eq torque>>` is the equation number of the step `torque`, `<<problem top>>` the number of another problem of the set.
-Text is data. Prose has no mathematics, TeX or template commands of its own; it is escaped when it is printed.
+`<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`, and
+`<<problem top>>` for the number of another problem of the set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in
+the letters of the problem when the page is made (`derive.page.formulas`). `\$` is a dollar sign.
+
+Text is data. Prose has no template commands; it is escaped when it is printed.
 """
 
 from __future__ import annotations
@@ -16,20 +19,23 @@ from derive.course.yaml_tree import Scalar, Tree, abridged, shape_of
 from derive.errors import Complaint, Faults, Place
 
 EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
+LONGEST_IN_PROSE = 400
 
-_MENTION = re.compile(
-    r"<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
+# A dollar sign next to a number is that of a price: the `$` that opens a formula is not followed by a digit unless the
+# `$` that closes it has neither a blank before it nor a digit after it; "2$a$" has a formula, "5$ each" has none.
+_PIECE = re.compile(
+    r"(?P<dollar>\\\$)"
+    r"|(?P<formula>\$(?:(?<!\d\$)(?=[^\d$])|(?=[A-Za-z\\({]))[^$]*\$|\$(?=\d)[^$]*[^$\s]\$(?!\d))"
+    r"|<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
     r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
     r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
     re.ASCII,
 )
-# A price does not match: the dollars of a formula have no blank just inside them, and no digit follows.
-_LATEX = re.compile(
-    r"\$(?=\S)(?P<letter>[A-Za-z](?:_\w+)?)?[^$]*(?<=\S)\$(?!\d)|\\[A-Za-z]+|\\[(\[]"
-    r"|\w(?P<power>\^)[\w{(+-]+|\b(?P<below>[A-Za-z]_)[\w{]+",
-    re.ASCII,
-)
+_PRICE = re.compile(r"\d\s?\$|\$\s?\d", re.ASCII)
+_LATEX = re.compile(r"\\[A-Za-z]+(?:\{\w*\})*|\\[(\[]|\w(?P<power>\^)[\w{(+-]+|\b[A-Za-z](?P<below>_)[\w{]+", re.ASCII)
+_LETTER = re.compile(r"\\?((?<=\\)[A-Za-z]+|[A-Za-z])\}?(?:_(\{[^{}]*\}|\\?\w))?", re.ASCII)
 _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
+_DOLLAR = "a formula is between two dollar signs, `$x^2$`; write `\\$` for a dollar sign"
 
 
 @dataclass(frozen=True)
@@ -42,33 +48,70 @@ class Mention:
 
 
 @dataclass(frozen=True)
-class Prose:
-    """Text with mentions; `pieces` is the whole text in order, so that no other code needs to parse it.
+class TexFormula:
+    """A formula of the author: the LaTeX between two dollar signs, with its place in the file."""
 
-    `place_within(index, width)` returns the place in the file of the `width` characters that begin at `index` in the
-    text.
+    scalar: Scalar
+
+    @property
+    def tex(self) -> str:
+        return " ".join(self.scalar.text.split())
+
+    @property
+    def names(self) -> set[str]:
+        """The names that its letters may have, without a reading of the formula: `I_{zz}` may be `I_zz`."""
+        found = _LETTER.findall(self.scalar.text)
+        return {f"{base}_{'_'.join(re.findall('[A-Za-z0-9]+', below))}" if below else base for base, below in found}
+
+
+@dataclass(frozen=True)
+class Prose:
+    """Text with mentions and formulas; `pieces` is the whole text in order, so that no other code needs to parse it.
+
+    `part(index, width)` returns the `width` characters that begin at `index` in the text, with their place in the file.
     """
 
     text: str
     place: Place
-    place_within: Callable[[int, int], Place] = field(repr=False, compare=False)
+    part: Callable[[int, int], Scalar] = field(repr=False, compare=False)
+
+    def place_within(self, index: int, width: int) -> Place:
+        return self.part(index, width).place
 
     @cached_property
-    def pieces(self) -> tuple[str | Mention, ...]:
-        pieces: list[str | Mention] = []
+    def pieces(self) -> tuple[str | Mention | TexFormula, ...]:
+        pieces: list[str | Mention | TexFormula] = []
         end = 0
-        for match in _MENTION.finditer(self.text):
+        for match in _PIECE.finditer(self.text):
             pieces.append(self.text[end : match.start()])
-            place = self.place_within(match.start(), len(match[0]))
-            of = PROBLEM if match["problem"] else match["of"] or ""
-            pieces.append(Mention(match["name"] or match["problem"] or "", place, of))
+            pieces.append(self._piece(match))
             end = match.end()
         pieces.append(self.text[end:])
         return tuple(piece for piece in pieces if piece)
 
+    def _piece(self, match: re.Match[str]) -> str | Mention | TexFormula:
+        start, end = match.span()
+        if match["dollar"]:
+            return "$"
+        if match["formula"]:
+            return TexFormula(self.part(start + 1, end - start - 2))
+        of = PROBLEM if match["problem"] else match["of"] or ""
+        return Mention(match["name"] or match["problem"] or "", self.place_within(start, end - start), of)
+
     @property
     def mentions(self) -> tuple[Mention, ...]:
         return tuple(piece for piece in self.pieces if isinstance(piece, Mention))
+
+    @property
+    def formulas(self) -> tuple[TexFormula, ...]:
+        return tuple(piece for piece in self.pieces if isinstance(piece, TexFormula))
+
+    @property
+    def plain(self) -> str | None:
+        """The text if it has no mention and no formula."""
+        if any(not match["dollar"] for match in _PIECE.finditer(self.text)):
+            return None
+        return " ".join(self.text.replace("\\$", "$").split())
 
     def place_of(self, name: str) -> Place:
         """Return the place where the text first mentions a name; if there is no mention, the place of the text."""
@@ -80,16 +123,50 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
     if not isinstance(node, Scalar):
         faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
         return None
-    for match in _MENTION.finditer(node.text):
+    for match in _PIECE.finditer(node.text):
         if odd := match["odd"]:
             place = node.place_within(match.start(), len(odd))
             faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help=_HOW)
+    prose = Prose(node.text, node.place, node.piece)
+    for formula in prose.formulas:
+        _check_formula(formula, node.style, faults)
+    _check_dollars(node, faults)
     comment = re.match(r"[ \t]+#", node.source.text[node.end :])
     if comment and node.style == "":
         place = node.source.place(node.end + comment.end() - 1)
         help_line = "put the whole text in quotes"
         faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
-    return Prose(node.text, node.place, node.place_within)
+    return prose
+
+
+def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
+    """Report what no formula in prose may contain; its letters are known only when the page is made."""
+    inner = formula.scalar
+    if inner.empty:
+        faults.error("formula-in-prose", "there is no formula between these dollar signs", inner.place, help=_DOLLAR)
+    elif len(inner.text) > LONGEST_IN_PROSE:
+        message = f"this formula has {len(inner.text)} characters; a formula in prose has {LONGEST_IN_PROSE} at most"
+        faults.error("too-large", message, inner.place_within(0), help="give the formula under a name in `given:`")
+    elif (at := inner.text.find("<<")) >= 0:
+        help_line = "write the letter itself, or end the formula before the mention"
+        faults.error(
+            "formula-in-prose", "a formula cannot contain a mention", inner.place_within(at, 2), help=help_line
+        )
+    elif style == '"' and any(found[1].isalpha() for found in re.finditer(r"\\(.)", inner.raw)):
+        message = "in double quotes, YAML reads a `\\` and a letter as one character: `\\t` is a tab"
+        faults.error("formula-in-prose", message, inner.place, help="put the text in single quotes, or write `\\\\`")
+
+
+def _check_dollars(node: Scalar, faults: Faults) -> None:
+    """Report a dollar sign that neither belongs to a formula nor to a price."""
+    rest = _PIECE.sub(lambda match: " " * len(match[0]), node.text)
+    prices = {i for found in _PRICE.finditer(rest) for i in range(*found.span())}
+    lone = next((found.start() for found in re.finditer(r"\$", rest) if found.start() not in prices), None)
+    if lone is not None:
+        message = "this `$` begins no formula and belongs to no price"
+        if node.text[lone : lone + 2] == "$$":
+            message = "a formula in prose is between single dollar signs"
+        faults.error("formula-in-prose", message, node.place_within(lone), help=_DOLLAR)
 
 
 def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
@@ -99,28 +176,26 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """Return a warning about the first LaTeX in a text, because LaTeX in prose is printed unchanged; None without
+    """Return a warning about the first LaTeX outside of dollar signs, which is printed unchanged; None without such
     LaTeX."""
-    found = [*_LATEX.finditer(_MENTION.sub(lambda mention: "x" * len(mention[0]), prose.text))]
+    found = [*_LATEX.finditer(_PIECE.sub(_blanked, prose.text))]
     if not found:
         return None
     first = found[0]
     notes = (f"{len(found) - 1} more in this text",) * bool(found[1:])
     return Complaint(
         "latex-in-prose",
-        f"LaTeX is not read in prose: `{abridged(first[0])}` is printed unchanged",
+        f"LaTeX is read only between dollar signs: `{abridged(first[0])}` is printed unchanged",
         prose.place_within(first.start(), len(first[0])),
         notes,
-        "write `²` for a square" if first["power"] else f"write `<<{_letter(first)}>>` for a letter",
+        f"write `${first[0]}$`" if first[0][-1] not in "([" else "write a formula between dollar signs: `$x^2$`",
         severity="warning",
     )
 
 
-def _letter(latex: re.Match[str]) -> str:
-    """Return the letter that the LaTeX stands for, if the letter is clear; otherwise return `R` as an example."""
-    inner = latex[0].strip("$").strip()
-    whole = latex["below"] or latex["letter"]
-    return inner if whole and re.fullmatch(r"\w+", inner) else "R"
+def _blanked(match: re.Match[str]) -> str:
+    """Return blanks for a formula; letters for a mention, because its square is LaTeX too: `<<x>>^2`."""
+    return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
 
 
 PROSE = Reader(TEXT.schema, _some_prose)

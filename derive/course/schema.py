@@ -95,7 +95,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
             if close in missing:
                 missing.remove(close)
             help_line = f"did you mean `{close}`?" if close else "the keys are " + ", ".join(f"`{k}`" for k in keys)
-            help_line = f"write `{close}`" if name.text in renamed else help_line
+            help_line = f"write `{close}`: {keys[close].meaning}" if close and name.text in renamed else help_line
             faults.error("unknown-key", f"{what} has no key `{abridged(name.text)}`", name.place, help=help_line)
     for wanted in missing:
         faults.error("missing-key", f"{what} needs `{wanted}`: {keys[wanted].meaning}", node.place)

@@ -24,6 +24,7 @@ from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_articl
 from derive.course.assumed import Assumed
 from derive.course.expression import Declared, read_expression
 from derive.course.given import Given, Measured, NumbersAsLetters
+from derive.course.placement import Placement
 from derive.course.schema import Record, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import DeriveError, Faults, Place, Spelled, rejected
@@ -88,8 +89,9 @@ class Described:
 class Answering(Protocol):
     """The answers of a description."""
 
-    def solve(self, asked: Sequence[Word]) -> Mapping[str, object]:
-        """Return the answers by the names that parts ask for; one name may mean several steps."""
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> Mapping[str, object]:
+        """Return the answers by the names that parts ask for, and draw the requested plots; one name may mean several
+        steps."""
 
     def every(self) -> dict[str, Any]:
         """Return every name that parts may ask for, with its steps or with the error that prevents its derivation."""

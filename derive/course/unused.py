@@ -9,6 +9,7 @@ from collections.abc import Mapping as Table
 from derive.algebra.expressions import TIME
 from derive.course.given import Given, Measured
 from derive.course.placement import HIDDEN
+from derive.course.prose import Prose
 from derive.course.stock import Described
 from derive.course.written import ProblemKeys, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
@@ -60,16 +61,23 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
-    """Warn of declared letters that occur neither in the givens nor in comparisons, limits or drawings."""
+    """Warn of declared letters that occur neither in the givens nor in comparisons, limits, drawings or formulas."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
+    used |= {name for prose in _texts(written) for formula in prose.formulas for name in formula.names}
     for name, sort in written.symbols.items():
         if name in used or sort in exact:
             continue
         message = f"`{name}` is declared, but nothing under `given` uses it"
         instead = f"write `gravity: {name}` under `given`, or " if _lacks_gravity(written.given, sort) else ""
         yield Complaint("unused-letter", message, name.place, help=f"{instead}leave it out", severity="warning")
+
+
+def _texts(written: ProblemKeys) -> Iterator[Prose]:
+    """Yield the prose whose formulas may introduce a letter."""
+    yield from (part.ask for part in written.parts)
+    yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
 
 
 def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from collections.abc import Mapping as Table
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -94,6 +94,25 @@ def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
 SYMBOLS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
+_FORMULAS = mapping_of(FORMULA, "a mapping such as `{omega_0: sqrt(k/m)}`, or `none`")
+NO_QUANTITIES = "none"  # `define: none`
+
+
+@dataclass(frozen=True)
+class Definitions:
+    """The contents of `define:`; `are_used` is false if results contain only the letters of the problem."""
+
+    formulas: Table[Word, Formula] = field(default_factory=dict)
+    are_used: bool = True
+
+
+def _definitions(node: Tree, name: str, faults: Faults) -> Definitions:
+    if isinstance(node, Scalar) and node.text.strip() == NO_QUANTITIES:
+        return Definitions(are_used=False)
+    return Definitions(_FORMULAS.read(node, name, faults) or {})
+
+
+DEFINE = Reader({"anyOf": [{"enum": [NO_QUANTITIES]}, _FORMULAS.schema]}, _definitions, Definitions)
 _WORDS = PROSE_OR_NOTHING.schema
 _TEXTS = {"type": "object", "additionalProperties": _WORDS}
 
@@ -111,6 +130,10 @@ class DrawingKeys(Record):
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
+    plot: Word | None = key(
+        "for a script of the engine: the answer whose curve is drawn, such as `potential_energy`", TEXT
+    )
+    against: Word | None = key("the coordinate or the letter on the horizontal axis of a plot", TEXT)
     ends: tuple[Tree, ...] | None = key(
         "the two ends of a plot, such as `[-60 deg, 60 deg]`",
         list_of(SCALAR, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),
@@ -187,8 +210,15 @@ class ProblemKeys(Record):
         "for a script of the engine, the description of what it solves",
         GIVEN,
     )
+    define: Definitions = key(
+        "quantities in which results may be written, each with its formula: `{beta: b/(2*m), omega_0: sqrt(k/m)}`; "
+        "with `none`, results contain only the letters of the problem",
+        DEFINE,
+    )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
-    statement: Prose | None = key("the problem in prose; `<<mass>>` stands for what is given", PROSE, required=True)
+    statement: Prose | None = key(
+        "the problem in prose; `<<mass>>` stands for what is given, `$x^2$` is a formula", PROSE, required=True
+    )
     strategy: Prose | None = key(
         "one or two sentences at the head of the solution: the method, and the reason for it", PROSE
     )

@@ -122,6 +122,11 @@ class Scalar:
         return self.style == "" and self.empty
 
     @property
+    def raw(self) -> str:
+        """The text as the file has it, with quotes and escapes."""
+        return self.source.text[self.start : self.end]
+
+    @property
     def place(self) -> Place:
         return self.source.place(self.start, self.end - self.start)
 
@@ -131,9 +136,13 @@ class Scalar:
 
     def piece(self, offset: int, length: int) -> Scalar:
         """Return a part of the text, with its own place."""
-        text = self.text[offset : offset + length]
-        start = self.start + (self.quoted) + offset  # the place in folded or escaped text is only approximate
-        return Scalar(text, "", start, start + length, self.source)
+        if not self.text:
+            return self
+        spans = self._spans[offset : offset + length]
+        start = self._spans[offset][0] if offset < len(self._spans) else self._spans[-1][1]
+        part = Scalar(self.text[offset : offset + length], "", start, spans[-1][1] if spans else start, self.source)
+        part.__dict__["_spans"] = spans  # each character keeps its place in the file, also in folded text
+        return part
 
     def place_within(self, offset: int, width: int = 1) -> Place:
         """Return the place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
@@ -349,7 +358,9 @@ class _Reader:
             return Scalar(f"*{event.anchor}", "", start, end, self.source)
         if odd := _ODD.search(event.value):
             # In double quotes a character can be written as its code.
-            self.refuse("control-character", f"the character U+{ord(odd[0]):04X} is not text", event, end - start)
+            help_line = "put LaTeX in single quotes, or write `\\\\` for a backslash" if event.style == '"' else None
+            message = f"the character U+{ord(odd[0]):04X} is not text"
+            self.refuse("control-character", message, event, end - start, help_line)
         return Scalar(event.value, event.style or "", start, end, self.source)
 
     def mapping(self, opening: Any, depth: int) -> Mapping:

@@ -26,6 +26,7 @@ from derive.figures.parts import (
     ConnectionMark,
     CornerRopeMark,
     DashpotMark,
+    HeavyRopeMark,
     PlankMark,
     RopeMark,
     WedgeMark,
@@ -36,6 +37,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
+from derive.figures.surfaces import TableMark
 from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
 from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
 from derive.mechanics.bodies.placed import PlacedBody
@@ -56,6 +58,8 @@ WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the l
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
 TABLE = 4  # the radius of a table in space, relative to the largest body on it
+BEYOND = Rational(6, 5)  # the radius of a table, relative to the circle of the contacts about its middle
+HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
@@ -101,7 +105,7 @@ class Connections:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
         for constraint in self.system.constraints:
-            if not constraint.in_rates and constraint.forces:
+            if not constraint.in_rates and (constraint.forces or not constraint.enforcer):
                 found |= self._solved(constraint, found)
         found |= self._over_corners(found)
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
@@ -202,7 +206,10 @@ class Connections:
         for q in reversed(free):
             share = tidied(diff(residual, q))
             if share != 0 and not moving_in(self.system, share):
-                return {q: tidied(q - residual / share)}
+                value, whole = tidied(q - residual / share), constraint.right
+                if q.is_positive and not value.is_positive and whole.is_Symbol and whole != self.size:
+                    return {whole: tidied(explicit(constraint.left).subs(known))}  # so that the coordinate is positive
+                return {q: value}
         return {}
 
     @property
@@ -282,17 +289,30 @@ class Connections:
             if touch.of is None:
                 yield from self._corner(touch)
 
+    def is_drawn(self, surface: Surface) -> bool:
+        """Whether the surface has a picture: each surface in a plane of motion, and a fixed horizontal plane in space,
+        with the bodies above it."""
+        is_level = isinstance(surface, Plane) and surface.unit_normal.components == (ZERO, ZERO, ONE)
+        return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
+
     def _table(self, plane: Plane) -> Iterable[Mark]:
         """Yield a horizontal plane in space as a round table, with the axis about which it rotates."""
-        up = plane.unit_normal
-        if up.components != (ZERO, ZERO, ONE) or not is_fixed(self.system, plane.through):
+        if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
-        yield CircleMark(through, ACROSS, TABLE * self.ball_size, True)
+        yield TableMark(through, ACROSS, self._table_radius(plane), True)
         if isinstance(plane.moves, Axes):
             rate = next((diff(angle, TIME) for i, angle in plane.moves.turns if i == 2), None)
             if rate is not None:
                 yield AxisOfRotation(through, ACROSS, rate, label=rate)
+
+    def _table_radius(self, plane: Plane) -> Expr:
+        """The radius of a table: beyond the circle on which the contacts move; a multiple of the bodies' size if they
+        do not move on a circle about the middle of the table."""
+        ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
+        if any(moving_in(self.system, way) for way in ways):
+            return TABLE * self.ball_size
+        return BEYOND * max(ways, key=numeric)
 
     @property
     def ball_size(self) -> Expr:
@@ -341,7 +361,8 @@ class Connections:
         sides = {self.number(wall.components[0]) > middle for wall in walls}
         starts = [each.foot for each in contacts] + [Location((ZERO, height))]
         margins = (0.0 if False in sides else ROOM, 0.0 if True in sides else ROOM)
-        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), UNDER[BlockMark], margins)
+        off = HALF_OF_ROPE if all(self.is_rope(each.of) for each in contacts) else UNDER[BlockMark]
+        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), off, margins)
 
     def _landing(self, plane: Surface) -> Iterable[Mark]:
         """Yield the plane on which a flight ends, below or beside the circle or the string from which it begins."""
@@ -465,6 +486,9 @@ class Connections:
     def _line(self, line: Line, labels: set[Any]) -> Iterable[Mark]:
         places = line.places
         columns = [column_of(place) for place in places]
+        if line.rope is not None:
+            yield HeavyRopeMark(tuple(columns), (ZERO,) * len(columns), label=line.rope.mass)
+            return
         if line.is_rod:
             yield BarMark(columns[0], columns[-1], label=self._kept_length(line))
         elif self._is_corner(line):
@@ -581,7 +605,7 @@ class Connections:
     def block(self, particle: Particle) -> list[Mark] | None:
         """Return the block that represents a particle on a plane. The list is empty if another mark represents the
         particle, such as a wedge or a pulley. The result is None if the particle is drawn as a small disc."""
-        if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane:
+        if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane or self.is_rope(particle):
             return []
         if any(same(particle.at, place) for line in self.lines for place in line.places[1:-1]) and self.in_a_plane:
             return []
@@ -590,6 +614,15 @@ class Connections:
             return None
         stands = not touch.surface.is_two_sided and not self.carries_only_blocks(touch.surface)
         return [BlockMark(column_of(particle.at), column_of(touch.tangent), stands=stands, label=particle.mass)]
+
+    def is_rope(self, particle: Any) -> bool:
+        """Whether the mass of the particle is distributed along a rope."""
+        return any(line.rope is not None and line.rope == particle for line in self.lines)
+
+    def rope_piece(self, length: Expr) -> tuple[Location, Location] | None:
+        """Return the ends of the straight piece of a rope that has this length; None if there is no such piece."""
+        pieces = (piece for line in self.lines if line.rope is not None for piece in pairwise(line.places))
+        return next((piece for piece in pieces if distance_of(*piece) == length), None)
 
     def holds(self, particle: Particle) -> bool:
         """Whether a contact of a system in a plane, or an end of a string or rod, shows how the particle is placed."""

@@ -111,6 +111,7 @@ class Drawing:
     view          whether the marks are shown in space or in the plane (x, y)
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
+    left_out      conditions of the system that the drawing does not show
     leads_to      the keys of steps that the drawing precedes, as a force diagram precedes Newton's laws
     """
 
@@ -119,6 +120,7 @@ class Drawing:
     view: str = SPACE
     coordinates: tuple[tuple[Any, str], ...] = ()
     values: tuple[tuple[Any, Any], ...] = ()
+    left_out: tuple[Any, ...] = ()
     leads_to: tuple[str, ...] = ()
 
     @property

@@ -160,6 +160,7 @@ class RopeMark(_Piecewise):
     along: tuple[Position, ...]
     radii: tuple[Any, ...]
     layer: ClassVar[int] = 1
+    pen: ClassVar[str] = "string"
 
     def places(self, numbers: InNumbers) -> list[Vector]:
         return [numbers.vector(place) for place in self.along]
@@ -174,7 +175,18 @@ class RopeMark(_Piecewise):
         for (middle, radius), before, after in zip(circles[1:], lines, [*lines[1:], None], strict=True):
             path += [before[1]] if after is None else _round(middle, radius, before[1], after[0])
         longest = max(lines, key=lambda line: hypot(line[1][0] - line[0][0], line[1][1] - line[0][1]))
-        return [Stroke(tuple(path), "string"), beside(self.label, *longest)]
+        return [Stroke(tuple(path), self.pen), beside(self.label, *longest)]
+
+
+@dataclass(frozen=True)
+class HeavyRopeMark(RopeMark):
+    """A rope with mass, with its mass as its label."""
+
+    pen: ClassVar[str] = "rod"
+
+    @property
+    def told_as(self) -> str:
+        return "heavy_rope"
 
 
 def _bend(a: Spot, b: Spot, c: Spot) -> float:

@@ -12,7 +12,7 @@ from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
 
-from derive.algebra.expressions import TIME, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, AxisOfRotation, LengthMark, PointMark, Weight
 from derive.figures.connections import Connections
@@ -71,7 +71,7 @@ def sketch(
     scene = _Scene(system, named, weights, start, impact)
     if not more and not scene.is_whole:
         return None
-    return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})})
+    return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})}, left_out=scene.left_out)
 
 
 class _Scene:
@@ -95,15 +95,19 @@ class _Scene:
     # --- completeness ---
 
     @property
+    def left_out(self) -> list[Relation]:
+        """Return the constraints that are given as formulas, and therefore have no picture."""
+        return [each.relation for each in self.system.constraints if not each.enforcer]
+
+    @property
     def is_whole(self) -> bool:
         """Whether the drawing shows every part of the system.
 
-        A constraint that is given as a formula has no picture. A drawing of several particles or of bodies cannot show
-        an energy that couples them.
+        A constraint that is given as a formula has no picture; the caption of the drawing states it. A drawing of
+        several particles or of bodies cannot show an energy that couples them.
         """
         return (
-            all(each.enforcer for each in self.system.constraints)
-            and self.connections.is_possible
+            self.connections.is_possible
             and self._bodies_are_seen()
             and self._rolling_is_seen()
             and self._energies_are_seen()
@@ -120,7 +124,8 @@ class _Scene:
     def _rolling_is_seen(self) -> bool:
         """Whether a surface is drawn under each body that rolls."""
         rolling = [r for each in self.system.conditions if (r := each.fact(Rolling)) is not None]
-        if not rolling or all(any(touch.of.body is r.body.body for touch in self._touching_bodies()) for r in rolling):
+        drawn = [touch.of for touch in self.connections.contacts if self.connections.is_drawn(touch.surface)]
+        if all(any(getattr(of, "body", None) is r.body.body for of in drawn) for r in rolling):
             return True
         return bool(list(contact_marks(self.system))) and (self.rows == 2 or len(self.system.conditions) == 1)
 
@@ -140,6 +145,8 @@ class _Scene:
         """Whether the drawing shows more than particles and bodies with their angles and positions."""
         outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
         if any(not isinstance(mark, ALONE) and mark not in outlines for mark in self.marks):
+            return True
+        if self.left_out:
             return True
         acts = self.system.weights or self.system.constraints or self.system.conditions or self.system.given_forces
         return bool(
@@ -338,8 +345,11 @@ class _Scene:
 
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
         """Return the place of a mass at zero coordinate and its present place, if the coordinate is a distance along a
-        fixed line; otherwise None. Of several such masses, choose the one that the fewest coordinates move."""
+        fixed line, or the ends of a piece of a rope that has this length; otherwise None. Of several such masses,
+        choose the one that the fewest coordinates move."""
         found = []
+        if (piece := self.connections.rope_piece(q)) is not None:
+            return piece
         for _, at in self.system.masses:
             way = Location(tuple(diff(c, q) for c in at.components))
             if any(way.components) and is_fixed(self.system, way) and tidied(Add(*(c**2 for c in way.components))) == 1:

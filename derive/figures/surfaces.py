@@ -243,6 +243,16 @@ class Circle(Surface):
 
 
 @dataclass(frozen=True)
+class TableMark(Circle):
+    """A round horizontal table; the bodies are above it, so the table hides none of them."""
+
+    layer: ClassVar[int] = -2  # below the curves on the table
+
+    def in_words(self) -> InWords:
+        return "table", {}
+
+
+@dataclass(frozen=True)
 class Cavity(Mark):
     """A cavity inside a body, drawn as a dashed outline."""
 

@@ -50,13 +50,6 @@ ROTATING_AXES = Theorem(
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
     (("any", G), ("turning", OMEGA)),
 )
-LAGRANGE = Theorem(
-    "lagrange",
-    Relation(INERTIA_AND_FORCE, "=", 0),
-    "Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
-    (("coordinate", q),),
-    prepared=True,
-)
 MULTIPLIERS = Theorem(
     "multipliers",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # summed over k

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from sympy import Integral, MatrixBase, Rational, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.page.abbreviations import shortened
+from derive.page.assumptions import MIRRORED
 from derive.page.numbering import Number
 from derive.page.signs import name_before, sign_before, sign_behind_name, sign_of_relation
 from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, names_asked
@@ -43,10 +45,17 @@ class Equations:
     framed: int = 0
 
     @property
-    def frames_bare_number(self) -> bool:
-        """Return whether the frame contains only a number such as 0, which has no meaning without the left side."""
+    def chains(self) -> tuple[tuple[ChainLine, ...], ...]:
+        """Return the lines of each chain; in a list of results each line is a separate chain."""
+        starts = [i for i, l in enumerate(self.lines) if not i or l.beside or (l.left is not None and not l.because)]
+        return tuple(self.lines[i:j] for i, j in pairwise([*starts, len(self.lines)]))
+
+    @property
+    def frames_bare_value(self) -> bool:
+        """Return whether the frame contains only a number such as 0 or a letter, which has no meaning without the left
+        side."""
         last = self.lines[-1]
-        return self.framed == 1 and last.left is None and _is_bare_number(last.right)
+        return self.framed == 1 and last.left is None and _is_bare(last.right)
 
     def beside(self, other: Equations) -> Equations:
         """Return the lines of both steps under one number; the steps share a row if there is room."""
@@ -162,6 +171,16 @@ class ChainWriter:
         return [each for each in step.inputs if self.symbols.get(each) in letters]
 
 
+def conditions_of(step: Step) -> tuple[ChainLine, ...]:
+    """Return a line for each condition under which the answer holds, if the sentence of the step states conditions."""
+    told = dict(step.roles)
+    found = [told[role] for role in step.display.conditions if role in told]
+    if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:
+        lower, upper = found  # 2 g l < v^2 < 5 g l
+        found = [Relation(Relation(lower.right, MIRRORED[lower.operator], lower.left), upper.operator, upper.right)]
+    return tuple(ChainLine(each.left, each.word, each.right) for each in found)
+
+
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
     """Return the symbols of limits and series that other steps or numerical answers use and the page must introduce."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
@@ -174,11 +193,11 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
     return found
 
 
-def _is_bare_number(value: Any) -> bool:
-    """Return whether the value is a rational number such as 0 or 2, or a zero vector."""
+def _is_bare(value: Any) -> bool:
+    """Return whether the value is a rational number such as 0 or 2, a single letter, or a zero vector."""
     if isinstance(value, MatrixBase):
         return all(entry == 0 for entry in value)
-    return isinstance(value, Rational)
+    return isinstance(value, Rational | Symbol)
 
 
 def names_results(symbol: Any) -> bool:

@@ -20,6 +20,7 @@ class Clauses:
 
     waiting  steps whose symbols are to be defined at the first use
     told     keys of the steps whose symbols have been defined
+    said     the sentence before the lines just shown; the clause after the lines also defines its symbols
     set_up   text about axes and coordinates, from steps without lines, to put before the next sentence
     """
 
@@ -27,6 +28,7 @@ class Clauses:
         self.words = words
         self.waiting: list[Step] = []
         self.told: set[str] = set()
+        self.said: tuple[Inline, ...] = ()
         self.set_up: list[Inline] = []
 
     def set_aside(self, step: Step, is_told: bool) -> None:
@@ -73,9 +75,11 @@ class Clauses:
         return self._sentence("where", steps, by_value=False)
 
     def _due(self, lines: Any) -> list[Step]:
-        letters = letters_in(expressions_in(lines)) if self.waiting else set()
+        letters = letters_in(expressions_in((self.said, lines))) if self.waiting else set()
+        for step in reversed(self.waiting):  # a definition may contain the symbol of an earlier definition
+            letters |= letters_in(expressions_in(step.result)) if letters_of(step.symbol) & letters else set()
         due = [step for step in self.waiting if letters_of(step.symbol) & letters]
-        self.waiting = [step for step in self.waiting if step not in due]
+        self.waiting, self.said = [step for step in self.waiting if step not in due], ()
         self.told |= {step.key for step in due}
         return [step for step in due if step.result not in expressions_in(lines)]
 
@@ -99,7 +103,7 @@ class Clauses:
 def _in_a_row(value: Any) -> tuple[Inline, ...]:
     """Return a value for use in a sentence: a vector is written (a, 2a, 3a) instead of as a column."""
     shown = explicit(value)
-    if not isinstance(shown, MatrixBase):
+    if not isinstance(shown, MatrixBase) or shown.shape[1] > 1:
         return (Math(value),)
     entries = [node for entry in shown for node in (Text(", "), Math(entry))]
     return Text("("), *entries[1:], Text(")")

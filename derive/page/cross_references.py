@@ -67,7 +67,8 @@ class References:
 
     def _figure(self, mention: Mention) -> Inline | None:
         if mention.name in self.figures:
-            return FigureRef(f"{self.words.labels['figure']}\u00a0{self.figures[mention.name]}", mention.name)
+            number = self.figures[mention.name]
+            return FigureRef(f"{self.words.labels['figure']}\u00a0{number}", mention.name, number)
         message = f"no drawing with a caption is called `{mention.name}`"
         help_line = did_you_mean(mention.name, self.figures) or "give the drawing a `caption:` under `drawings:`"
         self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))

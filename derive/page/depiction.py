@@ -46,7 +46,7 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page."""
     placed = [(index, d.key) for d in drawings if (index := _index(problem, d, derivation)) is not None]
-    captioned = {p.key for p in problem.drawings if p.caption}
+    captioned = {p.key for p in problem.drawings if p.caption} | {d.key for d in drawings if _left_out(d)}
     ordered = sorted(placed, key=lambda entry: entry[0])
     return {key: n for n, key in enumerate((key for _, key in ordered if key in captioned), 1)}
 
@@ -70,6 +70,7 @@ def depictions(
             faults.append(fault)
         elif index is not None:
             caption = told(placement.caption.pieces, _lettered(drawing)) if placement and placement.caption else ()
+            caption += _not_shown(drawing, words, bool(caption))
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
                 alt = alternative(problem, drawing, placement, words)
@@ -80,6 +81,20 @@ def depictions(
                 continue
             found.append((index, Depicted(drawing, placement, at, alt, numbers.get(drawing.key), caption)))
     return [depicted for _, depicted in sorted(found, key=lambda entry: entry[0])], faults
+
+
+def _left_out(drawing: m.Recorded) -> Sequence[Any]:
+    """Return the conditions that a drawing does not show."""
+    return drawing.left_out if isinstance(drawing, m.Drawing) else ()
+
+
+def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
+    """Return the sentence with the conditions that a drawing does not show, to follow the caption."""
+    if not (conditions := _left_out(drawing)):
+        return ()
+    told = joined([(Math(each),) for each in conditions], words.labels["and"])
+    names = {"conditions": told, "count": len(conditions)}
+    return (*((Text(" "),) if follows else ()), *filled(words.drawings["left_out"], names))
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:

@@ -23,20 +23,23 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds
-from derive.page.chain_lines import ChainWriter, Equations
+from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
 from derive.page.closing import limiting_cases, limits_left_out
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn
+from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
+from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
+from derive.page.unused import unused_definitions
 from derive.page.wording import (
     Chain,
     Inline,
@@ -57,6 +60,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
+CASES = "cases"  # in a question, the numbers of the cases of its plots
 HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
 
@@ -104,11 +108,12 @@ class _Writer:
     ):
         self.problem, self.derivation, self.values, self.words, self.level = problem, derivation, values, words, level
         self.drawings = drawings
-        self.theorems = Theorems(words, level, derivation.steps)
+        self.theorems = Theorems(words, level)
         self.numbers = Numbering(like.numbers if like else None)
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []
         self.dimensions = dict(like.dimensions) if like else self._dimensions()
+        self.formulas = Formulas(problem, self.dimensions)
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
@@ -137,14 +142,18 @@ class _Writer:
         statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        asked = [node for part in parts for node in part.ask]
+        statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
         strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
         self.references.check(self.numbers, self.symbols)
+        title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
+        self.faults += self.formulas.faults
         checks = checks_of([*self.selection.steps, *self.values.values()], self.words, compared)
         self.faults += unknown_keys(problem, self.derivation, self.words)
         return Document(
             id=problem.id,
-            title=told(problem.title.pieces, self.page_names, self._unknown),
+            title=title,
             points=problem.points,
             statement=statement,
             strategy=strategy,
@@ -162,6 +171,8 @@ class _Writer:
                 # An author cannot edit a script of the engine, so its warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
+                *self.formulas.warnings,
+                *unused_definitions(problem, self.derivation),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),
@@ -184,7 +195,7 @@ class _Writer:
     def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
-        return told(pieces, names, self._unknown, self.references.node)
+        return told(pieces, names, self._unknown, self.references.node, self.formulas.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = (
@@ -240,7 +251,18 @@ class _Writer:
             self._append(blocks, value, framed=True)
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
-        return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
+        return PartPage(label, self._question(part, own), part.points, placed, part.extra)
+
+    def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
+        """Return the question of a part; the numbers of the cases of its plots belong to the question."""
+        plots = {part.cases, *(drawing.key for drawing in drawings)}
+        cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
+        numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
+        asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
+        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
+        if is_mentioned or all(are_told(each, asked) for each in cases):
+            return asked
+        return (*asked, *take(numbers, self.words))
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
@@ -265,7 +287,7 @@ class _Writer:
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
         """
         mode = self.problem.show.get(step.key, "")
-        if mode == "hidden" and step.key not in self.asked:
+        if mode == "hidden" and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
             return
         if step.key not in self.asked and step.display.repeats in self.numbers:
             self.numbers[step.key] = self.numbers[step.display.repeats]
@@ -287,6 +309,8 @@ class _Writer:
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
         count = results(step, lines) if framed and not again else 0
+        conditions = conditions_of(step) if count else ()
+        lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
@@ -298,6 +322,7 @@ class _Writer:
                 self.numbers[step.key] = blocks[-1].groups[-1].number
         else:
             before = (*self._clause(blocks), *self.clauses.begun(), *before)
+            self.clauses.said = before
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
         if after:
@@ -336,6 +361,7 @@ class _Writer:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
+        own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own)
@@ -343,6 +369,10 @@ class _Writer:
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
+
+    def _states(self, word: tuple[Inline, ...]) -> bool:
+        """Return whether the statement uses the name that the author gave to a body."""
+        return all(isinstance(each, Text) and each.text in self.problem.statement.text for each in word)
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """Return the unit conversions of the numbers that this step is the first to substitute."""

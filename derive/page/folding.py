@@ -16,7 +16,7 @@ Sentence = tuple[Block, ...]
 def with_details(document: Document, full: Document) -> Document:
     """Return the page with the additional lines of `full`, a page of the same problem with the same equation
     numbers."""
-    lines = {group.key: group.lines for part in document.parts for group in _groups(part.blocks)}
+    lines = {group.key: group.lines for part in document.parts for group in groups_in(part.blocks)}
     numbers = {**full.numbers, **document.numbers}
     merged = {part.label: _merged(part, document.numbers, lines) for part in full.parts}
     behind = {
@@ -78,12 +78,12 @@ def _placed(blocks: Sequence[Block], folded: Mapping[str, tuple[Block, ...]]) ->
     found: list[Block] = [Folded(folded[""])] if "" in folded else []
     for sentence in sentences(blocks):
         found += sentence
-        behind = [block for group in _groups(sentence) for block in folded.get(group.key, ())]
+        behind = [block for group in groups_in(sentence) for block in folded.get(group.key, ())]
         found += [Folded(tuple(behind))] if behind else []
     return tuple(found)
 
 
-def _groups(blocks: Sequence[Block]) -> list[Equations]:
+def groups_in(blocks: Sequence[Block]) -> list[Equations]:
     return [group for block in blocks if isinstance(block, Display) for group in block.groups]
 
 

@@ -1,4 +1,4 @@
-"""Graded hints derived from a solution: first what to compute, then the law, then the next lines.
+"""Graded hints derived from a solution: first what to find and in which order, then the laws, then the next lines.
 
 A line gives the result away if nothing is left to do: no result to substitute, no derivative or integral to
 evaluate. Hints omit such a line and all lines after it. A step that only substitutes numbers has no hint.
@@ -6,25 +6,26 @@ evaluate. Hints omit such a line and all lines after it. A step that only substi
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from typing import Any
 
-from sympy import Basic, Derivative, Integral, MatrixBase, Symbol
+from sympy import Basic, Derivative, Integral, MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import BLANK, MassIntegral, Partial, Relation, Slope, TimeRate, explicit, rate
+from derive.algebra.expressions import MassIntegral, Partial, Relation, Slope, TimeRate, explicit, rate
 from derive.course.problem import Problem
+from derive.course.transcript import Transcript
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.clauses import Clauses
-from derive.page.folding import Sentence, sentences
+from derive.page.folding import Sentence, groups_in, sentences
 from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
 from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
-from derive.page.wording import Inline, Math, Phrases
+from derive.page.wording import Inline, Math, Phrases, Text, filled
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Step
 
+LETTERS = Symbol, MatrixSymbol, type(None)  # a relation has no symbol
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -33,7 +34,10 @@ def with_hints(
 ) -> Document:
     """Return the page with hints instead of the derivation."""
     hints = _Hints([*derivation.steps, *values.values()], problem.dimensions, words)
-    hints.answers = {_of(s.result) for part in problem.parts for s in derivation.answering(part.answers)}
+    asked = [step for part in problem.parts for step in derivation.answering(part.answers)]
+    hints.answers = {_of(step.result) for step in asked}
+    hints.shown = {part for step in derivation.steps if step.key in document.numbers for part in _parts(step.result)}
+    hints.worded_answers = {step.key for step in asked if step.key in problem.wording}
     parts = tuple(hints.of(part) for part in document.parts_shown)
     return replace(document, parts=parts, limits=None, note=(), closing=())
 
@@ -42,13 +46,17 @@ def with_hints(
 class _Hints:
     """The hints of one page.
 
-    introduced  symbols that the statement or a hint has explained
+    shown           the results of the page, and the components of vectors and tensors
+    introduced      symbols that the statement or a hint has explained
+    worded_answers  answers in the author's own words, which may contain the answer: "no, unless"
     """
 
     steps: Sequence[Step]
     given: Collection[Any]
     words: Phrases
     answers: set[Any] = field(default_factory=set)
+    shown: set[Any] = field(default_factory=set)
+    worded_answers: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         moving = {q for step in self.steps for q, _ in step.coordinates}
@@ -63,34 +71,55 @@ class _Hints:
         titles = self.words.labels["hints"]
         told = [each for each in sentences(part.blocks) if any(isinstance(block, Display) for block in each)]
         rungs = (
-            ("first", [block for sentence in told for block in self._what(sentence)]),
-            ("law", [block for sentence in told for block in self._cut(sentence, slice(1))]),
+            ("first", self._in_order([group for sentence in told for group in groups_in(sentence)])),
+            ("law", [block for sentence in told for block in self._laws(sentence)]),
             ("goes_on", [block for sentence in told for block in self._cut(sentence, slice(1, None))]),
         )
         found = tuple(Folded(tuple(blocks), titles[name]) for name, blocks in rungs if blocks)
         return replace(part, blocks=found)
 
-    def _what(self, sentence: Sentence) -> list[Block]:
-        """Return the first hint of a sentence: the words before each display, and the display with ? in place of
-        results."""
-        found: list[Block] = []
-        before: list[Block] = []
-        for block in sentence:
-            if isinstance(block, Display):
-                sought = tuple(replace(group, lines=self._sought(group), framed=0) for group in block.groups)
-                found += [*before, replace(block, groups=sought, end="")]
-                before = []
-            elif isinstance(block, Paragraph) and not self._tells(block.nodes):
-                before.append(block)
-        self._introduce(letters_in(expressions_in(found)))
-        return found
+    def _in_order(self, groups: Sequence[Equations]) -> list[Block]:
+        """Return a sentence with what to find: the symbols in their order, each new letter with what it is."""
+        formulas = [group for group in groups if not any(f.because in NUMBERS for f in self.by_key[group.key].chain)]
+        items: list[tuple[str, list[Any]]] = []
+        for group in formulas or groups:
+            step = self.by_key[group.key]
+            letters = [] if step.symbol is None else [lines[0].left for lines in group.chains]
+            name = self._name(step)
+            if name and items and items[-1][0] == name:
+                items[-1][1].extend(letters)
+            elif letters or name:
+                items.append((name, letters))
+        if not items:
+            return []
+        self._introduce(letters_in(expressions_in([each for _, letters in items for each in letters])))
+        told = [self._item(name, letters) for name, letters in items]
+        listed = tuple(node for i, nodes in enumerate(told) for node in ((Text("; "), *nodes) if i else nodes))
+        return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
-    def _sought(self, group: Equations) -> tuple[ChainLine, ...]:
-        """Return T = ?; for a relation return ? = ?, or ? = 0 if the right side is 0."""
-        firsts = [lines[0] for lines in _chains(group)]
-        if self.by_key[group.key].symbol is not None or isinstance(firsts[0].left, Symbol):
-            return tuple(ChainLine(line.left, line.relation, BLANK, beside=line.beside) for line in firsts)
-        return (ChainLine(BLANK, firsts[0].relation, firsts[0].right if firsts[0].right == 0 else BLANK),)
+    def _name(self, step: Step) -> str:
+        """Return what a relation or a letter is; another symbol, such as dL/dt, needs no name."""
+        if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
+            return ""
+        name = self.words.rule(step.rule)
+        return f"the {name}" if step.symbol is None else name
+
+    def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
+        """Return symbols with their name behind them: `I_1, I_2 (principal moment)`."""
+        shown = tuple(node for i, each in enumerate(letters) for node in ((Text(", "),) if i else ()) + (Math(each),))
+        if not shown:
+            return (Text(name),)
+        return (*shown, Text(f" ({name})")) if name else shown
+
+    def _laws(self, sentence: Sentence) -> list[Block]:
+        """Return the laws of a sentence after its words, unless the words contain an answer."""
+        words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
+        is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
+        laws = self._cut(sentence, slice(1))
+        if not (laws and is_safe):
+            return laws
+        self._introduce(letters_in(expressions_in(words)))
+        return [*words, *laws]
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
         """Return the law of each chain in a sentence, or the lines after the law, as `rung` selects; results are left
@@ -99,7 +128,7 @@ class _Hints:
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
             due = self._due(groups)
-            clause = self.clauses.meanings(due)
+            clause = self.clauses.meanings([step for step in due if self.shown.isdisjoint(_parts(step.result))])
             found += [replace(display, groups=groups, end="," if clause else ".")] if groups else []
             found += [Paragraph(clause)] if clause else []
         return found
@@ -117,7 +146,7 @@ class _Hints:
         self.introduced |= letters.union(*(each for each in known if each & letters))
 
     def _part_of(self, group: Equations, rung: slice) -> Equations | None:
-        lines = tuple(line for chain in _chains(group) for line in self._kept(chain, self.by_key[group.key], rung))
+        lines = tuple(line for chain in group.chains for line in self._kept(chain, self.by_key[group.key], rung))
         return replace(group, lines=lines, framed=0) if lines else None
 
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
@@ -141,21 +170,14 @@ class _Hints:
 
     def _tells(self, nodes: Sequence[Inline]) -> bool:
         """Return whether a formula in the words is an answer."""
-        formulas = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
+        written = [node.expr for node in nodes if isinstance(node, Math) and not isinstance(node.expr, Symbol)]
+        formulas = [value for each in written for value in (each.values if isinstance(each, Transcript) else (each,))]
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:
         """Return whether a formula equals an answer; a law with a derivative or integral to evaluate does not count."""
         is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
         return is_plain and any(equal(formula, answer) for answer in self.answers)
-
-
-def _chains(group: Equations) -> Iterator[tuple[ChainLine, ...]]:
-    """Yield the lines of each chain in the group; in a list of results each line is a separate chain."""
-    starts = [
-        i for i, line in enumerate(group.lines) if not i or line.beside or (line.left is not None and not line.because)
-    ]
-    return (group.lines[i:j] for i, j in pairwise([*starts, len(group.lines)]))
 
 
 def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
@@ -174,6 +196,13 @@ def _sides(line: ChainLine, step: Step) -> list[Any]:
 def _is_to_be_done(line: ChainLine) -> bool:
     sides = [side for side in (line.left, line.right) if isinstance(side, Basic | MatrixBase)]
     return any(side.has(*TO_BE_DONE) for side in sides)
+
+
+def _parts(value: Any) -> list[Any]:
+    """Return the formulas of a value: itself, or the components of a vector or tensor other than plain numbers."""
+    found = _of(value)
+    components = list(found) if isinstance(found, MatrixBase) else [found]
+    return [each for each in components if not getattr(each, "is_Atom", False)]
 
 
 def _of(value: Any) -> Any:

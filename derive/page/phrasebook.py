@@ -25,6 +25,7 @@ _SHAPE: dict[str, Any] = {
     "theorems_again": _TABLE,
     "setups": {_ANY: _TABLE},
     "clauses": {_ANY: _TABLE},
+    "tasks": _TABLE,
     "terms": _TABLE,
     "bodies": _TABLE,
     "sizes": _TABLE,
@@ -33,6 +34,7 @@ _SHAPE: dict[str, Any] = {
     "labels": {
         _ANY: _TEXT,
         "points": [_TEXT],
+        "unnamed": [_TEXT],
         "rules": _TABLE,
         "explain": _TABLE,
         "documents": _TABLE,

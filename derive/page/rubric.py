@@ -32,25 +32,32 @@ class Weighed:
 
 @dataclass(frozen=True)
 class Credit:
-    """The points of one step, with the equations of the step on the page."""
+    """The points of one step, with the equations of the step on the page, and what a student does in the step."""
 
     equations: Equations
     points: Fraction
+    task: str
 
     @property
-    def result(self) -> ChainLine:
-        """Return the last line of the step, with the left side of its chain."""
-        lines = self.equations.lines
-        left = next((line.left for line in reversed(lines) if line.left is not None), None)
-        return replace(lines[-1], left=left)
+    def results(self) -> tuple[ChainLine, ...]:
+        """Return the last line of each chain, with the left side of the chain."""
+        return tuple(_with_left_side(chain) for chain in self.equations.chains)
+
+
+def _with_left_side(chain: Sequence[ChainLine]) -> ChainLine:
+    return replace(chain[-1], left=next((line.left for line in reversed(chain) if line.left is not None), None))
 
 
 def credits_of(
-    document: Document, said: Mapping[str, Mapping[Word, Fraction]], values: Iterable[Step] = ()
+    document: Document,
+    said: Mapping[str, Mapping[Word, Fraction]],
+    tasks: Mapping[str, str],
+    values: Iterable[Step] = (),
 ) -> dict[str, tuple[Credit, ...]]:
     """Return the rubric of each part, by label; `said` are the points that the problem specifies, by label.
 
-    `values` are the steps that substitute numbers. Parts without points share the remaining points of the problem.
+    `tasks` has the words for each step, by key. `values` are the steps that substitute numbers. Parts without points
+    share the remaining points of the problem.
     """
     into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]
@@ -63,7 +70,11 @@ def credits_of(
         others = [group for part in parts for group in _weighed(part, into) if group.equations.key not in own]
         points |= {**_shared(worth - sum(own.values(), Fraction(0)), others), **own}
     found = {
-        part.label: tuple(Credit(group, share) for group in _groups(part) if (share := points.get(group.key)))
+        part.label: tuple(
+            Credit(group, share, tasks.get(group.key, ""))
+            for group in _groups(part)
+            if (share := points.get(group.key))
+        )
         for part in asked
     }
     return {label: rubric for label, rubric in found.items() if rubric}

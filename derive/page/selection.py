@@ -76,6 +76,7 @@ class Selection:
         self.measured = {key for key, value in (values or {}).items() if value.outcome == "measured"}
         self._having_it = {step.key: that_have_it(step, derivation) for step in derivation.steps}
         self._parts = derivation.parts
+        self._behind_quoted = self._only_for_quoted(derivation.steps)
         self._manners: dict[str, Manner] = {}
         for step in derivation.steps:
             rules = {other.rule for other in derivation.steps if self._manners.get(other.key) is OWN}
@@ -89,6 +90,10 @@ class Selection:
 
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
+
+    def is_behind_quoted(self, key: str) -> bool:
+        """Return whether only quoted results depend on a step, so that the page needs no words for it."""
+        return key in self._behind_quoted and self.manner(key) is LEFT_OUT
 
     def having_it(self, step: Step) -> tuple[Step, ...]:
         """Return the steps whose lines show the result of the given step."""
@@ -133,12 +138,22 @@ class Selection:
             return OWN
         if step.key in self.needed.numbers:
             return OWN
-        manner = step.display.manner(self.level)
+        manner = LEFT_OUT if step.key in self._behind_quoted else step.display.manner(self.level)
         if repeats and step.display.first_only:
             manner = LEFT_OUT
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]
         return OWN if manner is TOLD and not _is_short(step) else manner
+
+    def _only_for_quoted(self, steps: Sequence[Step]) -> set[str]:
+        """Return the steps on which only quoted results depend, such as the density behind a standard moment."""
+        quoted = {step.key for step in steps if step.display.quoted and step.key not in self.asked}
+        found: set[str] = set()
+        for step in reversed(steps):
+            users = {other.key for other in steps if step.key in other.inputs}
+            if users and users <= quoted | found:
+                found.add(step.key)
+        return found
 
     def _as_shown(self, derivation: Derivation) -> dict[str, Step]:
         found: dict[str, Step] = {}
@@ -167,6 +182,8 @@ class Selection:
         """
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
+        if step.display.quoted and step.key not in self.asked:
+            return step.chain[-1:]
         if repeats and in_turn and step.display.shows_result_alone(self.level):
             return step.chain[-1:]
         level = Level.BRIEF if repeats and not step.display.each_worked_out else self.level

@@ -1,8 +1,8 @@
 """Theorems in their general form: a page states each theorem once, before the first step that uses it.
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
-the first problem that uses a theorem states it, and later problems refer to that problem. So a page contains both the
-statement of each theorem and this reference, and each document prints one of these two texts.
+the first problem that uses a theorem explains it, and later problems recall its formula in a short sentence that names
+this problem. So a page contains both sentences, and each document prints one of them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from dataclasses import replace
 
 from derive.page.tree import Block, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, ToldIn, ToldOnce, filled
-from derive.steps.rule import Theorem
 from derive.steps.step import Level, Step
 
 
@@ -45,20 +44,21 @@ class Theorems:
     A full page shows the law of each step, so it does not state this law before the step.
     """
 
-    def __init__(self, words: Phrases, level: Level, steps: Iterable[Step] = ()):
-        self._words, self._steps, self._level = words, tuple(steps), level
+    def __init__(self, words: Phrases, level: Level):
+        self._words, self._level = words, level
         self._told: set[str] = set()
 
     def before(self, step: Step) -> tuple[Inline, ...]:
         """Return the theorems that the page has not stated yet and must state before this step."""
-        used = [theorem for theorem in self._due(step) if theorem.name not in self._told]
+        quoted = () if self._level is Level.BRIEF else step.theorems
+        used = [theorem for theorem in quoted if theorem.name not in self._told]
         self._told |= {theorem.name for theorem in used}
         told: list[Inline] = []
         for theorem in used:
-            letters = {name: Math(letter) for name, letter in theorem.letters}
-            nodes = filled(self._words.theorems[theorem.name], {"formula": Math(theorem.formula), **letters})
+            names = {"formula": Math(theorem.formula)} | {name: Math(letter) for name, letter in theorem.letters}
+            nodes = filled(self._words.theorems[theorem.name], names)
             first = ToldIn(self._words.labels["problem"])
-            again = filled(self._words.theorems_again[theorem.name], {"problem": first})
+            again = filled(self._words.theorems_again[theorem.name], {"problem": first, **names})
             told.append(ToldOnce(theorem.name, nodes, again))
         return tuple(told)
 
@@ -68,16 +68,3 @@ class Theorems:
         if not (said and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])
-
-    def _due(self, step: Step) -> list[Theorem]:
-        """Return the theorems to state before this step: theorems that the step uses, and a theorem that the step
-        prepares."""
-        if self._level is Level.BRIEF:
-            return []
-        own = [theorem for theorem in step.theorems if not theorem.prepared]
-        prepared = step.prepares if self._level is Level.STANDARD else None
-        return [*own, prepared] if prepared is not None and self._is_used_after(step, prepared) else own
-
-    def _is_used_after(self, step: Step, theorem: Theorem) -> bool:
-        following = (other for other in self._steps if step.key in other.inputs)
-        return any(theorem.name == each.name for other in following for each in other.theorems)

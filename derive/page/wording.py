@@ -27,7 +27,7 @@ from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
 from derive.course.parts import points_text
 from derive.course.problem import Problem
-from derive.course.prose import Mention
+from derive.course.prose import Mention, TexFormula
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
@@ -47,6 +47,7 @@ class FigureRef(Text):
     """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently."""
 
     key: str
+    number: int
 
 
 @dataclass(frozen=True)
@@ -106,8 +107,8 @@ class ToldIn:
 
 @dataclass(frozen=True)
 class ToldOnce:
-    """A theorem: its statement, and the sentence that replaces the statement if an earlier problem of the document
-    states the theorem."""
+    """A theorem: its statement, and the shorter sentence that replaces the statement if an earlier problem of the
+    document states the theorem."""
 
     name: str
     nodes: tuple[Inline, ...]
@@ -128,6 +129,7 @@ class Phrases:
     theorems_again: Mapping[str, str]
     setups: Mapping[str, Mapping[str, str]]
     clauses: Mapping[str, Mapping[str, str]]
+    tasks: Mapping[str, str]
     terms: Mapping[str, str]
     bodies: Mapping[str, str]
     sizes: Mapping[str, str]
@@ -167,10 +169,13 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return the note next to an answer that is only a definition or that repeats an earlier equation."""
+        """Return the note next to an answer that repeats an earlier equation, or that is only a definition.
+
+        A definition that contains derived results is itself derived.
+        """
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
-        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION else ()
+        return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
         """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
@@ -192,6 +197,10 @@ class Phrases:
         """Return the text for a kind of body: "a hollow ball" for `thick_shell`; by default the id of the kind with an
         article."""
         return self.bodies.get(id) or with_article(id)
+
+    def rule(self, rule: str) -> str:
+        """Return a short name for the result of a rule: "kinetic energy" for `lagrange.kinetic_energy`."""
+        return str(self.labels["rules"].get(rule, rule.rpartition(".")[2].replace("_", " ")))
 
     def size(self, id: str) -> str:
         """Return the text for a size of a body: `base_radius` is "base radius"."""
@@ -284,15 +293,19 @@ def told(
     names: Mapping[str, Any],
     missing: Callable[[str, Place], None],
     referred: Callable[[Mention], Inline | None] = lambda mention: None,
+    formula: Callable[[TexFormula], Inline] = lambda formula: Text(f"${formula.tex}$"),
 ) -> tuple[Inline, ...]:
     """Return the author's prose with its mentions replaced by values; an unknown name is reported and omitted.
 
-    `referred` returns the node for a mention of an equation, drawing or problem, or None.
+    `referred` returns the node for a mention of an equation, drawing or problem, or None; `formula` returns the node
+    for a formula.
     """
     nodes: list[Inline] = []
     for piece in pieces:
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
+        elif isinstance(piece, TexFormula):
+            nodes.append(formula(piece))
         elif piece.of:
             node = referred(piece)
             nodes += [node] if node else []

@@ -30,7 +30,9 @@ class Rendered:
 
     texts                   the page in each format, by the name of the format
     latex, sheet, report    fragments for documents: the solution, the questions alone, and how the solution was checked
+    source                  a fragment of the report: what is wrong in the source document
     html, title_html        the solution and its title, for a page in a browser
+    card_html               the statement and its drawing, for the list of the problems of a set
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of its checks, see `Checks.counts`
     steps, compared         the number of steps, and the number of statements of the reference that were compared
@@ -47,8 +49,10 @@ class Rendered:
     title_latex: Tex
     sheet: Tex
     report: Tex
+    source: Tex
     html: Html
     title_html: Html
+    card_html: Html
     warnings: tuple[Complaint, ...]
     inputs: tuple[str, ...]
     grades: dict[str, int]
@@ -78,8 +82,10 @@ class Rendered:
                 title_latex=Tex(_text(data["title_latex"])),
                 sheet=Tex(_text(data["sheet"])),
                 report=Tex(_text(data["report"])),
+                source=Tex(_text(data["source"])),
                 html=Html(_text(data["html"])),
                 title_html=Html(_text(data["title_html"])),
+                card_html=Html(_text(data["card_html"])),
                 documents={_text(name): _text(page) for name, page in dict(data["documents"]).items()},
                 warnings=tuple(_complaint(warning) for warning in data["warnings"]),
                 inputs=tuple(_text(path) for path in data["inputs"]),

@@ -40,6 +40,7 @@ from derive.steps.chain import (
     short,
     without_repeats,
 )
+from derive.steps.natural import NamesValue, NaturalQuantities, Proposal
 from derive.steps.record import coordinates_in
 from derive.steps.rule import GENERIC, ZERO, Doubt, Judged, Rule, wrongly_handed_on
 from derive.steps.signs import undecided
@@ -146,6 +147,7 @@ def establish(
     scope: Scope = Scope(),
     parents: Sequence[Quantity] = (),
     facts: Sequence[Fact] = (),
+    proposals: Sequence[Proposal] = (),
 ) -> Quantity:
     """Make a step, or raise an error.
 
@@ -157,6 +159,7 @@ def establish(
     outcome     a word that selects the phrase, or a function of the result that returns such a word
     parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
+    proposals   quantities of the field in whose symbols the result may be written
 
     Raises `Unverified`, which names the step, if a line, a route or a statement of the sentence disagrees.
     """
@@ -180,6 +183,12 @@ def establish(
     check_can_hold(key, result)
     _check_has_value(key, result)
     chain = lines.chain(symbol, formula, substituted, result)
+    natural = NaturalQuantities(symbol, result, [*quantities.values(), *parents], proposals)
+    chain = natural.chain(chain, result)
+    _check_told(key, phrase_data.formulas)
+    written = natural.formulas(phrase_data.formulas)
+    parents = list(dict.fromkeys([*parents, *natural.used]))
+    bindings = {**bindings_of(natural.used), **bindings}
     # If `means` has a value for a name in the left side, such as x_dot in x_dot^2, the value of the left side is not
     # taken from a parent.
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
@@ -192,7 +201,6 @@ def establish(
     )
     evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
-    _check_told(key, phrase_data.formulas)
     _check_words(key, words)
     if not routes:
         evidence.append(_unsupported(key, rule))
@@ -204,13 +212,14 @@ def establish(
     _check_outcome(key, rule, chosen, judged, may_be_zero=callable(outcome))
     _check_named(key, rule, judged, phrase_data.named)
     _check_handed_on(key, judged, facts)
+    roles = {**inputs, **phrase_data.told, **written, **phrase_data.points_to}
     step = Step(
         key=key,
         rule=rule.name,
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple((role, _called(q)) for role, q in {**inputs, **phrase_data.told, **phrase_data.points_to}.items()),
+        roles=tuple((role, _called(q)) for role, q in roles.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
@@ -225,6 +234,7 @@ def establish(
         **rule.theorems(chosen, words),
     )
     step = replace(step, display=rule.shown.of(step))
+    facts = [*facts, NamesValue()] if rule.names_value else facts
     quantity = Quantity(result, step, tuple(dict.fromkeys([*parents, *quantities.values()])), tuple(facts), subject)
     quantity = _witnessed(quantity, judged)
     record.add(quantity, scope.case_of)

@@ -46,6 +46,8 @@ class Display:
     repeats           the key of the equation that the step repeats, if any
     result_in         names of rules: the lines of an input of such a rule may already contain the result; below the
                       level `full`, the sentence points to these lines
+    conditions        roles of the conditions in the sentence that are part of the answer, so the frame shows them too
+    quoted            whether only the result is shown below the level `full`, unless a part asks for the step
     """
 
     brief: Manner = Manner.OWN
@@ -58,6 +60,8 @@ class Display:
     names_formula: bool = False
     repeats: str = ""
     result_in: tuple[str, ...] = ()
+    conditions: tuple[str, ...] = ()
+    quoted: bool = False
 
     def manner(self, level: Level) -> Manner:
         return self.brief if level is Level.BRIEF else self.standard
@@ -80,6 +84,7 @@ class Shown:
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that the step repeats, or ""
     result_in     outcome -> names of rules: the lines of an input of such a rule may already contain the result
+    quoted        outcomes whose steps are standard results: only the result is shown
     The other fields are those of `Display`.
     """
 
@@ -96,6 +101,8 @@ class Shown:
     taken_in_if: Callable[[Any], bool] = lambda step: False
     repeats: Callable[[Any], str] = lambda step: ""
     result_in: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    conditions: tuple[str, ...] = ()
+    quoted: frozenset[str] = frozenset()
 
     def of(self, step: Any) -> Display:
         """Return how this step is shown."""
@@ -113,6 +120,8 @@ class Shown:
             names_formula=self.names_formula,
             repeats=self.repeats(step),
             result_in=self.result_in.get(step.outcome, ()),
+            conditions=self.conditions,
+            quoted=step.outcome in self.quoted,
         )
 
 

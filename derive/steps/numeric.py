@@ -412,12 +412,14 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
 
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
-    """Round the irrational number in front of the letters: sqrt(42)/28 M a^2 omega^2 becomes 0.2315 M a^2 omega^2.
+    """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
     answer       a scalar with letters; the result is None if its letters are in a sum, because a sum has no common
-                 number in front, or if the number in front is rational
+                 number in front, if the number in front is rational, or if it is a product of roots and pi, whose size
+                 can be seen
     figures      significant figures
-    of_vectors   whether the answer may be a vector of numbers times letters; these numbers may be rational
+    of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
+                 rational numbers times letters
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
@@ -429,6 +431,8 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
     number, letters = common.as_independent(*value.free_symbols, as_Add=False)
     number = number * rest
     if letters.has(Add) or number.free_symbols or getattr(number, "is_Rational", False):
+        return None
+    if not of_vectors and not number.has(Add):
         return None
     rounded = rounded_form(number, figures)
     return establish(

@@ -49,6 +49,8 @@ class Run:
     assumed       assumed conditions on the symbols
     in_words      the assumed conditions that a step states in words
     drawings      the drawings of the page
+    defined       the quantities that the problem defines under `define:`
+    is_natural    whether results may be written in defined and in usual quantities
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates and forces; results must not use them
@@ -62,6 +64,8 @@ class Run:
     assumed: list[Relation] = field(default_factory=list)
     in_words: list[Relation] = field(default_factory=list)
     drawings: list[Any] = field(default_factory=list)
+    defined: list[Quantity] = field(default_factory=list)
+    is_natural: bool = True
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
     letters: Collection[str] = ()
@@ -145,6 +149,14 @@ def is_taken(name: str) -> bool:
     if run is None:
         return False
     return name in run.letters or any(str(quantity.symbol) == name for quantity in _before_call(run))
+
+
+@question
+def result_called(name: str) -> Quantity | None:
+    """Return the earlier result with this symbol; None if there is none."""
+    run = current_run.get()
+    before = _before_call(run) if run is not None else ()
+    return next((quantity for quantity in before if str(quantity.symbol) == name), None)
 
 
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
@@ -247,6 +259,27 @@ def _established_before() -> tuple[Quantity, ...]:
 
 def _before_call(run: Run) -> tuple[Quantity, ...]:
     return tuple(run.established[: run.call.before if run.call else None])
+
+
+def add_definition(quantity: Quantity) -> None:
+    """Record a quantity that the problem defines."""
+    run = current_run.get()
+    if run is not None:
+        run.defined.append(quantity)
+
+
+@question
+def may_use_quantities() -> bool:
+    """Whether results may be written in quantities other than the letters of the problem."""
+    run = current_run.get()
+    return run is None or run.is_natural
+
+
+@question
+def defined_quantities() -> tuple[Quantity, ...]:
+    """Return the quantities that the problem defines under `define:`."""
+    run = current_run.get()
+    return tuple(run.defined) if run is not None else ()
 
 
 def finished_steps(run: Run) -> tuple[str, ...]:

@@ -71,14 +71,12 @@ class Theorem:
     formula   the formula of the theorem
     source    book and section
     letters   further symbols that the phrase names, with their names in the phrase
-    prepared  whether the page states the theorem earlier, before a step that prepares for the use of the theorem
     """
 
     name: str
     formula: Any
     source: str
     letters: tuple[tuple[str, Any], ...] = ()
-    prepared: bool = False
 
 
 @dataclass(frozen=True)
@@ -118,7 +116,7 @@ class Rule:
                 `value_1`
     shown       how a page shows the steps of this rule
     quotes      the theorems that the steps of this rule use
-    prepares    the theorem that a page states before a step of this rule, if a later step uses the theorem
+    names_value whether the symbol of a result may replace its value in later results
     """
 
     name: str
@@ -129,7 +127,7 @@ class Rule:
     named: Mapping[str, Naming] = field(default_factory=dict)
     shown: Shown = SHOWN
     quotes: Sequence[Quote] = ()
-    prepares: Theorem | None = None
+    names_value: bool = False
 
     def __post_init__(self) -> None:
         RULES[self.name] = self
@@ -160,13 +158,12 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the fields of a `Step` for theorems: the theorems that the step uses, the names of those theorems
-        that state its law, and the theorem that a page states before the step."""
+        """Return the fields of a `Step` for theorems: the theorems that the step uses, and the names of those theorems
+        that state its law."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
             "law_in": tuple(each.theorem.name for each in self.quotes if outcome in each.law_in),
-            "prepares": self.prepares,
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:

@@ -57,9 +57,8 @@ class Step:
     key of the exact equation. `about` is true if the step is derived from such a limit or series; the symbol of the
     step then only approximately equals the first line.
 
-    Four fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
-    uses, and `law_in` are the names of the theorems that state the law of the step. `prepares` is the theorem that a
-    page states before the step because later steps use this theorem.
+    Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
+    uses, and `law_in` are the names of the theorems that state the law of the step.
     """
 
     key: str
@@ -82,7 +81,6 @@ class Step:
     display: Display = field(default=ON_ITS_OWN, compare=False)
     theorems: tuple[Theorem, ...] = field(default=(), compare=False)
     law_in: tuple[str, ...] = field(default=(), compare=False)
-    prepares: Theorem | None = field(default=None, compare=False)
 
     @property
     def exact(self) -> bool:

@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 from sympy import Expr
 
 from derive.course.expression import Declared
+from derive.course.placement import Placement
 from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
 from derive.course.stock import Described, InLetters, Stock, attempted, each
 from derive.course.yaml_tree import Tree, Word
@@ -344,11 +345,11 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         """Return name -> function that derives the answer, for every name that a part may ask for."""
         return {f"{prefix}{name}": asked for prefix, one in self.of.items() for name, asked in one.asks().items()}
 
-    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw each body."""
         for one in self.of.values():
             drawn(one.body)
-        return super().solve(asked)
+        return super().solve(asked, drawings)
 
     @property
     def elsewhere(self) -> Callable[..., Quantity]:

@@ -13,6 +13,7 @@ from derive.algebra.expressions import column, component_names
 from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
 from derive.course.given import Given
+from derive.course.placement import Placement
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
 from derive.course.yaml_tree import Tree, Word
@@ -202,9 +203,9 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
 
     what = "a rotation"
 
-    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw the body."""
-        found = super().solve(asked)
+        found = super().solve(asked, drawings)
         described = self.described
         if described.body is not None:
             drawn_turning(self, "angle_between" in asked)

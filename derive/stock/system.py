@@ -12,6 +12,7 @@ from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
 from derive.course.parts import BOTH, ENERGY, LAGRANGE
+from derive.course.placement import Placement
 from derive.course.stock import Methods, Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
@@ -49,7 +50,6 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.lagrange.facts import ForceOf
-from derive.mechanics.model.acted_on import check_ground
 from derive.mechanics.model.part import moved
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
@@ -91,7 +91,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Return the way to the equations of motion."""
         return str(self.described.methods.whole or LAGRANGE)
 
-    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw the system."""
         if self.described.given is None:
             with told_at(self.described.place):
@@ -103,7 +103,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             if sliding is not None:
                 with told_at(sliding):
                     check_starts(self.described.results, assumed())
-        answers = self._by_methods(asked)
+        answers = self._by_methods(asked, drawings)
         steps = with_ancestors(returned_quantities(list(answers.values()))).values()
         if not any(each.step.rule == POTENTIAL_ENERGY for each in steps):
             forget_words()
@@ -113,8 +113,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             self._state_static_friction()
         return answers
 
-    def _by_methods(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return name -> answer, each derived by the method of the part that asks for the name."""
+    def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
+        """Return name -> answer, each derived by the method of the part that asks for the name; draw the plots."""
         methods, whole = self.described.methods, self.described.methods.whole
         groups: dict[Word | None, list[Word]] = {whole: []}
         for name in asked:
@@ -122,8 +122,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         found: dict[str, object] = {}
         for method, names in groups.items():
             check_available(method, names, self.described.made)
-            own = self if method == whole else type(self)(replace(self.described, methods=Methods(method)), self)
-            answers = own.by_name.answers(names)
+            if method == whole:
+                answers = super().solve(names, drawings)
+            else:
+                answers = type(self)(replace(self.described, methods=Methods(method)), self).by_name.answers(names)
             check_effect(method, answers)
             found |= answers
         check_one_law_for_each_key(found, methods.stated)
@@ -174,11 +176,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         weights = [weight(described.gravity)] if described.gravity is not None else []
         with told_at_part(described.acting, acting, described.place):
             parts = chain(*map(parts_of, acting))
-            system = System(*self.bodies.values(), *self.particles.values(), *parts, *weights, *self.rolling)
-        for rolling in described.rolling:
-            with told_at(rolling.place):
-                check_ground(system, rolling.named["ground"])
-        return system
+            return System(*self.bodies.values(), *self.particles.values(), *parts, *weights)
 
     @cached_property
     def particles(self) -> dict[str, Any]:
@@ -207,11 +205,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def acting(self) -> list[Any]:
         """Return what acts on the particles and bodies, in the order of the description."""
         return [part.made(self.parts_by_name) for part in self.described.acting]
-
-    @cached_property
-    def rolling(self) -> tuple[Any, ...]:
-        """Return the conditions of `rolling:`."""
-        return tuple(chain(*(one.made(self.bodies) for one in self.described.rolling)))
 
     # -- energies and equations of motion --------------------------------------------------------------------------
 
@@ -339,9 +332,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def no_slip(self) -> tuple[Quantity, ...]:
         kept = "constraint forces enforce rolling here, so `no_slip` eliminates no coordinate"
-        parts = [*self.rolling, *chain(*map(parts_of, self.acting))]
-        solved = [each for each in parts if isinstance(each, Quantity)]
-        return _some(solved, kept if self.rolling else "nothing rolls in this system")
+        solved = [each for each in chain(*map(parts_of, self.acting)) if isinstance(each, Quantity)]
+        is_kept = any(each.enforcer == "friction" for each in self.system.constraints)
+        return _some(solved, kept if is_kept else "nothing rolls in this system")
 
     @answer
     def angular_velocity(self) -> tuple[Quantity, ...]:

@@ -95,9 +95,9 @@ def drawings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Each drawing made notes itself here, and says in its files the how manieth it is."""
     made: list[str] = []
 
-    def draw(*_: object) -> SimpleNamespace:
+    def draw(*_: object) -> tuple[SimpleNamespace, SimpleNamespace]:
         made.append("drawn")
-        return SimpleNamespace(pdf=b"pdf %d" % len(made), svg=b"svg %d" % len(made))
+        return SimpleNamespace(pdf=b"pdf %d" % len(made)), SimpleNamespace(svg=b"svg %d" % len(made))
 
     monkeypatch.setattr(drawn, "_drawn", draw)
     return made
@@ -144,19 +144,21 @@ def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
     assert not is_made_anew(a, {c: MASS}) and is_made_anew(a, {b: MASS})
 
 
-def test_each_letter_is_set_once(problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_letter_is_set_once_in_each_font(
+    problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Not again for other numbers, nor for a drawing that has others beside it."""
     a, b = (Symbol(name, positive=True) for name in "ab")
     made: list[str] = []
 
-    def noted(texts: Collection[str]) -> dict[str, Lettered]:
-        made.extend(texts)
-        return letters_of(texts)
+    def noted(texts: Collection[str], font: str) -> dict[str, Lettered]:
+        made.extend(f"{text} {font}" for text in texts)
+        return letters_of(texts, font)
 
     monkeypatch.setattr(lettering, "letters_of", noted)
     for length, label in ((1, a), (-1, a), (1, b), (2, b)):
         assert files_of(problem, Cache(tmp_path), length=length, label=label)
-    assert made == ["$a$", "$b$"]
+    assert made == ["$a$ cm", "$a$ stix", "$b$ cm", "$b$ stix"]
     kept = files_of(problem, Cache(tmp_path), length=-1, label=a)
     assert kept == files_of(problem, NO_CACHE, length=-1, label=a)
 

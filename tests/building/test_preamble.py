@@ -34,7 +34,8 @@ A block \own{two}: $\mass a^2$ %s
 """
 PAGE = Rendered(
     id="hw1/one", detail="standard", title="One", points="3", texts={}, latex=Tex("solved"), title_latex=Tex("One"),
-    sheet=Tex("asked"), report=Tex("checked"), html=Html(""), title_html=Html(""), warnings=(), inputs=(), grades={},
+    sheet=Tex("asked"), report=Tex("checked"), source=Tex(""), html=Html(""), title_html=Html(""),
+    card_html=Html(""), warnings=(), inputs=(), grades={},
     counts=dict.fromkeys(COUNTED, 1), steps=1, compared=0, agreed=True,
 )  # fmt: skip
 

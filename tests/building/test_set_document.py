@@ -16,6 +16,7 @@ from derive.building.cache import Cache, Kept
 from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
+from derive.course.names import Paper
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered, Tex
@@ -105,11 +106,13 @@ def test_the_contents_give_the_pages_on_which_the_problems_begin(solutions: PdfR
     assert "E Noether" in cover
 
 
-def test_a_problem_follows_the_one_before_on_its_page(course: Path, solutions: PdfReader) -> None:
+def test_a_problem_follows_the_one_before_on_its_page(
+    course: Path, solved: list[Rendered], solutions: PdfReader
+) -> None:
     assert page_of(solutions, "hw9.cube") == page_of(solutions, "hw9.cube.a") == 1
-    brief = [rendered_once(course, problem_id, "brief") for problem_id in problem_set(course, "hw9").problems]
-    target = course / "brief.pdf"
-    typeset(set_document(course, problem_set(course, "hw9"), brief), target, chosen_engine(None))
+    short = replace(solved[0], latex=Tex("A short solution. " * 20))
+    target = course / "short.pdf"
+    typeset(set_document(course, problem_set(course, "hw9"), [short, solved[1]]), target, chosen_engine(None))
     reader = PdfReader(target)
     above = reader.pages[page_of(reader, "hw9.block") - 1].extract_text().partition("A uniform block")[0]
     assert len(above.split()) > 40, "the end of the problem before it"
@@ -205,18 +208,18 @@ def test_the_last_page_counts_steps_lines_routes_and_references(solved: list[Ren
 
 
 def test_errata_are_told_with_what_is_printed_and_what_is_right(solved: list[Rendered]) -> None:
-    told = solved[1].report
+    told = solved[1].source
     assert r"\theta = 22.64\mathrm{{}^\circ}" in told
     assert r"\theta = 21.64\mathrm{{}^\circ}" in told
     assert "22 for 21" in told
     assert r"\told{printed}{$\bm{r}_{C} = (" in told and r"\ \tfrac{5}{2}\,a)$}" in told
     assert solved[0].counts["errata"] == 0
-    assert "Errata" not in solved[0].report
+    assert solved[0].source == "" and "Errata" not in solved[1].report
 
 
 def test_second_routes_are_told_by_result(solved: list[Rendered]) -> None:
     (row,) = [line for line in solved[1].report.splitlines() if r"{J_{xx}}" in line]
-    assert r"\cell{entry of the tensor}" in row and r"{J_{yz}}" in row
+    assert r"\cell{component of the tensor}" in row and r"{J_{yz}}" in row
     assert r"equimomental" in row and r"& \cell{--} \tabularnewline" in row
 
 
@@ -233,6 +236,9 @@ def test_the_report_has_a_table_of_each_problem_and_the_errata(course: Path, sol
     text = squeezed(target)
     for told in ("Report", "StepWhatitisGradeLinesSecondwayChecks", "bydefinition", "Errataofthesource", "22for21"):
         assert told in text, told
+    assert text.index("22for21") < text.index("StepWhatitis") < text.index("Provedmeans"), (
+        "errata first, the legend last"
+    )
     width = float(reader.pages[0].mediabox.width)
     ends: list[float] = []
     for page in reader.pages:
@@ -267,6 +273,28 @@ def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path:
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     assert rendered_once(root, "hw9/block", "brief").sheet == rendered_once(root, "hw9/block", "full").sheet
+
+
+@pytest.mark.parametrize(("paper", "size"), [(Paper.A4, (595, 842)), (Paper.LETTER, (612, 792))])
+def test_paper_has_the_size_of_the_set(
+    course: Path, solved: list[Rendered], paper: Paper, size: tuple[int, int]
+) -> None:
+    target = course / f"{paper}.pdf"
+    heading = replace(problem_set(course, "hw9"), paper=paper)
+    typeset(sheet_document(course, heading, solved), target, chosen_engine(None))
+    box = PdfReader(target).pages[0].mediabox
+    assert (round(box.width), round(box.height)) == size
+
+
+def test_figures_are_numbered_in_a_row(tmp_path: Path) -> None:
+    """The figures of the first problem count before those of the second."""
+    root = course_in(tmp_path, {"<<spin>> and <<angular_momentum>> in": "See <<figure vectors>>, vectors in"})
+    also(root, "cube", {"title: A block": "title: A cube"})
+    set_of(root, "cube", "block")
+    parts = [rendered_once(root, f"hw9/{name}", draws=True) for name in ("cube", "block")]
+    target = tmp_path / "solutions.pdf"
+    typeset(set_document(root, problem_set(root, "hw9"), parts), target, chosen_engine(None))
+    assert re.findall(r"Figure(\d)", squeezed(target)) == ["1", "1", "2", "2"]
 
 
 # --- references ---

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, latex_in, read_prose
+from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention, Prose, TexFormula, latex_in, read_prose
 from derive.course.yaml_tree import Mapping, Scalar, Source, yaml_tree
 from derive.errors import Complaint, Faults, Rejected
 
@@ -52,7 +52,7 @@ def test_a_mention_stands_where_it_is_written() -> None:
     assert found.place_of("nothing") == found.place
 
 
-@pytest.mark.parametrize("text", ["'plain $x$ % \\textbf{a} {{b}} {% if %}'", "a < b", "a > b >> c"])
+@pytest.mark.parametrize("text", ["'plain % \\textbf{a} {{b}} {% if %}'", "a < b", "a > b >> c"])
 def test_other_signs_are_text(text: str) -> None:
     assert prose(f"title: {text}").pieces == (text.strip("'"),)
 
@@ -86,15 +86,17 @@ def test_pieces_of_prose_are_all_of_it_in_order() -> None:
 @pytest.mark.parametrize(
     ("text", "printed", "help_line"),
     [
-        ("of radius $R$ here", "$R$", "write `<<R>>` for a letter"),
-        (r"a rate \alpha of", r"\alpha", "write `<<R>>` for a letter"),
-        (r"$\frac{1}{2}$ of it", r"$\frac{1}{2}$", "write `<<R>>` for a letter"),
-        ("starts with v_0 at <<x_0>>", "v_0", "write `<<v_0>>` for a letter"),
-        ("the curve y = x^2", "x^2", "write `²` for a square"),
-        ("the square <<x>>^2", "<<x>>^2", "write `²` for a square"),
+        (r"a rate \alpha of", r"\alpha", r"write `$\alpha$`"),
+        (r"about \frac{1}{2} of it", r"\frac{1}{2}", r"write `$\frac{1}{2}$`"),
+        ("starts with v_0 at <<x_0>>", "v_0", "write `$v_0$`"),
+        ("the curve y = x^2", "x^2", "write `$x^2$`"),
+        ("the square <<x>>^2", "<<x>>^2", "write `$x^2$`"),
+        (r"of \(x\)", r"\(", "write a formula between dollar signs: `$x^2$`"),
     ],
 )
-def test_latex_in_prose_is_printed_as_it_stands_and_warned_of(text: str, printed: str, help_line: str) -> None:
+def test_latex_outside_of_dollar_signs_is_printed_unchanged_with_a_warning(
+    text: str, printed: str, help_line: str
+) -> None:
     warning = latex_in(prose(f"title: '{text}'"))
     assert warning is not None
     assert (warning.code, warning.severity, warning.help) == ("latex-in-prose", "warning", help_line)
@@ -103,12 +105,67 @@ def test_latex_in_prose_is_printed_as_it_stands_and_warned_of(text: str, printed
     assert f"title: '{text}'"[place.column - 1 :].startswith(printed[-place.width :])
 
 
-@pytest.mark.parametrize("text", ["a ticket of $5 and one of $7", "$5/$7 each", "of <<v_0>> m/s", "one \\ other", "5$"])
-def test_a_price_and_a_mention_are_no_latex(text: str) -> None:
+@pytest.mark.parametrize(
+    "text", ["a ticket of $5 and one of $7", "$5/$7 each", "of <<v_0>> m/s", "one \\ other", "5$", "$x^2$"]
+)
+def test_a_price_a_mention_and_a_formula_are_not_loose_latex(text: str) -> None:
     assert latex_in(prose(f"title: '{text}'")) is None
 
 
 def test_one_warning_tells_of_all_latex_of_a_text() -> None:
-    warning = latex_in(prose("title: of $R$ and $b$, and $c$"))
+    warning = latex_in(prose(r"title: 'of v_0 and x^2, and \alpha'"))
     assert warning is not None
     assert warning.notes == ("2 more in this text",)
+
+
+@pytest.mark.parametrize(
+    ("text", "pieces"),
+    [
+        ("a wire $y = x^2/(2b)$ here", ["a wire ", ["y = x^2/(2b)"], " here"]),
+        ("$ x $, $y$", [["x"], ", ", ["y"]]),
+        ("sides $a$, 2$a$ and 3$a$", ["sides ", ["a"], ", 2", ["a"], " and 3", ["a"]]),
+        (r"it costs \$ a", ["it costs ", "$", " a"]),
+        ("from $5 to $7", ["from $5 to $7"]),
+        ("$5/$7 each, of $m$", ["$5/$7 each, of ", ["m"]]),
+        ("5$ or 7$", ["5$ or 7$"]),
+        (r"$2\pi$ and $0.5 a$", [[r"2\pi"], " and ", ["0.5 a"]]),
+        ("<<x>>$x$<<y>>", ["x", ["x"], "y"]),
+    ],
+)
+def test_a_formula_is_between_dollar_signs_and_a_price_is_text(text: str, pieces: list[object]) -> None:
+    found = [
+        piece.name if isinstance(piece, Mention) else [piece.tex] if isinstance(piece, TexFormula) else piece
+        for piece in prose(f"title: '{text}'").pieces
+    ]
+    assert found == pieces
+
+
+def test_a_formula_keeps_its_place_in_folded_text() -> None:
+    text = "title: >-\n  A wire bent to\n  the curve $y =\n  x^2$ and\n  its axis $z$\n"
+    (first, second) = prose(text).formulas
+    assert (first.tex, first.scalar.place.line, first.scalar.place.column) == ("y = x^2", 3, 14)
+    assert (second.scalar.place.line, second.scalar.place.column) == (5, 13)
+    place = first.scalar.place_within(4)
+    assert (place.line, place.column) == (4, 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "message"),
+    [
+        ("'a $ b'", 11, "this `$` begins no formula and belongs to no price"),
+        ("'a $$x$$ b'", 11, "a formula in prose is between single dollar signs"),
+        ("'a $ $ b'", 12, "there is no formula between these dollar signs"),
+        ("'a $x = <<x>>$ b'", 16, "a formula cannot contain a mention"),
+        (r'"a $\theta$ b"', 12, "in double quotes, YAML reads a `\\` and a letter as one character: `\\t` is a tab"),
+        ("'$" + "x + " * 100 + "x$'", 10, "this formula has 401 characters; a formula in prose has 400 at most"),
+    ],
+)
+def test_a_formula_without_end_is_an_error_at_its_place(text: str, column: int, message: str) -> None:
+    _, (fault,) = read(f"title: {text}")
+    assert fault.place is not None
+    assert (fault.message, fault.place.column) == (message, column)
+    assert fault.help is not None
+
+
+def test_two_backslashes_in_double_quotes_are_one() -> None:
+    assert prose(r'title: "a $\\theta$ b"').formulas[0].tex == r"\theta"

@@ -39,7 +39,7 @@ from derive.stock.keys.parts import (
     ParticleKeys,
     SpringKeys,
 )
-from derive.stock.keys.placed import MovingBodyKeys, RollingKeys
+from derive.stock.keys.placed import MovingBodyKeys
 from derive.stock.keys.places import WayKeys
 from derive.stock.keys.results import ResultKeys
 from tests.courses import ROOT
@@ -51,7 +51,7 @@ DOCUMENTED = {
         OwnKeys,
         *(stock_script(name).keys for name in stock_names()),
         *(ParticleKeys, SpringKeys, CentralKeys, ForceKeys, DampingKeys, ChargeKeys, ConstraintKeys),
-        *(MovingBodyKeys, RollingKeys, PartKeys, ResultKeys, WayKeys),
+        *(MovingBodyKeys, PartKeys, ResultKeys, WayKeys),
         *(SurfaceKeys, ContactKeys, FrictionKeys, StringKeys, MasslessRodKeys, JointKeys, MotorKeys, DashpotKeys),
     ),
 }

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from math import cos
 from pathlib import Path
 from typing import Any
 
 import pytest
+from sympy import symbols as symbols_of
 
+from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import Arrow
+from derive.figures.annotations import Arrow, LengthMark
 from derive.figures.marks import Drawing, Mark
-from derive.figures.parts import BarMark, BlockMark, ParticleMark, RopeMark, WedgeMark, WheelMark
+from derive.figures.parts import BarMark, BlockMark, HeavyRopeMark, ParticleMark, RopeMark, WedgeMark, WheelMark
 from derive.figures.space import numeric
-from derive.figures.surfaces import Circle
+from derive.figures.surfaces import Circle, TableMark
 from derive.figures.surroundings import AngleBetween, CurvedGround, FixedEnd, GroundMark, WayMark
 from derive.steps.record import Run
-from tests.stock.described import edited, loaded
+from tests.stock.described import course_with, edited, loaded
 
 BALL = """\
 title: A ball that rolls down an incline
@@ -187,3 +190,91 @@ def test_a_wire_has_no_hatches(tmp_path: Path) -> None:
 def test_a_particle_whose_place_on_a_curve_is_unknown_is_not_drawn(tmp_path: Path) -> None:
     polar = ("{x: length, y: length}", "{r: positive length, theta: angle}"), ("[x, y]", "[r*cos(theta), r*sin(theta)]")
     assert not drawings(tmp_path, edited(CURVE, *polar))
+
+
+FORMULA = """\
+title: A bob
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {x: length, y: length}
+  particles: {bob: {mass: m, at: [x, y]}}
+  gravity: g
+  constraints: {condition: x**2 + y**2, equals: l**2, force: Lambda}
+statement: A bob <<m>> <<l>> <<g>>.
+parts:
+  - {ask: Find the multiplier., answer: multipliers}
+"""
+
+
+def test_a_constraint_as_a_formula_is_named_in_the_caption(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, FORMULA)["system"]
+    assert len(of_class(drawn, ParticleMark)) == 1
+    assert [str(each) for each in drawn.left_out] == ["x**2 + y**2 = l**2"]
+    page = rendered(course_with(tmp_path / "page", FORMULA), "trial/one", only={"text"}).texts["text"]
+    assert "Figure 1. The figure does not show the constraint x² + y² = l²." in page
+
+
+def test_a_described_contact_is_not_named_in_the_caption(tmp_path: Path) -> None:
+    assert drawings(tmp_path, BALL)["system"].left_out == ()
+
+
+def test_blocks_with_a_constraint_as_a_formula_are_drawn_where_it_holds(tmp_path: Path) -> None:
+    text = edited(
+        FORMULA,
+        ("{x: length, y: length}", "{x: positive length, y: positive length}"),
+        ("bob: {mass: m, at: [x, y]}", "left: {mass: m, at: [-l, -x]}, right: {mass: m, at: [l, -y]}"),
+        ("x**2 + y**2, equals: l**2", "x + y, equals: l"),
+    )
+    values = dict(drawings(tmp_path, text)["system"].values)
+    x, y, l = (numeric(letter.subs(values), values) for letter in symbols_of("x y l", positive=True))
+    assert x > 0 and y > 0 and x + y == pytest.approx(l)
+
+
+ROPE = """\
+title: A rope
+solve: system
+symbols: {M: mass, l: length, g: acceleration}
+given:
+  coordinates: {x: positive length}
+  particles: {rope: {mass: M, at: [x - l, 0]}}
+  surfaces: {table: {through: [0, 0], along: [1, 0]}}
+  contacts: {of: rope, on: table}
+  strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
+  potential: -M*g*x**2/(2*l)
+statement: A rope <<M>> <<l>> <<g>>.
+parts:
+  - {ask: Find the acceleration., answer: acceleration_x}
+"""
+
+
+def test_a_rope_is_drawn_in_place_of_the_particle_with_its_mass(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, ROPE)["system"]
+    (rope,) = of_class(drawn, HeavyRopeMark)
+    assert str(rope.label) == "M" and len(rope.along) == 3
+    assert not of_class(drawn, ParticleMark) and not of_class(drawn, BlockMark)
+    (length,) = of_class(drawn, LengthMark)
+    assert str(length.label) == "x" and [list(length.start), list(length.end)] == [[0, 0], [0, -length.label]]
+
+
+CONE = """\
+title: A cone
+solve: system
+symbols: {M: mass, h: length, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {phi: angle, psi: angle}
+  axes: {body: [{z: phi}, {y: pi/2 - alpha}, {z: psi}]}
+  bodies: {cone: {shape: cone, radius: h*tan(alpha), height: h, mass: M, held: apex, turned: body}}
+  surfaces: {table: {through: [0, 0, 0], normal: [0, 0, 1]}}
+  contacts: {of: cone, on: table, friction: rolling}
+statement: A cone <<M>> <<h>> <<alpha>>.
+parts:
+  - {ask: Find the rates., answer: no_slip}
+"""
+
+
+def test_a_cone_lies_on_a_table_that_is_larger_than_the_circle_of_its_contacts(tmp_path: Path) -> None:
+    (table,) = of_class(drawings(tmp_path, CONE)["system"], TableMark)
+    alpha, h = 0.5, 1.3
+    values = {letter: {"alpha": alpha, "h": h}[letter.name] for letter in table.radius.free_symbols}
+    assert numeric(table.radius.subs(values)) == pytest.approx(1.2 * h / cos(alpha))

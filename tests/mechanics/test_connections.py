@@ -14,7 +14,7 @@ from derive.algebra.expressions import explicit
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.model import contacts, joints, strings, surfaces
+from derive.mechanics.model import contacts, joints, strings, surfaces, touching
 from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.surfaces import Curve
 from derive.steps.record import Run
@@ -135,9 +135,23 @@ def test_rolling_in_space_without_the_velocity_of_the_table_is_refused(
 def test_an_edge_of_a_disc_that_is_not_its_lowest_point_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    edge, theta = contacts._to_edge, Symbol("theta", real=True)
-    monkeypatch.setattr(contacts, "_to_edge", lambda of, on: tuple(sin(theta) * each for each in edge(of, on)))
+    lowest, theta = touching.lowest, Symbol("theta", real=True)
+
+    def inside(of: Any, on: Any) -> Any:
+        place = of.centre + sin(theta) * (lowest(of, on)[0] - of.centre)
+        return place, on.distance(place)
+
+    monkeypatch.setattr(touching, "lowest", inside)
+    assert "the place of a contact is not the lowest point" in refused(tmp_path, trial_called("disc-floor-in space"))
+    monkeypatch.setattr(touching, "_check_lowest", lambda *_: None)
     assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("disc-floor-in space"))
+
+
+def test_the_upper_end_of_a_cylinder_is_not_its_place_of_contact(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(touching, "_lower", lambda of, one, other: other)
+    assert "not the lowest point" in refused(tmp_path, trial_called("cylinder-floor-in space"))
 
 
 def test_different_tensions_on_the_two_sides_of_a_pulley_are_refused(
@@ -431,7 +445,7 @@ SLIDING = ("normal: N}", "normal: N, friction: {sliding: mu, direction: right}}"
         (
             [("particles: {bead: {mass: m, at: [x, y]}}", "bodies: {bead: {shape: ball, radius: b, mass: m, "
               "centre: [x, y], turned: 0}}")],
-            "but neither a curve nor a rail",
+            "the coordinates do not keep a ball on the curve",
         ),
     ],
 )  # fmt: skip
@@ -497,7 +511,8 @@ ROLLING = problem(trial_called("disc-floor-in space"))
         ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
         ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
         ("{rolling: F}", "rolling", "a friction force must prevent slipping"),
-        ("shape: disc", "shape: cylinder, height: a", "is not round in this view"),
+        ("shape: disc", "shape: cylinder, height: a", "it is unknown which end of a cylinder touches the plane"),
+        ("shape: disc", "shape: hemisphere", "is not round in this view"),
     ],
 )
 def test_rolling_in_space_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
@@ -510,3 +525,113 @@ def test_the_direction_along_a_surface_needs_a_known_inclination(tmp_path: Path)
     text = edited(CURVE, SLIDING, ("{y: x**2/(2*b)}", "{centre: [0, 0], radius: b}"))
     (message, *_) = messages(tmp_path, text)
     assert "points to the right is unknown" in message
+
+
+ON_ITS_SIDE = """\
+title: A cone
+solve: system
+symbols: {M: mass, h: length, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {phi: angle, psi: angle}
+  axes: {body: [{z: phi}, {y: pi/2 - alpha}, {z: psi}]}
+  bodies: {cone: {shape: cone, radius: h*tan(alpha), height: h, mass: M, held: apex, turned: body}}
+  surfaces: {table: {through: [0, 0, 0], normal: [0, 0, 1]}}
+  contacts: {of: cone, on: table, friction: rolling}
+statement: A cone <<M>> <<h>> <<alpha>>.
+parts:
+  - ask: How does it roll?
+    answer: [no_slip, kinetic_energy]
+"""
+
+
+def test_a_cone_that_lies_on_its_side_rolls_about_its_apex(tmp_path: Path) -> None:
+    """Landau and Lifshitz, *Mechanics*, section 32, problem 7."""
+    steps = solved(tmp_path, ON_ITS_SIDE)
+    M, h, alpha = symbols("M h alpha", positive=True)
+    phi_dot, psi_dot = symbols("phi_dot psi_dot", real=True)
+    rolling = explicit(steps["no_slip"].value)
+    assert (rolling.left - rolling.right).subs(psi_dot, -phi_dot / sin(alpha)).simplify() == 0
+    wanted = 3 * M * h**2 * phi_dot**2 * (1 + 5 * cos(alpha) ** 2) / 40
+    assert (explicit(steps["kinetic_energy"].value) - wanted).simplify() == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            [("held: apex", "centre: [3*h/4*cos(alpha)*cos(phi), 3*h/4*cos(alpha)*sin(phi), 3*h/4*sin(alpha)]")],
+            "a line",
+        ),
+        ([("shape: cone, radius: h*tan(alpha)", "shape: cylinder, radius: h"), ("held: apex", "held: base")], "inside"),
+        ([("pi/2 - alpha", "beta"), ("h: length", "h: length, beta: 'angle in (0, pi/2)'")], "it is unknown which end"),
+    ],
+)
+def test_a_contact_along_a_line_needs_a_held_end(changes: list[tuple[str, str]], said: str, tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(ON_ITS_SIDE, *changes))
+    assert said in message
+
+
+IN_A_HOLLOW = """\
+title: A disc in a hollow
+solve: system
+symbols: {m: mass, R: length, b: length, g: acceleration}
+given:
+  coordinates: {x: length, phi: angle}
+  bodies:
+    disc:
+      {shape: disc, radius: R, mass: m, turned: phi,
+       centre: [x - R*x/(b*sqrt(1 + x**2/b**2)), x**2/(2*b) + R/sqrt(1 + x**2/b**2)]}
+  gravity: g
+  surfaces: {bowl: {y: x**2/(2*b)}}
+  contacts: {of: disc, on: bowl, friction: {rolling: F}}
+statement: A disc <<m>> <<R>> <<b>> <<g>>.
+parts:
+  - ask: How does it move?
+    answer: equations_of_motion
+"""
+
+
+def test_a_disc_in_a_hollow_is_assumed_to_be_smaller_than_its_radius_of_curvature(tmp_path: Path) -> None:
+    """The radius of curvature is b (1 + x^2/b^2)^(3/2). A hill, in place of the hollow, needs no assumption."""
+    assert "(b**2 + x**2)**(3/2) > R*b**2" in assumptions(tmp_path, IN_A_HOLLOW)
+    hill = edited(IN_A_HOLLOW, ("[x - R*x", "[x + R*x"), ("x**2/(2*b) + R/", "-x**2/(2*b) + R/"), ("y: x", "y: -x"))
+    assert not any("R" in each for each in assumptions(tmp_path, hill))
+
+
+ROPE = """\
+title: A rope
+solve: system
+symbols: {M: mass, l: length, g: acceleration}
+given:
+  coordinates: {x: positive length}
+  particles: {rope: {mass: M, at: [x - l, 0]}}
+  strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
+  potential: -M*g*x**2/(2*l)
+statement: A rope <<M>> <<l>> <<g>>.
+parts:
+  - ask: How does it move?
+    answer: acceleration_x
+"""
+
+
+def test_a_rope_over_an_edge_moves_as_the_particle_with_its_mass(tmp_path: Path) -> None:
+    """Each piece has the same speed: M x_ddot is the weight M g x/l of the hanging piece."""
+    x, g, l = symbols("x g l", positive=True)
+    assert (solved(tmp_path, ROPE)["acceleration_x"].value - g * x / l).simplify() == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ([("at: [x - l, 0]", "at: [2*x, 0]")], "the speed of the rope differs from the speed of the particle"),
+        ([("at: [x - l, 0]", "at: [0, -x]")], "moves up or down"),
+        (
+            [("from: [x - l, 0], over: [[0, 0]], to: [0, -x]", "from: [0, 0], to: [l*sin(x/l), -l*cos(x/l)]")],
+            "must move along themselves",
+        ),
+        ([("length: l, mass_of", "length: l, tension: S, mass_of")], "so the force `S` does not appear"),
+        ([("mass_of: rope", "mass_of: roap")], "`roap` is not a body or particle of this system"),
+    ],
+)
+def test_a_rope_that_cannot_be_meant_is_told(changes: list[tuple[str, str]], said: str, tmp_path: Path) -> None:
+    assert said in messages(tmp_path, edited(ROPE, *changes))[0]

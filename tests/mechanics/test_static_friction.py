@@ -10,16 +10,18 @@ import pytest
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import Relation, explicit
+from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.mechanics.answers import slipping_in_state
 from derive.mechanics.model import contacts
+from derive.mechanics.model.constraint import Constraint, StaticLimit
 from derive.mechanics.motion import slipping
 from derive.mechanics.motion.static_friction import Friction
 from derive.steps.record import Run
 from derive.witness import runs
 from tests.courses import ROOT
-from tests.stock.described import edited, loaded, messages, solved
+from tests.stock.described import course_with, edited, loaded, messages, solved
 
 NUMBERS = {"m": 1.3, "M": 2.1, "g": 9.8, "mu_s": 0.4, "alpha": 0.6, "theta_0": 0.9}
 
@@ -196,6 +198,10 @@ def test_a_ball_that_slips_at_the_start(tmp_path: Path) -> None:
 # --- wrong laws ---
 
 
+def page(folder: Path, text: str) -> str:
+    return " ".join(rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"].split())
+
+
 def refused(folder: Path, text: str) -> str:
     with pytest.raises(DeriveError) as error:
         solved(folder, text)
@@ -247,9 +253,29 @@ def test_a_law_that_is_reversed_in_all_lines_is_refused(tmp_path: Path, monkeypa
 
 
 def test_the_opposite_sense_of_the_slip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sense = Friction.sense
-    monkeypatch.setattr(Friction, "sense", lambda self, side: sense(self, -side))
+    sense = Constraint.sense
+    monkeypatch.setattr(Constraint, "sense", lambda self, side: sense(self, -side))
     assert "could not be confirmed" in refused(tmp_path, BLOCK)
+
+
+def test_another_name_for_the_body_that_slips_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(StaticLimit, "words", property(lambda self: {"slider": "ladder"}))
+    assert "could not be confirmed" in refused(tmp_path, BLOCK)
+
+
+def test_the_sentence_names_the_body_as_the_statement_does(tmp_path: Path) -> None:
+    named = "The block does not slip down as long as"
+    assert named in page(tmp_path, library("block_on_incline"))
+    known, _, statement = library("block_on_incline").partition("statement:")
+    unnamed = f"{known}statement:{statement.replace('block', 'stone')}"
+    assert named.replace("block", "body") in page(tmp_path, unnamed), "the statement has no block"
+
+
+def test_a_negative_force_is_said_to_act_the_other_way(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "The force F is negative: it acts upwards." in page(tmp_path, library("block_on_incline"))
+    sense = Constraint.sense
+    monkeypatch.setattr(Constraint, "sense", lambda self, side: sense(self, -side))
+    assert "could not be confirmed" in refused(tmp_path, library("block_on_incline"))
 
 
 def test_a_place_that_is_not_the_first_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

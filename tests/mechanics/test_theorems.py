@@ -73,12 +73,6 @@ def in_coordinate(formula: Any, lagrangian: Expr, function: Expr = S.Zero) -> Ex
     return explicit(evaluated(formula.left)) - explicit(evaluated(formula.right))
 
 
-def test_lagranges_equation_of_a_falling_body_is_newtons() -> None:
-    (m, g), q = symbols("m g", positive=True), scalar("q")
-    found = in_coordinate(BY_NAME["lagrange"].formula, m * rate(q) ** 2 / 2 - m * g * q)
-    assert equal(found, m * rate(q, 2) + m * g)
-
-
 @pytest.mark.parametrize("name", ["multipliers", "multipliers_of_rates"])
 def test_a_positive_multiplier_pushes_towards_a_larger_constraint(name: str) -> None:
     """A bead held at the height q = 0 by f = q, or by f = q': the force that holds it is + m g."""

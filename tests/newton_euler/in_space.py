@@ -1,4 +1,4 @@
-"""Balls and discs that roll on planes in space: Newton's and Euler's laws for a rigid body with an unknown reaction."""
+"""Round bodies that roll on planes in space: Newton's and Euler's laws for a rigid body with an unknown reaction."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from tests.newton_euler.random_systems import Numbers, Trial
 
 Vector = tuple[float, float, float]
 X, Y, Z = AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-MOMENTS = {"ball": (0.4, 0.4), "disc": (0.25, 0.5)}  # about a diameter, and about the axis
+# The moments about a diameter and about the axis; for the cylinder, of height 2 a, the diameter is at half the height.
+MOMENTS = {"ball": (0.4, 0.4), "disc": (0.25, 0.5), "cylinder": (7 / 12, 0.5)}
 REACTIONS = ("F_x", "F_y", "N")
 
 GIVEN = """\
@@ -32,8 +33,11 @@ GROUNDS = {
 
 
 def in_space() -> Iterator[Trial]:
-    for shape, ground in (("ball", "floor"), ("ball", "incline"), ("ball", "turntable"), ("disc", "floor")):
+    pairs = (("ball", "floor"), ("ball", "incline"), ("ball", "turntable"), ("disc", "floor"), ("cylinder", "floor"))
+    for shape, ground in pairs:
         given = GIVEN.replace("SHAPE", shape).replace("GROUND", GROUNDS[ground])
+        if shape == "cylinder":  # it touches the floor with the rim of its lower end
+            given = given.replace("(0, pi)", "(0, pi/2)").replace("cylinder,", "cylinder, height: 2*a,")
         if ground != "turntable":
             given = given.replace(", table: [{z: Omega*t}]", "")
         yield Trial(
@@ -44,7 +48,7 @@ def in_space() -> Iterator[Trial]:
 def _rolls(shape: str, ground: str) -> Callable[[Random], tuple[Numbers, Numbers]]:
     def state(random: Random) -> tuple[Numbers, Numbers]:
         v = {name: random.uniform(0.5, 2.0) for name in ("m", "a", "g", "P", "Omega")}
-        v |= {"alpha": random.uniform(0.2, 1.2), "theta": random.uniform(0.3, 2.8)}
+        v |= {"alpha": random.uniform(0.2, 1.2), "theta": random.uniform(0.3, 1.4 if shape == "cylinder" else 2.8)}
         v |= {name: random.uniform(-1.5, 1.5) for name in ("phi", "psi", "x", "y")}
         slope = v["alpha"] if ground == "incline" else 0.0
         n = (sin(slope), 0.0, cos(slope))
@@ -52,7 +56,9 @@ def _rolls(shape: str, ground: str) -> Callable[[Random], tuple[Numbers, Numbers
         p, q, a = v["phi"], v["theta"], v["a"]
         axis = (sin(p) * sin(q), -cos(p) * sin(q), cos(q))
         spin = tuple(random.uniform(-2.0, 2.0) for _ in AXES)
-        edge, edge_rate = _edge(n, axis, cross(spin, axis)) if shape == "disc" else (n, (0.0, 0.0, 0.0))
+        edge, edge_rate = (n, (0.0, 0.0, 0.0)) if shape == "ball" else _edge(n, axis, cross(spin, axis))
+        if shape == "cylinder":
+            edge, edge_rate = plus(edge, axis), plus(edge_rate, cross(spin, axis))
         arm, arm_rate = times(-a, edge), times(-a, edge_rate)
         away = -dot(arm, n)  # of the centre from the plane
         v["z"] = (away - v["x"] * n[0]) / n[2]

@@ -39,7 +39,7 @@ def mention(of: str, name: str) -> Mention:
 
 def test_each_sort_of_reference_has_its_number(references: References, faults: list[Complaint]) -> None:
     assert references.node(mention(PROBLEM, "top")) == ProblemRef("hw9/top", "Problem 3")
-    assert references.node(mention(FIGURE, "axes")) == FigureRef("Figure\u00a02", "axes")
+    assert references.node(mention(FIGURE, "axes")) == FigureRef("Figure\u00a02", "axes", 2)
     assert references.node(mention(EQUATION, "torque")) == Ref("torque")
     references.check({"torque": 4}, ["torque"])
     assert faults == []

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sympy import Basic, MatrixBase, Symbol
+from sympy import Basic, MatrixBase
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import BLANK, Relation
+from derive.algebra.expressions import Relation
 from derive.building.solved import Solved
 from derive.course.problem import Problem
 from derive.page.chain_lines import ChainLine, Equations
@@ -20,7 +20,7 @@ from derive.page.document import document_of
 from derive.page.hints import TO_BE_DONE, with_hints
 from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
 from derive.page.tree import Display, Document, Folded, Paragraph
-from derive.page.wording import phrases
+from derive.page.wording import Math, Text, phrases
 from derive.steps.level import Level
 from derive.steps.step import Step
 from tests.courses import ROOT, course_in, solved_once
@@ -108,17 +108,27 @@ def test_no_answer_is_told_in_words(courses: Any) -> None:
 
 
 @pytest.mark.parametrize("name", [*PINNED, *BEGUN, *LIBRARY])
-def test_what_is_sought_is_a_letter_or_nothing_and_a_number_has_no_law(courses: Any, name: str) -> None:
+def test_the_first_hint_is_one_sentence_and_a_number_has_no_law(courses: Any, name: str) -> None:
     _, hints, _, solved = of(courses, name)
     steps = {step.key: step for step in (*solved.derivation.steps, *solved.values.values())}
-    for rung, group, line in told(hints):
-        if rung.title != WORDS.labels["hints"]["first"]:
-            assert not steps[group.key].rule.startswith("numeric.") and not line.numeric
-        elif steps[group.key].symbol is None:
-            assert line.left == BLANK or isinstance(line.left, Symbol)
-            assert line.right in (BLANK, 0)
-        else:
-            assert line.right == BLANK
+    assert not any(line.numeric or steps[group.key].rule.startswith("numeric.") for _, group, line in told(hints))
+    firsts = [rung for part in hints.parts for rung in part.blocks[:1] if isinstance(rung, Folded)]
+    assert firsts and all(type(block) is Paragraph for rung in firsts for block in rung.blocks[:1])
+    symbols = [step.symbol for step in steps.values()]
+    for rung in (rung for rung in firsts if rung.title == WORDS.labels["hints"]["first"]):
+        (sentence,) = rung.blocks
+        assert isinstance(sentence, Paragraph)
+        sought = [node.expr for node in sentence.nodes if isinstance(node, Math)]
+        assert all(each in symbols for each in sought), "it names what to find, and nothing that was found"
+
+
+def test_the_words_of_the_author_for_an_answer_are_no_hint(courses: Any) -> None:
+    """The answer of part (b) is in them: in the body frame, no."""
+    _, hints, _, _ = of(courses, "hw9/euler")
+    words = [node.text for part in hints.parts for rung in part.blocks for block in rung.blocks
+             if isinstance(block, Paragraph) for node in block.nodes if isinstance(node, Text)]  # fmt: skip
+    assert any(text.startswith("Find") for text in words)
+    assert not any("no, unless" in text or text.startswith("In space: yes") for text in words)
 
 
 @pytest.mark.parametrize("name", [*PINNED, *BEGUN, *LIBRARY])

@@ -15,7 +15,9 @@ from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
 from derive.page.rubric import ANSWER, NUMBER, STEP, Credit, Weighed, _shared, _weighed
 from derive.page.tree import Display, PartPage
-from tests.courses import course_in, rendered_once
+from derive.page.wording import phrases
+from tests.courses import ROOT, course_in, rendered_once
+from tests.rules import records
 
 HALF = Fraction(1, 2)
 
@@ -67,14 +69,19 @@ def test_points_are_halves_where_there_are_enough() -> None:
     assert set(_shared(Fraction(5), groups([False] * 3 + [True])).values()) <= {HALF * n for n in range(1, 10)}
 
 
-def test_a_step_is_shown_by_its_last_equation_with_its_own_left_side() -> None:
+def test_a_row_has_every_value_of_its_step_each_with_its_left_side() -> None:
     lines = (
         ChainLine("x_dot", "equals", 1),
-        ChainLine("y_dot", "equals", 2, beside=True),
-        ChainLine(None, "equals", 3),
+        ChainLine("y_dot", "equals", 2, beside=True, because="law"),
+        ChainLine(None, "equals", 3, because="result"),
     )
-    result = Credit(Equations("rates", lines, Number(1)), HALF).result
-    assert (result.left, result.right) == ("y_dot", 3)
+    found = Credit(Equations("rates", lines, Number(1)), HALF, "solves for the rates").results
+    assert [(line.left, line.right) for line in found] == [("x_dot", 1), ("y_dot", 3)]
+
+
+def test_each_rule_has_words_for_a_rubric_and_no_words_are_left_over() -> None:
+    own = {rule.name for *_, rule in records()}
+    assert set(phrases(ROOT / "templates").tasks) == own
 
 
 def rubric(tmp_path: Path, said: str) -> str:

@@ -11,7 +11,7 @@ from sympy import Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import Relation
 from derive.errors import Rejected
-from derive.mechanics import Particle, System, coordinate, equation_of_motion, lagrangian, point, weight
+from derive.mechanics import Particle, System, constraint, coordinate, equation_of_motion, lagrangian, point, weight
 from derive.page.theorems import Theorems, standalone
 from derive.page.tree import Folded, Paragraph, PartPage
 from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
@@ -43,28 +43,35 @@ def test_a_theorem_is_told_once(level: Level) -> None:
     assert len(theorems.before(a_step("lagrange.forced_equation", "both", "rates"))) == 1, "the form for rates has not"
 
 
-def the_steps_of_a_pendulum() -> tuple[Step, Step]:
-    m, l, gravity = symbols("m l g", positive=True)
+def held_bob() -> Step:
+    """Lagrange's equation for the distance of a bob from the pivot, with the tension of its string."""
+    (m, l, gravity), tension = symbols("m l g", positive=True), "S"
     with recorded():
-        theta = coordinate("theta")
-        bob = Particle(m, point(l * sin(theta), -l * cos(theta)))
-        motion = equation_of_motion(lagrangian(System(bob, weight(gravity))), theta)
-    force = next(q for q in motion.parents if q.step.rule == "lagrange.generalized_force")
-    return force.step, motion.step
+        r, theta = coordinate("r", "length", positive=True), coordinate("theta")
+        bob = Particle(m, point(r * sin(theta), -r * cos(theta)))
+        kept = constraint(l - r, force=tension)
+        return equation_of_motion(lagrangian(System(bob, weight(gravity), kept)), r).step
 
 
-def test_lagranges_equation_is_told_before_its_derivatives_and_not_written_again() -> None:
-    force, motion = the_steps_of_a_pendulum()
-    theorems = Theorems(WORDS, Level.STANDARD, [force, motion])
+def test_a_law_that_a_theorem_states_is_not_written_again() -> None:
+    motion = held_bob()
+    theorems = Theorems(WORDS, Level.STANDARD)
     assert theorems.without_law(motion) == motion, "nothing has been told yet"
-    assert len(theorems.before(force)) == 1
+    assert len(theorems.before(motion)) == 1
     assert theorems.without_law(motion).chain == motion.chain[1:]
 
 
-def test_a_full_page_has_the_law_in_its_place_and_no_theorem_of_it() -> None:
-    force, motion = the_steps_of_a_pendulum()
-    theorems = Theorems(WORDS, Level.FULL, [force, motion])
-    assert theorems.before(force) == () and theorems.without_law(motion) == motion
+def test_a_full_page_has_the_law_in_its_place() -> None:
+    motion = held_bob()
+    theorems = Theorems(WORDS, Level.FULL)
+    theorems.before(motion)
+    assert theorems.without_law(motion) == motion
+
+
+def test_no_sentence_about_a_theorem_is_only_a_pointer() -> None:
+    for name, sentence in WORDS.theorems_again.items():
+        assert "<<formula>>" in sentence and not sentence.startswith("For "), name
+        assert sentence.endswith("(<<problem>>)."), name
 
 
 def test_a_brief_page_has_only_their_names() -> None:

@@ -34,7 +34,9 @@ def test_it_lists_the_packages_and_the_drawings_that_it_needs() -> None:
 
 def test_equations_and_figures_have_labels_and_the_numbers_of_the_document() -> None:
     labels = ["hw9/one:mass", "hw9/one:energy", "hw9/one:figure:vectors"]
-    whole = fragment(replace(WHOLE, illustrations=(AXES, VECTORS), note=(FigureRef("Figure 1", "vectors"),)), *ALONG)
+    whole = fragment(
+        replace(WHOLE, illustrations=(AXES, VECTORS), note=(FigureRef("Figure\u00a01", "vectors", 1),)), *ALONG
+    )
     assert re.findall(r"\\label\{(.*?)\}", whole) == labels
     assert re.findall(r"^%   (hw9/one:\S+)$", whole, re.MULTILINE) == labels
     assert r"\textbf{Figure~\thefigure.} Both {\&} true." in whole

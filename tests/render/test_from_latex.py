@@ -31,7 +31,7 @@ from tests.courses import ROOT
         (r"\left(\begin{array}{cc} a & 0 \\ 0 & b \end{array}\right)", "((a, 0), (0, b))"),
         (r"939.47 \text{ or } 15.13 \mathrm{~rpm}", "939.47 or 15.13 rpm"),
         (r"\sin 2\theta+\sin ^{2} \theta", "sin(2θ) + sin² θ"),
-        (r"U^{\prime}(0)=45^{\circ}", "U' (0) = 45°"),
+        (r"U^{\prime}(0)=45^{\circ}", "U'(0) = 45°"),
         (r"I_{i j}^{c m}", "I_ij^cm"),
         (r"\left|a\right|", "|a|"),
     ],

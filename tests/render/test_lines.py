@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
+import pytest
 from sympy import ImmutableDenseMatrix, Integer, Symbol, sin, symbols
 
 from derive.algebra.expressions import Relation
@@ -37,7 +39,11 @@ def test_a_long_left_side_ends_with_its_relation() -> None:
 
 def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -> None:
     T, (a, b, c) = Symbol("T"), LETTERS[:3]
-    chain = (ChainLine(T, "equals", a * b), ChainLine(None, "equals", c), ChainLine(None, "approx", a, numeric=True))
+    chain = (
+        ChainLine(T, "equals", a * b),
+        ChainLine(None, "equals", c),
+        ChainLine(None, "approx", 2 * a, numeric=True),
+    )
     for framed, whole in ((0, False), (1, False), (2, False), (3, True)):
         (line,) = printed_lines(Equations("T", chain, 7, framed), NOTATION)
         assert (line.framed, line.frames_all) == (framed, whole)
@@ -45,9 +51,10 @@ def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -
     assert [(line.framed, line.frames_all) for line in apart] == [(0, False), (1, False), (1, False)]
 
 
-def test_a_mere_number_is_framed_with_its_left_side() -> None:
-    """What is in a frame is an equation that one may copy: not 0 alone, but T = 0."""
-    T, nothing = Symbol("T"), Integer(0)
+@pytest.mark.parametrize("nothing", [Integer(0), LETTERS[2]])
+def test_a_mere_number_or_letter_is_framed_with_its_left_side(nothing: Any) -> None:
+    """What is in a frame is an equation that you may copy: not 0 or c alone, but T = 0 and T = c."""
+    T = Symbol("T")
     chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", nothing, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
     assert line.frames_all and len(line.sides) == 1
@@ -56,7 +63,7 @@ def test_a_mere_number_is_framed_with_its_left_side() -> None:
         assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
         assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(nothing)),)
         assert lines[-1].reason and not any(line.reason for line in lines[:-1])
-    for other in (LETTERS[1], ImmutableDenseMatrix([LETTERS[1], 0])):
+    for other in (2 * LETTERS[1], ImmutableDenseMatrix([LETTERS[1], 0])):
         (line,) = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", other)), 7, 1), NOTATION)
         assert not line.frames_all
     vector = ImmutableDenseMatrix([0, 0, 0])
@@ -116,7 +123,7 @@ def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
     """The number alone is no answer to what a letter must exceed."""
     S, (a, b, c) = Symbol("S"), LETTERS[:3]
     for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
-        chain = (ChainLine(S, relation, a * b), ChainLine(None, "approx", c, numeric=True))
+        chain = (ChainLine(S, relation, a * b), ChainLine(None, "approx", 2 * c, numeric=True))
         (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION)
         assert line.frames_all == whole
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION)

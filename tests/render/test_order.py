@@ -25,10 +25,14 @@ KINDS = {
     **dict.fromkeys((theta, phi), "angle"),
     **dict.fromkeys((rate(theta), rate(phi)), "angular speed"),
     rate(l): "speed",
+    Symbol("mu"): "number",
+    Symbol("N"): "force",
 }
 NOTATION = Notation({letter: dimension_of_kind(kind) for letter, kind in KINDS.items()})
 
 READS = [
+    (Symbol("N") * Symbol("mu") * a, "μ a N"),
+    (m * g * Symbol("mu"), "μ m g"),
     (cos(theta) + 1, "1 + cos θ"),
     (sqrt(2) + 2, "2 + √2"),
     (2 - sqrt(2), "2 - √2"),

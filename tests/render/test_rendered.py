@@ -21,8 +21,10 @@ PAGE = Rendered(
     title_latex=Tex("A top"),
     sheet=Tex("?"),
     report=Tex("!"),
+    source=Tex("quoted"),
     html=Html("<p>"),
     title_html=Html("<i>"),
+    card_html=Html("<b>"),
     texts={"text": "ω", "json": "{}"},
     warnings=(TOLD, Complaint("a", "b")),
     inputs=("one.yaml", "one.py"),
@@ -43,7 +45,7 @@ def test_what_comes_back_is_tex_where_it_was_and_nowhere_else() -> None:
     back = Rendered.from_data(PAGE.to_data())
     assert back
     names = {field.name for field in dataclasses.fields(PAGE) if isinstance(getattr(back, field.name), Tex)}
-    assert names == {"latex", "title_latex", "sheet", "report"}
+    assert names == {"latex", "title_latex", "sheet", "report", "source"}
 
 
 @pytest.mark.parametrize("data", [None, [], {}, "page", 3])

@@ -97,7 +97,8 @@ def test_a_value_that_is_exact_in_so_many_figures_is_not_called_rounded() -> Non
 
 
 def test_a_coefficient_is_rounded_in_front_of_its_letters() -> None:
-    found = coefficient_of(known_block()["magnitude"], 4)
+    assert coefficient_of(known_block()["magnitude"], 4) is None  # sqrt(42)/28 M a^2 omega^2
+    found = coefficient_of(known_block()["magnitude"], 4, of_vectors=True)
     assert found is not None
     number, letters = found.step.result.args
     assert (decimal_text(number), letters) == ("0.2315", M * a**2 * omega**2)

@@ -95,7 +95,8 @@ bodies:
     mass: m
     turned: phi
     centre: [x + R*A/b*sin(x/b)/sqrt(1 + A**2/b**2*sin(x/b)**2), A*cos(x/b) + R/sqrt(1 + A**2/b**2*sin(x/b)**2)]
-rolling: {body: disc, at: [x, A*cos(x/b)], force: F}
+surfaces: {road: {y: A*cos(x/b)}}
+contacts: {of: disc, on: road, friction: {rolling: F}}
 gravity: g
 """
     letters = "m: mass, R: length, A: length, b: length, g: acceleration"

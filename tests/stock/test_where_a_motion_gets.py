@@ -69,7 +69,8 @@ given:
   coordinates: {x: length, X: length, theta: angle}
   bodies: {wheel: {shape: disc, mass: m, radius: R, centre: [x, R], turned: -theta}}
   particles: {plank: {mass: M, at: [X, 0]}}
-  rolling: {body: wheel, at: [x, 0], ground: [X, 0], force: F}
+  surfaces: {top: {through: plank, along: [1, 0], of: plank}}
+  contacts: {of: wheel, on: top, friction: {rolling: F}}
 statement: A wheel <<m>> <<M>> <<R>>.
 parts:
   - ask: How does it move?
@@ -170,14 +171,14 @@ def test_above_the_natural_frequency_by_the_given_numbers_it_is_in_antiphase(tmp
     assert str(found["moves_lag"].value) == "pi"
 
 
-@pytest.mark.parametrize("ground", ["[x, 0]", "[2*X, 0]"])
-def test_a_place_of_the_ground_that_nothing_carries_is_refused(tmp_path: Path, ground: str) -> None:
-    code, line, said = refused(tmp_path, edited(WHEEL, ("ground: [X, 0]", f"ground: {ground}")))
-    assert (code, line) == ("which-body", 8)
-    assert "of the ground moves with no body or particle of the system" in said
+@pytest.mark.parametrize("through", ["[X, 0]", "[2*X, 0]"])
+def test_a_surface_that_moves_but_that_nothing_carries_is_refused(tmp_path: Path, through: str) -> None:
+    code, line, said = refused(tmp_path, edited(WHEEL, ("through: plank", f"through: {through}"), (", of: plank", "")))
+    assert (code, line) == ("which-body", 9)
+    assert "the surface moves with X, but no body carries it" in said
 
 
-def test_a_place_of_the_ground_on_the_plank_is_not(tmp_path: Path) -> None:
+def test_a_surface_of_the_plank_is_carried(tmp_path: Path) -> None:
     assert solved(tmp_path, WHEEL)
 
 

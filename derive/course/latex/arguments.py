@@ -7,6 +7,7 @@ rejected.
 
 from __future__ import annotations
 
+import re
 from abc import abstractmethod
 from dataclasses import replace
 
@@ -19,16 +20,22 @@ from derive.course.latex.grids import Grid, Grids, TermOrGrid
 from derive.course.latex.letters import MOST_DOTS, Letter, Letters, dots_of, letter_at, subscript_of, term_of
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import FONTS, FRACTIONS, LATEX_FUNCTIONS, WORDS
+from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar
-from derive.errors import Complaint, did_you_mean
+from derive.errors import Complaint, Rejected, did_you_mean
+
+_SPACES = re.compile(r"\\[, ]|~")
+_NO_BRACES = str.maketrans("", "", "{}")
+_DIFFERENTIAL = re.compile(r"(\s|\\[,!])*\\?[A-Za-z]")
 
 
 class Functions(Grids):
     """The base class of `Formula` for letters and functions; `Formula` defines `atom`, `script`, `inside`,
     `raised_to`."""
 
-    def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool):
+    def __init__(self, scalar: Scalar, letters: Letters, homogeneous: bool, in_prose: bool = False):
         super().__init__(scalar, homogeneous)
+        self.in_prose = in_prose
         self.letters = letters
         self.d_is_a_letter = "d" in letters
         self.undeclared: list[Complaint] = []
@@ -95,6 +102,9 @@ class Functions(Grids):
             message, help_line = f"`{letter.base}` is not declared", "write the unit of a value under `in:`"
             return self.complaint("undeclared-symbol", message, letter.start, letter.end, help_line)
         name = letter.name.replace(",", "_")
+        if self.in_prose and name == "d" and _DIFFERENTIAL.match(self.text, letter.end):
+            message = "a differential is read only with its integral sign"
+            return self.complaint("latex", message, letter.start, letter.end, None)
         help_line = did_you_mean(name, self.letters.declared) or "declare it under `symbols:`"
         if letter.name in ("d", "e"):
             help_line = f"declare it under `symbols:`, or write what `{letter.name}` belongs to"
@@ -121,6 +131,40 @@ class Functions(Grids):
             return None
         joined = f"{letter.subscript}_{subscript}" if letter.subscript else subscript
         return self.value_of(replace(letter, subscript=joined, end=below.end))
+
+    # -- units ----------------------------------------------------------------------------------------------------
+
+    def unit_at(self, cursor: Cursor) -> str:
+        r"""Return the unit at the cursor, `\mathrm{m/s^2}` or `\text{ kg}`, as plain text; "" without a unit.
+
+        Only prose has units. An upright word is a declared letter rather than a unit, except after a number.
+        """
+        token = cursor.token
+        if not self.in_prose or token is None or token.kind != "command" or token.text not in FONTS | WORDS:
+            return ""
+        inside = token.arguments[0]
+        text = _SPACES.sub(" ", self.text[inside.start : inside.end].translate(_NO_BRACES)).strip() if inside else ""
+        is_letter = text in self.letters.declared and not (cursor.at and cursor.before.kind == "number")
+        return "" if is_letter or self.size_of_unit(text, token) is None else text
+
+    def size_of_unit(self, text: str, token: Token) -> Term | None:
+        try:
+            unit = read_unit(text)
+        except Rejected:
+            return None
+        return Term(unit.factor, unit.dimension, token.start, token.end)
+
+    def unit(self, text: str, cursor: Cursor) -> Term:
+        r"""Return the size in the SI of the unit at the cursor; a power belongs to its last factor: `\text{m/s}^2`."""
+        token = cursor.token
+        assert token is not None
+        cursor.at += 1
+        if cursor.written == "^":
+            text += "^" + "".join(each.text for each in self.script(cursor).tokens)
+        size = self.size_of_unit(text, token)
+        if size is None:
+            self.refuse("latex", f"`{text}` is not a unit", token.start, cursor.before.end)
+        return size
 
     # -- functions ------------------------------------------------------------------------------------------------
 

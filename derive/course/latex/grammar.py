@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NoReturn
 
-from sympy import Integer, Rational, exp, pi, sqrt
+from sympy import Integer, Rational, exp, oo, pi, sqrt
 
 from derive.algebra.dimensions import NUMBER
 from derive.course.arithmetic import Term
@@ -25,7 +25,7 @@ from derive.course.latex.integrals import Sign, differential_behind, differentia
 from derive.course.latex.letters import letter_at
 from derive.course.latex.titles import is_derivative, without_title
 from derive.course.latex.tokens import DEEPEST_FORMULA, Argument, Token
-from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS
+from derive.course.latex.vocabulary import FRACTIONS, LATEX_FUNCTIONS, RELATIONS, RELATIONS_IN_PROSE
 
 _TIMES = ("\\cdot", "\\times", "*")
 _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
@@ -87,7 +87,8 @@ class Formula(Brackets):
 
     def relation(self, cursor: Cursor) -> str | None:
         token = cursor.token
-        if token and (mark := RELATIONS.get(cursor.written)):
+        known = RELATIONS_IN_PROSE if self.in_prose else RELATIONS
+        if token and (mark := known.get(cursor.written)):
             cursor.at += 1
             return mark
         return None
@@ -236,6 +237,8 @@ class Formula(Brackets):
             return not cursor.inside_bars
         if token.kind in ("number", "letter", "open", "matrix"):
             return True
+        if self.unit_at(cursor) or self.in_prose and token.text == "infty":
+            return True
         names = FRACTIONS | {"sqrt", "pi"} | set(LATEX_FUNCTIONS)
         return token.kind == "command" and (token.text in names or letter_at(token) is not None)
 
@@ -288,6 +291,8 @@ class Formula(Brackets):
     def atom(self, cursor: Cursor, depth: int) -> TermOrGrid:
         token = cursor.token
         assert token is not None
+        if unit := self.unit_at(cursor):
+            return self.unit(unit, cursor)
         if (letter := self.letter_or_axis(cursor)) is not None:
             return letter
         cursor.at += 1
@@ -297,6 +302,8 @@ class Formula(Brackets):
             return self.matrix(token, depth)
         if token.kind in ("open", "bar"):
             return self.bracketed(cursor, token, depth)
+        if token.text == "infty" and self.in_prose:
+            return Term(oo, NUMBER, token.start, token.end)
         if token.text == "pi":
             return Term(pi, NUMBER, token.start, token.end)
         if token.text in FRACTIONS:

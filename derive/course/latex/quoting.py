@@ -12,26 +12,15 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from derive.course.latex.vocabulary import ALIGNMENTS, ARGUMENTS, KNOWN, MATRICES, SIZES, SPACES, WORDS
+from derive.course.latex.vocabulary import ALIGNMENTS, ARGUMENTS, KNOWN, MATRICES, ONLY_PRINTED, SIZES, SPACES, WORDS
 
 LONGEST_QUOTATION = 2000
-_COMMANDS = (KNOWN | SPACES | SIZES) - {"\n", "it", "rm", "bf", "limits", "nolimits", "notag", "nonumber"} | {
-    "iint",
-    "iiint",
-    "min",
-    "max",
-    "lim",
-    "cdots",
-    "ldots",
-    "{",
-    "}",
-    "|",
-    "sum",
-}
+_COMMANDS = (KNOWN | SPACES | SIZES) - {"\n", "it", "rm", "bf", "limits", "nolimits", "notag", "nonumber"}
+_COMMANDS |= ONLY_PRINTED | {"{", "}", "|"}
 _PIECE = re.compile(r"\\(?P<name>[A-Za-z]+)|\\(?P<sign>.)|(?P<plain>.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\s*\{([a-z]+\*?)\}(?:\{([lcr|\s]+)\})?")
 _SIGNS = frozenset("+-*/=<>,.'()[]|^_:;! \n&{}~") | frozenset(map(chr, range(48, 58)))
-_WORD = re.compile(r"\s*\{([A-Za-z0-9 ,.\-]*)\}")
+_WORD = re.compile(r"\s*\{([A-Za-z0-9 ,.\-/]*)\}")
 _ARGUMENT = re.compile(r"\s*(?:\{|[A-Za-z0-9]|\\[A-Za-z])")
 
 

@@ -49,24 +49,27 @@ class ReadMath:
     marks: tuple[str, ...]
 
 
-def read_latex(scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: bool = True) -> ReadMath:
+def read_latex(
+    scalar: Scalar, letters: Mapping[str, Declared], *, homogeneous: bool = True, in_prose: bool = False
+) -> ReadMath:
     """Read the formula in the declared letters, or raise `Rejected` with the errors and their places.
 
     `homogeneous=False` is for a formula with numbers in place of letters, and for a formula that is known to be wrong.
+    `in_prose=True` is for a formula of an author's text, which may have units and the relations `\\ll` and `\\gg`.
     """
-    return _read(scalar, tuple(letters.items()), homogeneous)
+    return _read(scalar, tuple(letters.items()), homogeneous, in_prose)
 
 
 @lru_cache(maxsize=1024)  # a process may read the same formula several times
-def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool) -> ReadMath:
+def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool, in_prose: bool) -> ReadMath:
     letters = dict(declared)
-    plus = Formula(scalar, Letters(letters), homogeneous)
+    plus = Formula(scalar, Letters(letters), homogeneous, in_prose)
     tokens = tokens_of(plus)
     sides, marks = _chain(plus, tokens)
     if not any(len(values) == 1 and branches == 2 for values, branches, *_ in sides):
         others = sides
     else:
-        minus = Formula(scalar, Letters(letters), homogeneous)
+        minus = Formula(scalar, Letters(letters), homogeneous, in_prose)
         minus.branch = 1
         others, _ = _chain(minus, tokens)
     return ReadMath(tuple(_side(plus, a, b) for a, b in zip(sides, others, strict=True)), tuple(marks))

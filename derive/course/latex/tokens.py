@@ -30,6 +30,7 @@ from derive.course.latex.vocabulary import (
     INSTEAD,
     KNOWN,
     MATRICES,
+    ONLY_PRINTED,
     OPENING,
     REFUSED,
     SIZES,
@@ -210,6 +211,8 @@ class _Tokens:
                 self.reader.refuse("latex", message, argument.pos, end)
 
     def unknown(self, name: str, start: int) -> None:
+        if name in ONLY_PRINTED and name not in REFUSED:
+            self.reader.refuse("latex", f"`\\{name}` cannot be read", start, start + 1 + len(name))
         close = nearest(name, sorted(KNOWN, key=str.swapcase))
         suggested = f"did you mean `\\{close}`?" if close else None
         message, help_line = REFUSED.get(name, (f"`\\{name}` is not known", suggested))

@@ -44,6 +44,8 @@ RELATIONS: Mapping[str, str] = {
     "\\simeq": "~",
 }
 
+# Prose may also say that a letter is much less than another letter, and that it tends to a value.
+RELATIONS_IN_PROSE: Mapping[str, str] = {**RELATIONS, "\\ll": "<<", "\\gg": ">>", "\\to": "->"}
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
 ARROW_COMMANDS = frozenset(["vec", "overrightarrow"])
@@ -101,6 +103,12 @@ REFUSED: Mapping[str, tuple[str, str | None]] = {
     "dots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
 }
 
+# Commands that prose and quotations may contain, although no meaning is known for them here.
+ONLY_PRINTED = frozenset(
+    ["iint", "iiint", "oint", "sum", "prod", "cdots", "ldots", "min", "max", "lim", "propto", "equiv", "sim", "in"]
+    + ["Rightarrow", "perp", "parallel", "angle", "nabla", "langle", "rangle", "bar", "tilde"]
+)
+
 # The arguments of a command: `{` is an argument in braces, `[` is an optional argument in brackets.
 ARGUMENTS: Mapping[str, str] = {
     "sqrt": "[{",
@@ -110,5 +118,5 @@ ARGUMENTS: Mapping[str, str] = {
 KNOWN = frozenset(
     [*GREEK_COMMANDS, *LATEX_FUNCTIONS, *ARGUMENTS, *(mark[1:] for mark in RELATIONS if mark[0] == "\\")]
     + ["pi", "cdot", "times", "pm", "mp", "int", "left", "right", "circ", "lvert", "rvert", "lbrace", "rbrace"]
-    + ["imath", "jmath", "partial", "prime"]
+    + ["imath", "jmath", "partial", "prime", "ll", "gg", "to", "infty"]
 )

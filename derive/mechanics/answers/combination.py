@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from sympy import Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, sqrt
+from sympy import Abs, Expr, MatrixBase, Mul, Pow, Rational, Symbol, cancel, factor, sqrt
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit, scalar
@@ -78,7 +78,7 @@ def _number(quantity: Quantity) -> Quantity | Expr:
     value. For an equation that is solved for a symbol, return the right side."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
-        return quantity if isinstance(quantity.symbol, Symbol) else explicit(value)
+        return quantity if isinstance(quantity.symbol, Symbol | Abs) else explicit(value)
     if isinstance(value, Relation) and value.operator == "=" and isinstance(value.left, Symbol):
         right = explicit(value.right)
         if not left_over(right, unknown_of("combination", value.left)):

@@ -68,6 +68,7 @@ class Body(Placeable, OfParticles):
     is_lopsided: ClassVar[bool] = False  # whether the body lacks inversion symmetry, even if its particles have it
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinates in which limits are given
+    is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
 
     def __post_init__(self) -> None:
         self.check_sizes()
@@ -80,15 +81,22 @@ class Body(Placeable, OfParticles):
                 if isinstance(each, Expr | int):
                     require_positive(self.name, role.replace("_", " "), each)
 
+    def integrated(self) -> Self:
+        """Return the same body; a page then integrates a standard moment of inertia in place of quoting it."""
+        return self._with("is_integrated", True)
+
     def named(self, called: str) -> Self:
         """Return the same body with a name, for a page with several bodies: steps, symbols and words include the name.
 
         called   "upper rod": keys begin with `upper_rod_`, symbols have the index `upper`
         """
+        return self._with("called", name_of_body(called))
+
+    def _with(self, name: str, value: Any) -> Self:
         twin = copy(self)
-        for known in [name for name in vars(twin) if isinstance(getattr(type(self), name, None), cached_property)]:
+        for known in [each for each in vars(twin) if isinstance(getattr(type(self), each, None), cached_property)]:
             del vars(twin)[known]
-        object.__setattr__(twin, "called", name_of_body(called))
+        object.__setattr__(twin, name, value)
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:

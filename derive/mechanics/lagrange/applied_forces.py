@@ -9,7 +9,7 @@ from typing import Any, Protocol, runtime_checkable
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
-from derive.algebra.expressions import TIME, Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
@@ -22,7 +22,7 @@ from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Level
 from derive.steps.rule import ROUTE, Quote, Rule, Shown
-from derive.steps.step import Fact, Quantity, compared_with, is_zero
+from derive.steps.step import Fact, Form, Quantity, compared_with, is_zero
 from derive.steps.subject import Subject
 
 __all__ = ["applied_force", "dissipation_function", "forced_equation"]
@@ -256,13 +256,16 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     constraints = [c for c in (kept.constraints if kept else ()) if c.along(q.symbol) != 0]
     applied = applied_force(of, q) if acted is not None else None
     acts = applied is not None and applied.value != 0
+    outside = [applied.value] if applied is not None and acts else []
     reaction = [spread(c.along(q.symbol)) * c.force for c in constraints]
+
+    def right_side(*others: Expr) -> Expr:
+        right = [*(others if acts else ()), *reaction]
+        return Terms(*right) if len(right) > 1 else right[0] if right else ZERO
 
     def law(*given: Any) -> Relation:
         L, others = given[0], given[1:]
-        right = [*(others if acts else ()), *reaction]
-        left = Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol))
-        return Relation(left, "=", Terms(*right) if len(right) > 1 else right[0] if right else ZERO)
+        return Relation(Terms(TimeRate(Partial(L, q.rate), *moving), -Partial(L, q.symbol)), "=", right_side(*others))
 
     def by_virtual_work() -> Relation:
         return Relation(matter.inertia_along(q.symbol) - matter.force_along(q.symbol), "=", 0)
@@ -272,7 +275,11 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         None,
         law,
         {"lagrangian": of, **({"applied": applied} if applied is not None else {})},
-        lines=Lines(put_in=None, arranged=lambda found: _sides(found, moving, constraints)),
+        lines=Lines(
+            put_in=None,
+            between=with_derivatives(derivatives, right_side(*outside), moving),
+            arranged=lambda found: _sides(found, moving, constraints),
+        ),
         routes=matter.named({"virtual_work": compared_with(by_virtual_work)}) | matter.further_routes(q.symbol),
         outcome=("both" if constraints else "applied") if acts else "kept" if constraints else "free",
         phrase_data=PhraseData(
@@ -290,6 +297,30 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
         ],
         scope=Scope(coordinates={c.force: c.kind_of_force or "" for c in constraints}),
     )
+
+
+def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Sequence[Symbol]) -> list[Form]:
+    """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right.
+
+    The line is left out if it is as short as the equation: for a momentum m x_dot of constant m, and a force of one
+    term.
+    """
+    if not derivatives:
+        return []
+    force, momentum, _ = (explicit(each.value) for each in derivatives)
+    constant = len(Add.make_args(momentum)) == 1 and not momentum.has(*moving)
+    if constant and len(Add.make_args(force)) == 1:
+        return []
+    return [Form(Relation(difference(TimeRate(momentum, *moving), force), "=", right), "derivatives")]
+
+
+def difference(first: Expr, second: Expr) -> Expr:
+    """Return the difference; several terms of the second expression are in brackets, with a positive first term."""
+    terms = Add.make_args(second)
+    if second == 0 or len(terms) == 1:
+        return Terms(first, -second) if second != 0 else first
+    all_negative = all(term.could_extract_minus_sign() for term in terms)
+    return Terms(first, Group(-second) if all_negative else -Group(second))
 
 
 def _between(constraints: Sequence[Constraint]) -> str:

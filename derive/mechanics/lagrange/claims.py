@@ -33,7 +33,7 @@ from derive.steps.claims import lasts, letters_in, negated, parallel, value_of_r
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
-from derive.steps.trial_numbers import Point, everywhere, trial_points
+from derive.steps.trial_numbers import Point, everywhere, sign_found, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
@@ -327,16 +327,18 @@ def change_under_shift_gain(facts: Judged) -> bool:
 noether_with_gain: Predicate = negated(noether_symmetry)
 
 
-def squared_speed_alone(facts: Judged) -> bool:
-    return bool(len(facts.subject.body.particles) == 1 and free_bodies(facts) == 0)
+def _has_speed(facts: Judged, places: list[tuple[Expr, ...]]) -> bool:
+    """Whether the result is the square of the speed of one of these points."""
+    moving = list(facts.subject.body.coordinates)
+    return any(equal(facts.result, Add(*(by_functions_of_time(c, moving) ** 2 for c in place))) for place in places)
 
 
-def squared_speed_centre(facts: Judged) -> bool:
-    return bool(not facts.subject.body.particles and free_bodies(facts) <= 1)
+def speed_of_particle(facts: Judged) -> bool:
+    return _has_speed(facts, [particle.at.components for particle in facts.subject.body.particles])
 
 
-def squared_speed_of_several(facts: Judged) -> bool:
-    return bool(len(facts.subject.body.masses) > 1)
+def speed_of_centre(facts: Judged) -> bool:
+    return _has_speed(facts, [placed.centre.components for placed in facts.subject.body.bodies if not placed.is_held])
 
 
 def magnetic_term_alone(facts: Judged) -> bool:
@@ -373,6 +375,15 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 
 
 multiplier_generic: Predicate = both(lasts, negated(is_stretched))
+
+
+def multiplier_negative(facts: Judged) -> bool:
+    """Whether, numerically, the force is negative, and acts on the body in the sense that the sentence states."""
+    x, y = facts.inputs["positive"]
+    across, wanted = {"up": (y, 1), "down": (y, -1), "right": (x, 1), "left": (x, -1)}[facts.words["sense"]]
+    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
+    acts = sign_found(facts.result * across) == wanted
+    return lasts(facts) and not is_stretched(facts) and is_level and sign_found(facts.result) == -1 and acts
 
 
 multiplier_multiplier: Predicate = both(lasts, is_stretched)

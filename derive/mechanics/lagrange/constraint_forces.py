@@ -273,7 +273,12 @@ def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Qu
 MULTIPLIER = Rule(
     "lagrange.multiplier",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    outcomes={"generic": claims.multiplier_generic, "multiplier": claims.multiplier_multiplier, "zero": vanishes},
+    outcomes={
+        "generic": claims.multiplier_generic,
+        "negative": claims.multiplier_negative,
+        "multiplier": claims.multiplier_multiplier,
+        "zero": vanishes,
+    },
     evidence={"virtual_work": ROUTE},
     statements=[says_what_it_divides_by],
 )
@@ -284,6 +289,8 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
     length = gradient_length(each, problem.lagrangian)
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
+    below = is_force and len(each.acting) == 1 and sign_known(explicit(found[each.force])) == -1
+    sense = each.sense(-1) if below else ""
     return establish(
         MULTIPLIER,
         each.force,
@@ -291,11 +298,15 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         {},
         lines=Lines(put_in=None, arranged=lambda value: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
-        outcome=lambda value: "zero" if value == 0 else "generic" if is_force else "multiplier",
+        outcome=lambda value: (
+            "zero" if value == 0 else "negative" if sense else "generic" if is_force else "multiplier"
+        ),
         phrase_data=PhraseData(
+            words={"sense": sense} if sense else {},
             formulas={**told_of_divisors([found[each.force]]), **shown},
             outcome_data={
                 "condition": each.residual,
+                "positive": each.acting[0].direction if sense else (),
                 "gradient": each.gradient,
                 "place": _places(problem) if length is not None else (),
             },

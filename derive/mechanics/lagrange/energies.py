@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -56,7 +56,7 @@ __all__ = ["kinetic_energy_of", "magnetic_term_of", "potential_energy_of"]
 
 
 SPEEDS = ("v", "u", "w")  # symbols for a speed: the first one that is not in use is chosen
-MANY = 8  # greatest number of terms in a line with expanded squares; a longer line is left out
+MANY = 8  # greatest number of terms in a line with squares of velocities; a longer line is left out
 
 
 @dataclass(frozen=True)
@@ -105,17 +105,13 @@ def _is_plain(step: Step) -> bool:
 SQUARED_SPEED = Rule(
     "lagrange.squared_speed",
     source="Taylor, *Classical Mechanics*, section 7.1",
-    outcomes={
-        "alone": claims.squared_speed_alone,
-        "centre": claims.squared_speed_centre,
-        "of_several": claims.squared_speed_of_several,
-    },
+    outcomes={"of_particle": claims.speed_of_particle, "of_centre": claims.speed_of_centre},
     evidence={"functions_of_time": CHECK},
     shown=Shown(brief=Manner.TAKEN_IN, taken_in_if=_is_plain),
 )
 
 
-def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
+def _squared_speed(system: System, mover: Mover) -> Quantity:
     """Derive the square of the speed of a particle or of a centre of mass, v^2 = x_dot^2 + y_dot^2."""
     moving = list(system.coordinates)
     entries = [as_expr(c) for place in system.places for c in place.components]
@@ -134,11 +130,12 @@ def _squared_speed(system: System, mover: Mover, several: bool) -> Quantity:
         (lambda *v: Terms(*(Pow(c, 2) for c in v))) if velocity else (lambda *at: squares_of_rates(at, moving)),
         {f"velocity_{k}": v for k, v in enumerate(velocity)} if velocity else at,
         key=f"squared_speed_{mover.letter}" if mover.letter else "squared_speed",
-        outcome="of_several" if several else "centre" if mover.is_body else "alone",
+        outcome="of_centre" if mover.is_body else "of_particle",
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
+            law=Level.BRIEF if velocity else Level.FULL,  # the sentence already states the position
             put_in=Level.STANDARD if velocity else None,
-            between=_multiplied_out([v.value for v in velocity]),
+            between=_multiplied_out([v.value for v in velocity]) if velocity else _differentiated(at.values(), moving),
             arranged=lambda value: by_rates(value, moving),
             means={letter: _speed(mover.place, moving)},
         ),
@@ -152,6 +149,14 @@ def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
     is left out."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
+
+
+def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[Form]:
+    """Return the line with the squares of the components of the velocity; a long line is left out."""
+    velocity = [by_rates(explicit(TimeRate(c, *moving)), moving) for c in place]
+    changing = [v for v in velocity if v != 0]
+    many = sum(len(Add.make_args(v)) for v in changing) > MANY
+    return [Form(Terms(*(Pow(v, 2) for v in changing)), "velocities")] if len(changing) > 1 and not many else []
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
@@ -258,7 +263,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
     moved = movers(system, (symbol or "").partition("_")[2])
-    speeds = [_squared_speed(system, mover, len(moved) > 1) for mover in moved]
+    speeds = [_squared_speed(system, mover) for mover in moved]
     turnings = _turnings(system)
     moving = list(system.coordinates)
     inputs: dict[str, Any] = {f"speed_{i}": speed for i, speed in enumerate(speeds)}

@@ -11,25 +11,24 @@ from collections.abc import Sequence
 from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
 from derive.algebra.collect import by_accelerations, by_rates
-from derive.algebra.expressions import Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.expressions import Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.length import length
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
 from derive.mechanics.lagrange import claims
-from derive.mechanics.lagrange.applied_forces import ActedOn, acting, forced_equation
+from derive.mechanics.lagrange.applied_forces import ActedOn, acting, difference, forced_equation, with_derivatives
 from derive.mechanics.lagrange.energies import kinetic_energy_of, magnetic_term_of, potential_energy_of
 from derive.mechanics.lagrange.facts import Energies, FromLagrangian, Varied
 from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
-from derive.mechanics.theorems import LAGRANGE
 from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Level, Manner
 from derive.steps.record import changes, free_letter
-from derive.steps.rule import CHECK, ROUTE, Quote, Rule, Shown
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Form, Quantity, compared_with, is_zero
 
 __all__ = [
@@ -124,7 +123,6 @@ EQUATION_OF_MOTION = Rule(
     evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE, "energy_identity": ROUTE},
     named={"coordinate": claims.equation_of},
     shown=Shown(result_again=Level.STANDARD),
-    quotes=[Quote(LAGRANGE, law_in=frozenset({"cyclic", "generic"}))],
 )
 
 
@@ -176,8 +174,9 @@ def equation_of_motion(
         {"lagrangian": of},
         lines=Lines(
             between=[
+                *with_derivatives(found, Integer(0), moving),
                 *(
-                    Form(Relation(_difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
+                    Form(Relation(difference(changing.value, force.value), "=", 0), "put_in", Level.FULL)
                     for force, _, changing in ([found] if found else [])
                 ),
                 Form(Relation(gathered, "=", 0), "result"),
@@ -260,10 +259,6 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
     return tuple(equation_of_motion(of, q, f"motion_{q.symbol.name}", derivatives) for q in coordinates_of(of))
 
 
-def _difference(first: Expr, second: Expr) -> Expr:
-    return Terms(first, -Group(second)) if second != 0 else first
-
-
 def _key_of(lagrangian: Quantity, name: str) -> str:
     """Return the key of a step: the name, with the key of the Lagrangian as a prefix if the Lagrangian does not have
     the default key."""
@@ -279,8 +274,7 @@ GENERALIZED_FORCE = Rule(
     evidence={"virtual_work": ROUTE, "given_virtual_work": CHECK},
     statements=[claims.by_its_coordinate],
     named={"coordinate": claims.differentiated_by},
-    shown=Shown(brief=Manner.LEFT_OUT, first_only=True),
-    prepares=LAGRANGE,
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
 )
 
 
@@ -351,7 +345,7 @@ MOMENTUM_RATE = Rule(
     "lagrange.momentum_rate",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
     evidence={"functions_of_time": CHECK},
-    shown=Shown(brief=Manner.LEFT_OUT, first_only=True),
+    shown=Shown(brief=Manner.LEFT_OUT, standard=Manner.LEFT_OUT),
 )
 
 

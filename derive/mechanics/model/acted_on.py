@@ -69,16 +69,6 @@ def _check_particles(system: WithParts) -> None:
         raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
 
 
-def check_ground(system: WithParts, ground: object) -> None:
-    """Require the place that is given as the ground of a rolling body to move with a body or a particle, or to be at
-    rest."""
-    if isinstance(ground, Location) and places_that_move_alone(system.described.description, [ground.components]):
-        where = ", ".join(map(str, ground.components))
-        message = f"the place ({where}) of the ground moves with no body or particle of the system"
-        help_line = "give a place fixed to the surface, or axes in which the surface is at rest"
-        raise Rejected(Complaint("which-body", message, help=help_line))
-
-
 def _check_gradients(system: WithParts) -> None:
     """Reject a constraint whose gradient is zero wherever the constraint holds, because the constraint force is along
     the gradient."""

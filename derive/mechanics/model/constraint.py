@@ -15,6 +15,7 @@ from derive.mechanics.model.connection import PointForce
 from derive.mechanics.model.dalembert import Load, Reaction
 from derive.mechanics.model.part import Part
 from derive.steps.record import coordinates_in
+from derive.steps.signs import sign_known
 from derive.steps.step import Fact, is_zero
 from derive.witness import description as plain
 
@@ -29,10 +30,16 @@ class StaticLimit:
 
     coefficient   mu_s
     normal        the symbol of the normal force of the same contact
+    slider        the name of the body that would slip, if the author gave one: "block"
     """
 
     coefficient: Expr
     normal: Symbol
+    slider: str = ""
+
+    @property
+    def words(self) -> dict[str, str]:
+        return {"slider": self.slider or "body"}
 
 
 @dataclass(frozen=True)
@@ -67,6 +74,20 @@ class Constraint(Part):
         forces = tuple(each.moved(known) for each in self.forces)
         left, right, gradient = (each.subs(known) for each in (self.left, self.right, self.gradient))
         return replace(self, left=left, right=right, forces=forces, gradient=gradient)
+
+    @property
+    def acting(self) -> list[PointForce]:
+        """The forces on bodies, without the reaction on the ground."""
+        return [each for each in self.forces if each.of is not None]
+
+    def sense(self, side: int) -> str:
+        """Return the direction in which the force on the first body acts if it has this sign: up, down, right or left;
+        empty if the force is not in a plane, or if the direction depends on the symbols."""
+        signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
+        if len(signs) != 2 or signs[1] is None or not (signs[1] or signs[0]):
+            return ""
+        words = {1: "up", -1: "down"} if signs[1] else {1: "right", -1: "left"}
+        return words[signs[1] or signs[0] or 0]
 
     @property
     def residual(self) -> Expr:
@@ -108,7 +129,7 @@ class Constraint(Part):
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load | Reaction]:
         if self.forces:
-            return [each.load(self.force) for each in self.forces if each.of is not None]
+            return [each.load(self.force) for each in self.acting]
         return [Reaction(self.force, tuple((q, self.along(q)) for q in moving))]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:

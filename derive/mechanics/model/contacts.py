@@ -11,7 +11,6 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
-from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
@@ -20,7 +19,15 @@ from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import contact_velocity, no_slip, velocity_at, velocity_of_particle
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, direction_between, dot, unit, vector
+from derive.mechanics.model.surfaces import (
+    Circle,
+    Plane,
+    Surface,
+    dot,
+    unit,
+    vector,
+)
+from derive.mechanics.model.touching import has_radius, radius_of, touching
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
@@ -129,9 +136,10 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, N, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
-    from the surface is the distance of its centre minus its radius. In space, a thin disc or a hoop touches a plane at
-    its lowest point: with the unit vector e along its axis and the unit normal n, its distance is the distance of its
-    centre minus R sqrt(1 - (n.e)^2).
+    from the surface is the distance of its centre minus its radius. In space, a disc, a hoop, a cylinder or a cone
+    touches a plane at the lowest point of a rim: with the unit vector e along its axis and the unit normal n, its
+    distance is the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
+    held at its apex. The coordinates must keep a round body on a curve.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -201,54 +209,13 @@ def _contact(of: Any, on: Any) -> Contact:
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
-        at = of.hub
-        if isinstance(surface, Curve) or surface.is_two_sided:
-            message = "a round body touches a plane, a circle or a sphere, but neither a curve nor a rail"
-            raise Rejected(Complaint("no-contact", message, help="let a particle or a point of a body touch it"))
-    away = surface.normal(at)
-    if not isinstance(of, PlacedBody):
-        place, gap = at, surface.distance(at)
+        place, gap, away = touching(of, surface)
     else:
-        arm, reach = _to_edge(of, surface) if _is_thin(of) else (-radius_of(of) * away, radius_of(of))
-        place = Location(tuple(tidied(c) for c in (at + arm).components))
-        gap = tidied(surface.distance(at) - reach)
+        place, gap, away = at, surface.distance(at), surface.normal(at)
     found = Contact((), body, place, surface, gap, away)
     _check(found)
     _check_reached(found)
     return found
-
-
-def _is_thin(placed: PlacedBody) -> bool:
-    """Whether a body that moves in space is a thin disc or a hoop."""
-    outline = _outline(placed)
-    return not placed.is_plane and outline is not None and outline.is_flat
-
-
-def _outline(placed: PlacedBody) -> Round | None:
-    """Return the outer boundary of a body, if it is round."""
-    boundary = placed.body.boundary
-    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
-    return outer if isinstance(outer, Round) else None
-
-
-def _to_edge(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
-    """Return the vector from the centre of a disc to the point of its edge that is nearest to a plane, and the distance
-    of this point from the centre along the normal.
-
-    The vector has the length of the radius; it is opposite to the component of the normal along the disc.
-    """
-    if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
-        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
-        raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
-    axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
-    along = n - dot(n, axis) * axis
-    if is_zero(ImmutableDenseMatrix(along.components)):
-        message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
-        raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
-    outline, way = _outline(placed), direction_between(Location((ZERO, ZERO, ZERO)), along)
-    assert outline is not None
-    radius = outline.radius_at(outline.ends[0])
-    return -radius * way, radius * dot(n, way)
 
 
 def _check_reached(touch: Contact) -> None:
@@ -270,44 +237,14 @@ def _check(touch: Contact) -> None:
 
 
 def _surface_of(body: Any) -> Circle:
-    radius = _round_radius(body) if isinstance(body, PlacedBody) else None
-    if radius is None:
+    if not isinstance(body, PlacedBody) or not has_radius(body):
         message = "`contact` needs a surface, or a round body whose rim is the surface"
         help_line = Spelled(
             "describe a face of the body: `plane(..., of=body)`",
             "describe a face of the body under `surfaces`, with `of`",
         )
         raise Rejected(Complaint("no-contact", message, help=help_line))
-    return Circle(body, None, body.hub, radius)
-
-
-def radius_of(placed: PlacedBody) -> Expr:
-    """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
-    radius = _round_radius(placed)
-    if radius is None:
-        message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
-        help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
-        raise Rejected(Complaint("no-contact", message, help=help_line))
-    return radius
-
-
-def has_radius(placed: PlacedBody) -> bool:
-    """Whether a body is round in the plane of motion, or a ball in space."""
-    return _round_radius(placed) is not None
-
-
-def _round_radius(placed: PlacedBody) -> Expr | None:
-    if placed.rim is not None:
-        return placed.rim[1]
-    outer = _outline(placed)
-    if outer is None or placed.across not in (2, None):
-        return None
-    z = Symbol("z_along", real=True)
-    middle = (outer.ends[0] + outer.ends[1]) / 2
-    radius = outer.radius_at(middle)
-    is_widest = is_zero(outer.radius_at(z).diff(z).subs(z, middle))
-    is_ball = is_zero(outer.radius_at(z) ** 2 + (z - middle) ** 2 - radius**2)
-    return radius if is_ball or is_widest and placed.across == 2 else None
+    return Circle(body, None, body.hub, radius_of(body))
 
 
 def _reject_normal(letter: str, touch: Contact) -> None:
@@ -384,7 +321,7 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
     if 1 in flat:
         return {"x": Location((n[2], ZERO, -n[0])), "y": flat[1]}
     message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
-    raise Rejected(Complaint("wrong-argument", message, help="use the key `rolling`, or another surface"))
+    raise Rejected(Complaint("wrong-argument", message, help="let a horizontal axis be along the surface"))
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:

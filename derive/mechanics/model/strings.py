@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise, product
+from itertools import combinations, pairwise, product
 from typing import Any, Self
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, scalar
+from derive.algebra.expressions import as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.contacts import has_radius, radius_of
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.surfaces import direction_between, distance_between, dot, raw_distance
+from derive.mechanics.model.surfaces import column_of, direction_between, distance_between, dot, raw_distance
+from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
 from derive.steps.step import is_zero
 
@@ -49,10 +49,12 @@ class Line(Connection):
 
     through   one end, the pulleys in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
+    rope      the particle whose mass is distributed along the line; None for a line without mass
     """
 
     through: tuple[Location | Pulley, ...]
     is_rod: bool
+    rope: Any = None
 
     @property
     def places(self) -> tuple[Location, ...]:
@@ -61,7 +63,7 @@ class Line(Connection):
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through = (e.moved(known) if isinstance(e, Pulley) else e.with_values(known) for e in self.through)
-        return replace(super().moved(known), through=tuple(through))
+        return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known))
 
 
 @dataclass(frozen=True)
@@ -118,9 +120,10 @@ def wire(of: Any) -> Wire:
 
 
 def string(
-    start: Any, end: Any, length: Any = None, over: Sequence[Any] = (), tension: str = ""
+    start: Any, end: Any, length: Any = None, over: Sequence[Any] = (), tension: str = "", mass_of: Any = None
 ) -> tuple[Line | Constraint, ...]:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
+    Or, with `mass_of`, a uniform rope, whose mass is that of a particle.
 
     start, end   particles, points of bodies, or places in space
     length       the length of the straight pieces, m; it may be a function of the time, for a string that is pulled in
@@ -128,11 +131,46 @@ def string(
                  a particle or a point of a body
     tension      the symbol of the tension, N; positive if the string pulls. The symbol and the length are required if
                  the coordinates allow the length to change
-    The tension is the same everywhere in the string. The string pulls each end along the string, and each pulley along
-    the two adjacent pieces of the string.
+    mass_of      for a uniform rope: the particle whose mass is that of the rope. All pieces of the rope must have the
+                 speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
+                 height of the particle must be constant; give the potential energy of the rope with `potential`
+    The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
+    pulley along the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
     """
-    return _of_length("string", (start, *over, end), length, tension)
+    found = _of_length("string", (start, *over, end), length, tension)
+    if mass_of is None:
+        return found
+    _check_rope(found[0], mass_of, tension)
+    return (replace(found[0], rope=mass_of),)
+
+
+def _check_rope(line: Any, particle: Any, tension: str) -> None:
+    """Require that each piece of a rope moves along itself with the speed of the particle that has its mass."""
+    if not hasattr(particle, "mass") or not is_end(particle):
+        raise Rejected(Complaint("wrong-argument", "`mass_of` names the particle that has the mass of the rope"))
+    if tension:
+        message = f"the tension of a rope with mass is not the same everywhere, so `{tension}` does not appear"
+        raise Rejected(Complaint("not-an-unknown", message, help="leave out `tension`"))
+    still = not any(coordinates_in(at) or depends_on_time(at) for at in map(column_of, line.places[1:-1]))
+    if not still or any(_rotates(b - a) for a, b in pairwise(line.places)):
+        message = "the pieces of a rope with mass must move along themselves, but their places or directions change"
+        raise Rejected(Complaint("wrong-argument", message, help="describe a rope that rotates as rods"))
+    first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
+    if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
+        message = "the speed of the rope differs from the speed of the particle that has its mass"
+        raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
+    if not is_zero(own.components[-1]):
+        message = "the particle that has the mass of the rope moves up or down, but its weight is not that of the rope"
+        help_line = "put the particle at a constant height, and give the potential energy of the rope as `potential`"
+        raise Rejected(Complaint("which-body", message, help=help_line))
+
+
+def _rotates(way: Location) -> bool:
+    """Whether the direction of a displacement changes: the displacement is not parallel to its rate."""
+    fast = velocity_at(way, way)
+    pairs = combinations(zip(way.components, fast.components, strict=True), 2)
+    return any(not is_zero(tidied(a * b_dot - b * a_dot)) for (a, a_dot), (b, b_dot) in pairs)
 
 
 def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> tuple[Line | Constraint, ...]:

@@ -181,9 +181,11 @@ class Curve(Surface):
 
     def height(self, at: Location, normal: Location) -> Expr:
         """The distance of a place from the tangent to the curve at the point with the same x."""
-        x, _ = (at - self.through).components
-        beneath = self.through + Location((x, self._at(self.formula, at)))
-        return dot(normal, at - beneath)
+        return dot(normal, at - self.point((at - self.through).components[0]))
+
+    def point(self, x: Expr) -> Location:
+        """The place of the curve at the horizontal distance x."""
+        return self.through + Location((x, self.formula.xreplace({self.letter: x})))
 
     def foot(self, at: Location, normal: Location) -> Location:
         return at

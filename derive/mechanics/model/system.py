@@ -400,7 +400,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
         message = f"`{condition.key}` does not express one coordinate by others, so it cannot be a part of a `System`"
         help_line = Spelled(
             "enforce a rolling condition that cannot be integrated: `*rolling_constraint(...)`",
-            "enforce the condition by a force: add `force: F` under `rolling`",
+            "give the symbol of the friction that enforces the condition, `friction: {rolling: F}`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function

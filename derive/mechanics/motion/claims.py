@@ -50,6 +50,25 @@ def released(at_rest: bool) -> Predicate:
     return lambda facts: is_zero(facts.inputs["initial"]) == at_rest
 
 
+def moves_off(wanted: int | None) -> Predicate:
+    """Whether, numerically, the rate has this sign just after the start, and the result has the same sign; for None,
+    whether the trial numbers do not agree on a sign, and the result is not negative."""
+
+    def is_so(facts: Judged) -> bool:
+        known = facts.inputs["known"]
+        q, first = known.coordinate, known.start_rate
+        off = first if not is_zero(first) else known.acceleration.subs({q: known.start, rate(q): 0})
+        sign = sign_found(off)
+        result = {1: 1, -1: -1}.get(wanted or 1, 1) * facts.result
+        return (sign == wanted if wanted else sign not in (1, -1)) and not result.could_extract_minus_sign()
+
+    return is_so
+
+
+def coordinate_of_rate(facts: Judged, q: Any) -> bool:
+    return bool(facts.symbol.has(rate(q)))
+
+
 def isochronous(wanted: bool) -> Predicate:
     """Whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
 
@@ -166,6 +185,20 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
     across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
     is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
     return is_level and sign_found(side * across) == wanted
+
+
+def names_its_slider(facts: Judged, outcome: str) -> bool:
+    """Whether the sentence calls the body that would slip by the name that the contact has for it."""
+    constraint = _constraint_of(facts.quantities["friction"])
+    return (
+        constraint is not None
+        and constraint.limit is not None
+        and facts.words
+        == {
+            **facts.words,
+            "slider": constraint.limit.slider or "body",
+        }
+    )
 
 
 def needs_no_friction(facts: Judged) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Approach, NoExpansion
@@ -14,6 +14,7 @@ from derive.algebra.expressions import (
     Factors,
     Ratio,
     Relation,
+    Root,
     Terms,
     TimeRate,
     depends_on_time,
@@ -37,9 +38,10 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter, letter_of_limit
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Form, Level, Quantity, approximations_among, is_zero, value_behind
 
-__all__ = ["period_by_energy", "speed_from_energy"]
+__all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
@@ -199,6 +201,53 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
             f"`speed_from_energy` needs an energy of only {q.symbol.name} and its rate, but `{energy.key}` has {what}"
         )
         raise Rejected(Complaint("wrong-argument", message))
+
+
+RATE_BY_ENERGY = Rule(
+    "motion.rate_by_energy",
+    source="Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems)",
+    outcomes={"grows": claims.moves_off(1), "falls": claims.moves_off(-1), "size": claims.moves_off(None)},
+    evidence={"squared": CHECK},
+    named={"q": claims.coordinate_of_rate},
+)
+
+
+@in_results(
+    "square_root",
+    "the rate of a coordinate, or its magnitude if the sign is unknown, from its square",
+    squared="square_root: a squared rate, as `speed` finds it",
+)
+def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
+    """Rate of a coordinate, the root of its square; the sign is that of the motion from its start.
+
+    squared   q_dot^2 from `speed_from_energy`
+    Check: the square of the result is q_dot^2.
+    Outcomes: grows, falls (the coordinate increases, or decreases, from the start: the start values, or the
+    acceleration at a start from rest, decide), size (the result is |q_dot|, because the sign depends on the symbols).
+    Errors: the argument is not the square of a rate from conservation of energy.
+    Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
+    """
+    known = squared.needed(ByEnergy)
+    q, value = known.coordinate, explicit(squared.value)
+    at_start = known.acceleration.subs({q: known.start, rate(q): ZERO}) if known.start_rate == 0 else known.start_rate
+    sign = sign_known(tidied(at_start))
+    outcome = {1: "grows", -1: "falls"}.get(sign or 0, "size")
+    return establish(
+        RATE_BY_ENERGY,
+        Abs(rate(q)) if outcome == "size" else rate(q),
+        lambda square: -Root(square) if outcome == "falls" else Root(square),
+        {"squared": squared},
+        lines=Lines(
+            law=Level.FULL,
+            put_in=None,
+            arranged=lambda found: presented(explicit(found)),
+            means={rate(q): sqrt(value)},
+        ),
+        routes={"squared": lambda found: (found**2, value)},
+        outcome=outcome,
+        phrase_data=PhraseData(named={"q": q}, outcome_data={"known": known}),
+        key=key,
+    )
 
 
 PERIOD_BY_ENERGY = Rule(

@@ -29,7 +29,7 @@ from derive.solving.unknowns import (
 )
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.signs import of_the_size, sign_for_all, sign_known
 from derive.steps.step import Form, Level, Quantity, is_zero
 
@@ -51,6 +51,7 @@ LEAVES_CONTACT = Rule(
     },
     evidence={"on_the_way": CHECK, "in_numbers": CHECK, "size": CHECK},
     named={"from": claims.pushes_there, "place": claims.force_vanishes_there},
+    shown=Shown(conditions=("reached", "existing")),
 )
 
 

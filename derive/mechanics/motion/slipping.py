@@ -57,7 +57,11 @@ SLIPS = Rule(
         "stays": claims.never_slips,
     },
     evidence={"points": CHECK, "on_the_way": CHECK, "size": CHECK},
-    statements=[claims.friction_and_normal_of_one_contact, claims.slips_in_the_stated_sense],
+    statements=[
+        claims.friction_and_normal_of_one_contact,
+        claims.slips_in_the_stated_sense,
+        claims.names_its_slider,
+    ],
     named={"from": claims.start_of_motion},
 )
 
@@ -115,6 +119,7 @@ def _needs_none(contact: Friction, key: str) -> Quantity:
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"size": lambda found: (found.residual, Integer(0))},
         outcome="needs_none",
+        phrase_data=PhraseData(words=contact.limit.words),
         key=key,
     )
 
@@ -143,7 +148,7 @@ def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: boo
         routes={"points": lambda found: _same_truth(found, contact, side, mark)},
         outcome="sticks" if known is None else "cannot" if known == 1 else "always",
         phrase_data=PhraseData(
-            words={**contact.sense(side), **({"seen": "state"} if moving is not None else {})},
+            words={**contact.words(side), **({"seen": "state"} if moving is not None else {})},
             formulas=conditions_told(pushing=condition_to_push(contact.N)),
             outcome_data={"side": Integer(side), "alone": Integer(alone)},
         ),
@@ -219,7 +224,7 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
         outcome="slips_squared" if squared else "slips",
         phrase_data=PhraseData(
             formulas={**told, **({"border": border} if border is not None else {})},
-            words=contact.sense(side),
+            words=contact.words(side),
             named={"from": Relation(motion.q, "=", motion.start)},
             outcome_data=_data(motion, side),
         ),
@@ -252,7 +257,7 @@ def _at_once(motion: Motion, side: int, key: str) -> Quantity:
         routes={"on_the_way": lambda found: (found.residual.xreplace(start), side * F - contact.limit.coefficient * N)},
         outcome="at_once",
         phrase_data=PhraseData(
-            words=contact.sense(side),
+            words=contact.words(side),
             named={"from": Relation(motion.q, "=", motion.start)},
             outcome_data=_data(motion, side),
         ),
@@ -273,6 +278,7 @@ def _stays(motion: Motion, starts: Relation | None, key: str) -> Quantity:
         routes={"on_the_way": lambda found: is_never_reached(motion)},
         outcome="stays",
         phrase_data=PhraseData(
+            words=contact.limit.words,
             formulas=conditions_told(starts=starts),
             named={"from": Relation(motion.q, "=", motion.start)},
             outcome_data=_data(motion),

@@ -48,14 +48,11 @@ class Friction:
         """The excess of the friction in one sense over its largest value, side F - mu_s N, in N."""
         return tidied(side * self.F - self.limit.coefficient * self.N)
 
-    def sense(self, side: int) -> dict[str, str]:
-        """Return the word for the direction of the slip if F has this sign: opposite to the friction on the body."""
-        force = next((each for each in self.constraint.forces if each.of is not None), None)
-        signs = [sign_known(-side * c) for c in force.direction] if force is not None else []
-        if len(signs) == 2 and signs[1] is not None and (signs[1] != 0 or signs[0]):
-            words = {1: "up", -1: "down"} if signs[1] else {1: "right", -1: "left"}
-            return {"sense": words[signs[1] or signs[0] or 0]}
-        return {}
+    def words(self, side: int) -> dict[str, str]:
+        """Return the word for the body, and the word for the direction of the slip if F has this sign: opposite to the
+        friction on the body."""
+        sense = self.constraint.sense(-side)
+        return {**self.limit.words, "sense": sense} if sense else self.limit.words
 
 
 def static_friction(friction: Quantity) -> Constraint:

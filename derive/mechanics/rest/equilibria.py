@@ -416,6 +416,7 @@ EQUILIBRIUM = Rule(
     evidence={"no_force": CHECK, "counted": CHECK},
     statements=[claims.steady_as_its_potential],
     named={"steady": claims.only_coordinate},
+    names_value=True,
 )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from sympy import (
@@ -27,6 +27,30 @@ from derive.mechanics.rotation.facts import Disturbed
 from derive.steps.claims import both, lasts, letters_in, negated, never_vanishes, vanishes, vanishing
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
+
+# the moments of uniform bodies in tables: words -> a function of the sizes, in the order of the shape's lengths
+_TABLE: Mapping[str, Callable[..., Expr]] = {
+    "rod_about_its_end": lambda length: length**2 / 3,
+    "rod_about_its_centre": lambda length: length**2 / 12,
+    "disc_about_its_axis": lambda radius: radius**2 / 2,
+    "hoop_about_its_axis": lambda radius: radius**2,
+    "cylinder_about_its_axis": lambda radius, height: radius**2 / 2,
+    "cylindrical_shell_about_its_axis": lambda radius, height: radius**2,
+    "ball_about_a_diameter": lambda radius: 2 * radius**2 / 5,
+    "spherical_shell_about_a_diameter": lambda radius: 2 * radius**2 / 3,
+    "plate_about_its_normal": lambda sides: (sides[0] ** 2 + sides[1] ** 2) / 12,
+}
+
+
+def is_standard_moment(facts: Judged) -> bool:
+    """Whether the result is the moment that tables give for this body and axis.
+
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    """
+    body, words = facts.subject.body, facts.words.get("standard", "")
+    if words not in _TABLE or not words.startswith(f"{body.id}_about_"):
+        return False
+    return is_zero(explicit(facts.result) - body.mass * _TABLE[words](*body.measures.values()))
 
 
 def is_away_from_the_centre(facts: Judged) -> bool:

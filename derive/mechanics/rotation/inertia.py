@@ -38,7 +38,7 @@ from derive.mechanics.rotation.tensors import shape_of
 from derive.mechanics.theorems import PARALLEL_AXES
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Level, Manner
-from derive.steps.rule import CHECK, ROUTE, Quote, Rule, Shown
+from derive.steps.rule import CHECK, GENERIC, ROUTE, Quote, Rule, Shown, anything
 from derive.steps.step import Quantity, compared_with, entry_name, is_zero
 from derive.steps.subject import Subject
 
@@ -145,10 +145,24 @@ def moment_of_inertia(
 MOMENT_OF_INERTIA = Rule(
     "rotation.moment_of_inertia",
     source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3",
+    outcomes={"generic": anything, "quoted": claims.is_standard_moment},
     evidence={"particles": ROUTE, "quadrature": CHECK},
     statements=[claims.names_the_axis_of_the_whole],
-    shown=Shown(brief=Manner.TOLD),
+    shown=Shown(brief=Manner.TOLD, quoted=frozenset({"quoted"})),
 )
+# (shape, point of the axis, axes) -> the body and its axis in words, for moments that a textbook quotes
+STANDARD = {
+    ("rod", "end", "xy"): "rod_about_its_end",
+    ("rod", "centre", "xy"): "rod_about_its_centre",
+    ("disc", "centre", "z"): "disc_about_its_axis",
+    ("hoop", "centre", "z"): "hoop_about_its_axis",
+    ("cylinder", "centre", "z"): "cylinder_about_its_axis",
+    ("cylindrical_shell", "centre", "z"): "cylindrical_shell_about_its_axis",
+    ("ball", "centre", "xyz"): "ball_about_a_diameter",
+    ("spherical_shell", "centre", "xyz"): "spherical_shell_about_a_diameter",
+    ("plate", "centre", "z"): "plate_about_its_normal",
+}
+QUOTED_SHAPES = frozenset(shape for shape, *_ in STANDARD)
 
 
 def moment_seen(
@@ -175,6 +189,7 @@ def moment_seen(
     region = body.within(point, None)
     weight = entry_weight(region, (i, i))
     integral = over_mass(body, region, weight)
+    standard = _standard(body, about, axis) if seen["seen"] == "across_plane" else {}
     return establish(
         MOMENT_OF_INERTIA,
         scalar(symbol),
@@ -183,16 +198,25 @@ def moment_seen(
         lines=integral.lines,
         routes=body.another_way(lambda r: _entry_by_moments(r, (i, i)), point),
         kind="moment of inertia",
+        outcome="quoted" if standard else GENERIC,
         parents=[body.density, *body.radii(point, region)],
         facts=[Integrated.over(region)],
         key=key,
         phrase_data=PhraseData(
             formulas=_told_square(region, (i, i), weight),
-            words={"about": point.name, "axis": axis, **seen},
+            words={"about": point.name, "axis": axis, **seen, **standard},
             outcome_data={} if turn is None else {"turn": turn},
         ),
         scope=Scope(about=Subject(body=body, mass=body.mass, point=point, axis=axis)),
     )
+
+
+def _standard(body: Body, about: str, axis: str) -> dict[str, str]:
+    """Return the words for a body and an axis whose moment is quoted; empty if the moment is integrated."""
+    for (shape, point, axes), words in STANDARD.items():
+        if (shape, point) == (body.id, about) and axis in axes and not body.is_integrated:
+            return {"standard": words}
+    return {}
 
 
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:

@@ -90,6 +90,25 @@ def free_motion(wanted: str) -> Predicate:
     return is_so
 
 
+def is_decay_rate(facts: Judged) -> bool:
+    """Whether the value is half of the coefficient of the rate, divided by that of the acceleration."""
+    a, b = (facts.inputs[each] for each in "ab")
+    return is_zero(2 * a * explicit(facts.result) - b)
+
+
+def is_frequency_without_damping(facts: Judged) -> bool:
+    """Whether the square of the value, times the first coefficient, is the last coefficient."""
+    a, c = (facts.inputs[each] for each in "ac")
+    return is_zero(a * explicit(facts.result) ** 2 - c)
+
+
+def is_frequency_with_damping(facts: Judged) -> bool:
+    """Whether -b/(2 a) + i omega is a root of the characteristic equation."""
+    a, b, c = (facts.inputs[each] for each in "abc")
+    root = -b / (2 * a) + I * explicit(facts.result)
+    return is_zero((a * root**2 + b * root + c).expand())
+
+
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     """Whether the stated condition holds exactly if the discriminant has the wanted sign.
 

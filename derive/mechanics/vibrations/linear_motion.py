@@ -26,7 +26,6 @@ from sympy import (
     exp,
     expand,
     factor_terms,
-    igcd,
     log,
     sin,
     sinh,
@@ -38,11 +37,13 @@ from derive.algebra.collect import by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, explicit, prescribed_in, rate, stand_in
 from derive.algebra.length import length, shortest
+from derive.algebra.natural import compared
 from derive.algebra.taylor import slope
-from derive.algebra.tidy import common_factor, tidied
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.oscillator_constants import oscillator_constants
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told
@@ -172,6 +173,7 @@ def solution(
             outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
         parents=approximations_among(start, start_rate),
+        proposals=list(oscillator_constants(equation, linear.a, linear.b, linear.c)) if linear.order == 2 else (),
     )
 
 
@@ -275,20 +277,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
     if known is not None:
         return known, None
     mark = "<" if case == "underdamped" else ">"
-    return str(case), _compared(tidied(b**2), mark, tidied(4 * a * c))
-
-
-def _compared(left: Expr, mark: str, right: Expr) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
-    shared = common_factor([left, right])
-    if shared.is_positive:
-        left, right = tidied(left / shared), tidied(right / shared)
-    numbers = [side.as_coeff_Mul()[0] for side in (left, right)]
-    common = igcd(*(n.p for n in numbers)) if all(n.is_Integer for n in numbers) else 1
-    left, right = left / common, right / common
-    roots = [tidied(sqrt(side)) for side in (left, right)]
-    plain = all(root.is_rational_function() and root.is_positive for root in roots)
-    return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
+    return str(case), compared(tidied(b**2), mark, tidied(4 * a * c))
 
 
 def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:

@@ -1,4 +1,4 @@
-"""Formulas as contours: matplotlib's mathtext sets them in Computer Modern, the font of the page.
+"""Formulas as contours: matplotlib's mathtext sets them in the font of the page.
 
 Importing matplotlib takes longer than drawing, so only this module imports it, and only when it draws formulas.
 """
@@ -14,13 +14,15 @@ from derive.render.drawing.sheets import Contour, Extent, extent_of
 
 LETTERS = 10.0  # the font size of labels, in points
 
+PAPER, SCREEN = "cm", "stix"  # Computer Modern, the font of a PDF, and STIX, the font of formulas in a browser
+
 LINES = {1: "M", 2: "L", 4: "C"}  # commands of a path by matplotlib's codes
 
 Lettered: TypeAlias = tuple[Contour, Extent]  # a contour and its extent
 Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]
 
 
-def letters_of(texts: Collection[str]) -> dict[str, Lettered]:
+def letters_of(texts: Collection[str], font: str = PAPER) -> dict[str, Lettered]:
     """Return the contours of each text of mathtext, by text; the contours begin at the origin."""
     # One thread suffices because no matrices are multiplied, and a process with threads should not fork.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -28,15 +30,15 @@ def letters_of(texts: Collection[str]) -> dict[str, Lettered]:
 
     # The user's matplotlib settings must not affect the page.
     with matplotlib.rc_context(matplotlib.rcParamsDefault.find_all(r"^(font|text|mathtext)\.")):
-        return {text: _lettered(text) for text in sorted(texts)}
+        return {text: _lettered(text, font) for text in sorted(texts)}
 
 
-def _lettered(text: str) -> Lettered:
+def _lettered(text: str, font: str) -> Lettered:
     from matplotlib.font_manager import FontProperties
     from matplotlib.path import Path
     from matplotlib.textpath import text_to_path
 
-    places, codes = text_to_path.get_text_path(FontProperties(math_fontfamily="cm"), text, ismath=True)
+    places, codes = text_to_path.get_text_path(FontProperties(math_fontfamily=font), text, ismath=True)
     scale = LETTERS / text_to_path.FONT_SCALE
     spots = [(round(scale * float(x), 4), round(scale * float(y), 4)) for x, y in places]
     contour: list[tuple[str, tuple[Spot, ...]]] = []

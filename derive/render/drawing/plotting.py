@@ -209,7 +209,7 @@ def _mathtext(layout: Any) -> str:
 
 def _mathtext_of_value(told: str) -> str:
     """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
-    number, _, unit = told.replace("\u2212", "-").partition(" ")
+    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # in braces, so that no space follows the sign
     return rf"{number}\,{unit_latex(unit)}" if unit else number
 
 
@@ -248,13 +248,32 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float
     leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
     yield writing.at((leftmost, (below + above) / 2), up, SMALL, (1.0, 0.5), upwards=True)
-    for place, is_lowest, name in panel.turns:
-        x, y = frame.spot(place)
-        yield writing.at((x, y - PAD - DOT if is_lowest else y + PAD + DOT), name, SMALLEST, (0.5, float(is_lowest)))
+    for middle, y, name, is_lowest in _names_with_room(panel, frame, writing):
+        yield writing.at((middle, y), name, SMALLEST, (0.5, float(is_lowest)))
     if panel.numbers:
         half = EDGE + writing.size(panel.numbers, size)[0] / 2
         middle = max(ends[0] + half, min((left + right) / 2, ends[1] - half))
         yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)
+
+
+def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> Iterator[tuple[float, float, str, bool]]:
+    """Yield the middle and the edge next to the dot of each name of an extremum, within the panel. A name that would
+    cover another name is left out; the caption has the values of all extrema."""
+    left, _, right, _ = frame.paper
+    taken: list[Extent] = []
+    for place, is_lowest, name in panel.turns:
+        x, y = frame.spot(place)
+        wide, high = writing.size(name, SMALLEST)
+        middle = max(left + PAD + wide / 2, min(x, right - PAD - wide / 2))
+        edge = y - PAD - DOT if is_lowest else y + PAD + DOT
+        box = middle - wide / 2, edge - high * is_lowest, middle + wide / 2, edge + high * (not is_lowest)
+        if not any(_overlap(box, other) for other in taken):
+            taken.append(box)
+            yield middle, edge, name, is_lowest
+
+
+def _overlap(one: Extent, other: Extent) -> bool:
+    return all(one[k] < other[k + 2] + PAD and other[k] < one[k + 2] + PAD for k in (0, 1))
 
 
 def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:

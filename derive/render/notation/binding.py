@@ -24,6 +24,7 @@ from derive.render.notation.layout import (
     Raised,
     RootSign,
     Row,
+    Sign,
     Upright,
     ends_in_differential,
     is_differential,
@@ -70,6 +71,8 @@ def binding(layout: Layout) -> Binding:
             return _MARKS.get(kind, Binding.RELATION)
         case IntegralSign():
             return Binding.OPEN
+        case Sign():
+            return Binding.RELATION
     raise TypeError(f"no binding for {type(layout).__name__}")
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import accumulate
 
 from derive.course.latex.quoting import Quoted, quoted
 from derive.course.latex.vocabulary import (
@@ -25,7 +26,10 @@ from derive.course.latex.vocabulary import (
     RELATIONS,
 )
 from derive.render.notation.layout import (
+    ACCENTS,
     DEGREE_SIGN,
+    SIGNS,
+    THIN_SPACE,
     Applied,
     Array,
     Bracketed,
@@ -34,11 +38,13 @@ from derive.render.notation.layout import (
     Fraction,
     IntegralSign,
     Layout,
+    Lowered,
     Name,
     Operator,
     Raised,
     RootSign,
     Row,
+    Sign,
     Upright,
     row,
 )
@@ -50,12 +56,11 @@ _KINDS = {"=": "equals", "<": "less", ">": "greater", "<=": "at_most", ">=": "at
 _OPERATORS = {
     **{mark: _KINDS[meaning] for mark, meaning in RELATIONS.items()},
     **{"+": "plus", "-": "minus", "\\cdot": "dot", "\\times": "cross", "\\pm": "plus_minus", ",": "comma"},
+    **{"/": "stroke", "\\to": "tends"},
 }
-_SIGNS = {
-    "\\mp": "∓", "\\ldots": "…", "\\cdots": "…", "\\iint": "∬", "\\iiint": "∭", "\\sum": "∑", "\\partial": "partial",
-    "\\circ": "°", "\\min": "min", "\\max": "max", "\\lim": "lim", "\\prime": "′",
-}  # fmt: skip
-_OTHER_LETTERS = {"ell": "ℓ", "hbar": "ħ", "imath": "i", "jmath": "j"}
+_UPRIGHT = {"\\partial": "partial", "\\circ": "°", "\\min": "min", "\\max": "max", "\\lim": "lim"}
+_PRIMES = (Sign("prime"), Upright("'"))
+_OTHER_LETTERS = {"imath": "i", "jmath": "j"}
 _OPENING = {"(": "(", "[": "[", "\\{": "{", "\\lbrace": "{", "|": "|", "\\lvert": "|", "\\|": "|"}
 _CLOSING = frozenset([")", "]", "\\}", "\\rbrace", "|", "\\rvert", "\\|", "."])
 _NOTHING = Row(())
@@ -106,12 +111,22 @@ class _Reader:
         items: list[Layout] = []
         while self.next and not ends(self.next):
             item = self.scripted(self.atom())
+            if item == Upright("'") and items and isinstance(items[-1], Name):
+                items[-1] = replace(items[-1], base=f"{items[-1].base}'")
+                continue
+            if _is_of_letters(item) and items and isinstance(items[-1], Name):
+                items.append(Operator("start"))  # U(x) is a function, so no space follows U
+            word = item.base if isinstance(item, Raised) else item
+            if isinstance(word, Upright) and word.text[:1].isalpha() and items and isinstance(items[-1], Digits):
+                items.append(THIN_SPACE)  # between a number and its unit
             items += [] if item is None else [item]
         return row(*items) if items else _NOTHING
 
     def group(self) -> Layout:
         """Return the layout of an argument: a group in braces, or a single item without braces."""
         if self.next != "{":
+            if len(self.next) > 1 and self.next[0].isdigit():  # TeX takes one digit: 12 after \frac is 1/2
+                self.tokens[self.at : self.at + 1] = [self.next[0], self.next[1:]]
             return (self.atom() or _NOTHING) if self.next else _NOTHING
         self.at += 1
         inside = self.until("}".__eq__)
@@ -131,14 +146,16 @@ class _Reader:
             return Operator(_OPERATORS[token])
         if token == ")":
             return Operator("close")
-        if token in _SIGNS:
-            return Upright(_SIGNS[token])
+        if token in _UPRIGHT:
+            return Upright(_UPRIGHT[token])
+        if command in SIGNS:
+            return Sign(command)
         if token in _OPENING and token != "|":
             return self.fenced(token)
         if token[0].isdigit():
             return Digits(token)
         if not command:
-            return self.letter(token) if token.isalpha() else None if token in "&}" else Upright(token)
+            return self.letter(token) if token.isalpha() else None if token in "&}^_" else Upright(token)
         if command in GREEK_COMMANDS | {"pi", "infty"} | _OTHER_LETTERS.keys():
             return Name(_OTHER_LETTERS.get(command, command.removeprefix("var")))
         return self.applied(command)
@@ -158,9 +175,8 @@ class _Reader:
             return _named(self.group(), dots=DOTS[command])
         if command in ARROW_COMMANDS | BOLD_COMMANDS:
             return _named(self.group(), style="vector")
-        if command == "hat":
-            inside = self.group()
-            return Name(f"{inside.base}\u0302") if isinstance(inside, Name) else inside
+        if command in ACCENTS:
+            return _named(self.group(), accent=command)
         if command in FONTS:
             return self.words()
         if command in LATEX_FUNCTIONS:
@@ -175,17 +191,23 @@ class _Reader:
         return Upright(";") if command == "\\" else None
 
     def root(self) -> Layout:
-        degree: Layout = _NOTHING
+        degree: Layout | None = None
         if self.next == "[":
             self.at += 1
-            degree = Fenced(self.until("]".__eq__))
+            degree = self.until("]".__eq__)
             self.at += 1
-        return row(degree, RootSign(self.group()))
+        return RootSign(self.group(), degree)
 
     def words(self) -> Layout:
-        """Return the argument of a command for upright text as a word."""
-        text = in_one_line(self.group()).replace(" ", "")
-        return Upright(text)
+        """Return the argument of a command for upright text as a word; a unit keeps the spaces between its factors."""
+        rest = self.tokens[self.at :]
+        depths = list(accumulate({"{": 1, "}": -1}.get(token, 0) for token in rest))
+        end = depths.index(0) + 1 if 0 in depths else 0
+        text = "".join({"\\,": " ", "{": "", "}": ""}.get(token, token) for token in rest[:end]).strip()
+        if re.fullmatch(r"[A-Za-z0-9 /^-]+", text):
+            self.at += end
+            return Upright(text)
+        return self.group()
 
     def function(self, name: str) -> Layout:
         """Return a function with its argument: the next factor, or a number and a letter."""
@@ -212,11 +234,11 @@ class _Reader:
         if isinstance(base, Fenced) and below is not None and above is not None:
             return Bracketed(base.inside, below, above)
         if below is not None:
-            subscript = in_one_line(below).replace(" ", "")
-            base = replace(base, subscript=subscript) if isinstance(base, Name) else row(base, Upright(f"_{subscript}"))
+            subscript = _subscript(below)
+            base = replace(base, subscript=subscript) if isinstance(base, Name) and subscript else Lowered(base, below)
         if above is None:
             return base
-        if above == Upright("′") and isinstance(base, Name):
+        if above in _PRIMES and isinstance(base, Name):
             return replace(base, base=f"{base.base}'")
         return row(base, DEGREE_SIGN) if above == Upright("°") else Raised(base, above)
 
@@ -256,7 +278,25 @@ class _Reader:
         return found
 
 
-def _named(inside: Layout, dots: int = 0, style: str = "") -> Layout:
+def _is_of_letters(item: Layout | None) -> bool:
+    """Return whether a layout is a list of letters or numbers in brackets, as the arguments of a function: (r, t)."""
+    if not isinstance(item, Fenced) or item.kind != "(":
+        return False
+    arguments = item.inside.items if isinstance(item.inside, Row) else (item.inside,)
+    lone = all(isinstance(each, Name | Digits) for each in arguments[::2])
+    return bool(arguments) and lone and all(each == Operator("comma") for each in arguments[1::2])
+
+
+def _named(inside: Layout, dots: int = 0, style: str = "", accent: str = "") -> Layout:
     if not isinstance(inside, Name):
         return inside
-    return replace(inside, dots=inside.dots + dots, style=style or inside.style)
+    style, accent = style or inside.style, accent or inside.accent
+    return replace(inside, dots=inside.dots + dots, style=style, accent=accent)
+
+
+def _subscript(below: Layout) -> str:
+    """Return a subscript as the text in a `Name`, or "" if it is not a word, a number or one Greek letter."""
+    if isinstance(below, Name) and not below.subscript:
+        return below.base
+    text = in_one_line(below).replace(" ", "")
+    return text if re.fullmatch(r"[A-Za-z0-9,]+", text) else ""

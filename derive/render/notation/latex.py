@@ -14,6 +14,7 @@ from derive.render.notation.layout import (
     DEGREE_SIGN,
     GREEK_LETTERS,
     SCRIPT_LETTERS,
+    SIGNS,
     Applied,
     Array,
     Bracketed,
@@ -29,6 +30,7 @@ from derive.render.notation.layout import (
     Raised,
     RootSign,
     Row,
+    Sign,
     Upright,
     begins_with_number,
     first_of,
@@ -80,7 +82,6 @@ BETWEEN_TERMS = {
     )
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
-BLANK = "?"  # an unknown result in a hint
 # Extra height for columns of fractions: the first string is added to a row, the second between two rows.
 SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
 
@@ -101,10 +102,15 @@ def _with_strokes(layout: Layout) -> Layout:
         return Fenced(_with_strokes(layout.inside), layout.kind)
     items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
     around = (None, *items, None)
-    alone = [all(x is None or x in BETWEEN_TERMS for x in (around[i], around[i + 2])) for i in range(len(items))]
+    alone = [all(x is None or _parts_terms(x) for x in (around[i], around[i + 2])) for i in range(len(items))]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
         return row(*items)  # if one fraction cannot be written a/b, no fraction is changed
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
+
+
+def _parts_terms(item: Layout) -> bool:
+    """Return whether an item separates terms: a sign of a sum, or a relation."""
+    return item in BETWEEN_TERMS or isinstance(item, Sign) and SIGNS[item.command].startswith(" ")
 
 
 def _flat(item: Layout) -> Layout:
@@ -120,8 +126,8 @@ def _with_stroke(item: Layout) -> Layout:
     match item:
         case Fenced():
             return _with_strokes(item)
-        case RootSign(inside):
-            return RootSign(_with_strokes(inside))
+        case RootSign(inside, degree):
+            return RootSign(_with_strokes(inside), degree)
         case Lowered(base, word):
             return Lowered(_with_strokes(base), word)
         case Fraction(above, below) if _are_letters(above) and _are_letters(below):
@@ -165,6 +171,8 @@ class _Printer:
                 return text if text == "d" else rf"\mathrm{{{_unit(text)}}}"
             case Operator(kind):
                 return TEX_OPERATORS[kind]
+            case Sign(command):
+                return rf"\{command} "
             case Row(items):
                 return self._row(items)
             case Fraction(above, below):
@@ -174,12 +182,15 @@ class _Printer:
             case Raised(base, power):
                 return f"{self._raised(base)}^{{{self.show(power)}}}"
             case Lowered(base, word):
-                subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
-                return f"{self.show(base)}_{{{subscript}}}"
-            case RootSign(inside):
-                return rf"\sqrt{{{self.show(inside)}}}"
+                if isinstance(word, str):
+                    subscript = word if len(word) == 1 else rf"\mathrm{{{word}}}"
+                else:
+                    subscript = self.show(word)
+                return f"{self._raised(base)}_{{{subscript}}}"
+            case RootSign(inside, degree):
+                return rf"\sqrt{f'[{self.show(degree)}]' if degree else ''}{{{self.show(inside)}}}"
             case Fenced(inside, kind):
-                left, right = {"(": ("(", ")"), "|": ("|", "|"), "{": (r"\{", r"\}")}[kind]
+                left, right = {"(": ("(", ")"), "[": ("[", "]"), "|": ("|", "|"), "{": (r"\{", r"\}")}[kind]
                 tall = _is_tall(inside, self.inline)
                 return self._fenced(left, self.show(inside), right, tall)
             case Bracketed(inside, lower, upper):
@@ -188,9 +199,10 @@ class _Printer:
             case Evaluated(inside, where):
                 return rf"\left.{self.show(inside)}\right|_{{{self.show(where)}}}"
             case IntegralSign(lower, upper):
-                if lower is None or upper is None:
+                if lower is None and upper is None:
                     return r"\int "
-                return rf"\int_{{{self.show(lower)}}}^{{{self.show(upper)}}}\! "
+                limits = [f"{sign}{{{self.show(limit)}}}" for sign, limit in (("_", lower), ("^", upper)) if limit]
+                return rf"\int{''.join(limits)}\! "
             case Applied(name, argument, power):
                 raised = f"^{{{self.show(power)}}}" if power else ""
                 command = rf"\{name}" if name in TEX_FUNCTIONS else rf"\operatorname{{{name}}}"
@@ -216,7 +228,7 @@ class _Printer:
 
     def _row(self, items: tuple[Layout, ...]) -> str:
         shown: list[str] = []
-        for before, item in zip((None, *items[:-1]), items, strict=True):
+        for before, item in zip((None, *items), items, strict=False):
             text = self.show(item)
             if before is not None and _runs_into(before, item):
                 shown.append(r"\,")
@@ -247,7 +259,8 @@ def _separated(pieces: list[str]) -> list[str]:
 
 def _runs_into(before: Layout, item: Layout) -> bool:
     """Return whether two factors need a thin space between them: after a fraction, before a bracket or a vector."""
-    if isinstance(item, Operator) or isinstance(before, Operator | IntegralSign) or begins_with_number(item):
+    apart = Operator | Sign
+    if isinstance(item, apart) or isinstance(before, apart | IntegralSign) or begins_with_number(item):
         return False
     return (
         isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Upright("d")
@@ -273,8 +286,6 @@ def _is_tall(layout: Layout, inline: bool) -> bool:
 
 def _name(name: Name) -> str:
     base = name.letter
-    if base == BLANK:
-        return "{?}"  # braces give the question mark the spacing of a letter
     letter = rf"\{base}" if base in GREEK_LETTERS else base
     if base in SCRIPT_LETTERS:
         letter = rf"\mathcal{{{base[-1]}}}"
@@ -284,6 +295,8 @@ def _name(name: Name) -> str:
         letter = rf"\bm{{{letter}}}"
     elif name.style == "tensor":
         letter = rf"\mathbf{{{letter}}}"
+    if name.accent:
+        letter = rf"\{name.accent}{{{letter}}}"
     if name.dots:
         letter = rf"\{'d' * name.dots}ot{{{letter}}}"
     letter = f"{letter}{name.primes}"

@@ -18,12 +18,16 @@ class Digits:
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol: its base such as `omega`, a subscript such as `x`, and dots; its style is scalar, vector or tensor."""
+    """A symbol: its base such as `omega`, a subscript such as `x`, and dots; its style is scalar, vector or tensor.
+
+    An accent is the command in LaTeX of a mark that an author put above the symbol: `hat`, `bar`, `tilde`.
+    """
 
     base: str
     subscript: str = ""
     dots: int = 0
     style: str = "scalar"
+    accent: str = ""
 
     @property
     def letter(self) -> str:
@@ -56,6 +60,13 @@ class Operator:
 
 
 @dataclass(frozen=True)
+class Sign:
+    """A sign of a formula that an author wrote, by its command in LaTeX: `ll`, `infty`, `sum`."""
+
+    command: str
+
+
+@dataclass(frozen=True)
 class Row:
     """Items side by side."""
 
@@ -76,15 +87,16 @@ class Raised:
 
 @dataclass(frozen=True)
 class Lowered:
-    """A layout with a word as its subscript: (dL/dt)_body."""
+    """A layout with a word, or with a formula of an author, as its subscript: (dL/dt)_body."""
 
     base: Layout
-    word: str
+    word: str | Layout
 
 
 @dataclass(frozen=True)
 class RootSign:
     inside: Layout
+    degree: Layout | None = None
 
 
 @dataclass(frozen=True)
@@ -141,6 +153,7 @@ Layout = (
     | Name
     | Upright
     | Operator
+    | Sign
     | Row
     | Fraction
     | Raised
@@ -159,9 +172,18 @@ GREEK_LETTERS = {
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
     "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ",
-    "Omega": "Ω", "infty": "∞",
+    "Omega": "Ω", "infty": "∞", "ell": "ℓ", "hbar": "ħ",
 }  # fmt: skip
 SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is taken
+
+# Signs without a meaning for derive, by their commands: those of relations have spaces around them in text.
+SIGNS = {
+    "ll": " ≪ ", "gg": " ≫ ", "propto": " ∝ ", "equiv": " ≡ ", "sim": " ∼ ", "to": " → ", "in": " ∈ ",
+    "Rightarrow": " ⇒ ", "perp": " ⊥ ", "parallel": " ∥ ", "mp": " ∓ ", "infty": "∞", "ldots": "…", "cdots": "⋯",
+    "iint": "∬", "iiint": "∭", "oint": "∮", "sum": "∑", "prod": "∏", "nabla": "∇", "angle": "∠", "prime": "′",
+    "langle": "⟨", "rangle": "⟩",
+}  # fmt: skip
+ACCENTS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 
 DEGREE_SIGN = Upright("degree")  # the only unit without a space after its number
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
@@ -258,12 +280,14 @@ def width(layout: Layout) -> float:
     match layout:
         case Digits(digits):
             return len(digits)
-        case Name(_, subscript, _, _):
+        case Name(_, subscript):
             return 1.2 + 0.7 * len(subscript)
         case Upright(text):
             return 0.9 * len(text)
         case Operator(kind):
             return {"space": 0.4, "dot": 1.2, "inner": 1.2, "open": 0.8, "close": 0.8}.get(kind, 2)
+        case Sign():
+            return 2
         case Row(items):
             return sum(width(item) for item in items)
         case Fraction(above, below):
@@ -271,7 +295,7 @@ def width(layout: Layout) -> float:
         case Raised(base, power):
             return width(base) + 0.7 * width(power)
         case Lowered(base, word):
-            return width(base) + 0.6 * len(word)
+            return width(base) + (0.6 * len(word) if isinstance(word, str) else 0.7 * width(word))
         case RootSign(inside):
             return width(inside) + 1.5
         case Fenced(inside, _):

@@ -44,6 +44,7 @@ from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.rounding import Rounded, decimal_text
 from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
+from derive.course.transcript import Transcript
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (
     CROSS,
@@ -111,6 +112,11 @@ class Notation:
     def _worked_out(self, expr: Any) -> Layout:
         if isinstance(expr, MatrixBase):
             return self._matrix(expr)
+        if isinstance(expr, Transcript):
+            from derive.render.notation.from_latex import layout_of_latex  # needed by few problems
+
+            laid_out = layout_of_latex(expr.tex)
+            return laid_out if laid_out != row() else Upright("")
         sign, size = sign_and_size(expr)
         if sign:
             return signed(sign, self.layout(size))
@@ -126,7 +132,7 @@ class Notation:
         if isinstance(expr, tuple):
             return self.list_of(expr)
         if expr not in self._results:
-            self._results[expr] = self.layout(present(expr))
+            self._results[expr] = self.layout(expr if isinstance(expr, Transcript) else present(expr))
         return self._results[expr]
 
     def list_of(self, components: tuple[Any, ...]) -> Layout:
@@ -193,7 +199,7 @@ class Notation:
         return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
-        return ordered_factors(factors, self.known_dimensions.get)
+        return ordered_factors(factors, self.known_dimensions.get, self._places)
 
     def _factors(self, factors: list[Any]) -> Layout:
         if not factors:

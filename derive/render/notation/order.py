@@ -1,12 +1,13 @@
 """The order in which terms and factors are written.
 
 Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
-Factors have this order: masses, accelerations of gravity, lengths, sums, numbers, roots, rates, functions.
+Factors have this order: coefficients of friction, masses, accelerations of gravity, lengths, sums, numbers, roots,
+rates, functions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -17,6 +18,7 @@ from derive.algebra.dimensions import Dimension, power, product
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
+DISPLACEMENT = "eta"  # from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
@@ -32,13 +34,24 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions.
+    Plain terms come before fractions, roots and functions; a number precedes a term with
+    the time: 1 + omega_0 t.
     """
 
-    def place(term: Any) -> tuple[int, bool, bool]:
+    is_timed = any(term.has(ex.TIME) for term in terms)
+
+    def place(term: Any) -> tuple[bool, int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
-        return len(functions[:1]) + changing, bool(fraction(term, exact=True)[1].free_symbols), _has_root(term)
+        is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
+        is_displacement = isinstance(term, Symbol) and term.name.partition("_")[0] == DISPLACEMENT  # r_0 + eta
+        return (
+            is_displacement,
+            len(functions[:1]) + changing,
+            is_fraction,
+            _has_root(term),
+            is_timed and not term.is_number,
+        )
 
     return sorted(terms, key=place)
 
@@ -74,9 +87,26 @@ def _coordinate(letter: Symbol) -> str:
     return next(name.removesuffix(end) for end in RATE_ENDS if name.endswith(end))
 
 
-def ordered_factors(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
-    """Return the factors of a product in the order of print."""
-    return _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+def ordered_factors(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str] = ()
+) -> list[Expr]:
+    """Return the factors of a product in the order of print; `moving` has the names of the coordinates and rates."""
+    ordered = _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+    return _coordinates_last(ordered, dimension_of, moving)
+
+
+def _coordinates_last(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
+) -> list[Expr]:
+    """Write a coordinate after a force or a constant frequency: omega_0^2 x, not x omega_0^2."""
+    ranks = [rank_of_factor(factor, dimension_of) for factor in factors]
+    last = max((i for i, rank in enumerate(ranks) if rank[1] in (Place.FORCE, Place.RATE)), default=0)
+    before = [
+        factor
+        for factor, rank in zip(factors[:last], ranks, strict=False)
+        if rank[1] is not Place.RATE and f"{factor.as_base_exp()[0]}{RATE_ENDS[1]}" in moving
+    ]
+    return [*(f for f in factors[: last + 1] if f not in before), *before, *factors[last + 1 :]] if before else factors
 
 
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
@@ -106,7 +136,7 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
     if isinstance(base, Symbol | ex.Amount):
         if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
             return 0, Place.CHANGING, 0, str(base)
-        return 0, rank_of_dimension(dimension_of(base)), -1, str(base)
+        return 0, _place_of_letter(base, dimension_of), -1, str(base)
     if isinstance(base, exp):
         return 0, Place.SUM, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
@@ -116,6 +146,13 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
         swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
         return 0, place, 2 if swings else 0, str(factor)
     return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)
+
+
+def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
+    """Return the `Place` of a letter; the letter mu without a dimension is a coefficient of friction."""
+    dimension = dimension_of(letter)
+    is_coefficient = str(letter).partition("_")[0] == "mu" and dimension is not None and dimension.is_number
+    return Place.COEFFICIENT if is_coefficient else rank_of_dimension(dimension)
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:

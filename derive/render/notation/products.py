@@ -12,6 +12,7 @@ from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint,
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import scaled
+from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.tidy import factored_matrix
 from derive.render.notation.layout import (
     DOT,
@@ -262,9 +263,13 @@ def _is_fourth_root(factor: Pow) -> bool:
     return bool((factor.base.is_Integer or factor.base.is_Add) and factor.exp.is_Rational and factor.exp.q == 4)
 
 
+FORCE = dimension_of_kind("force")
+
+
 class Place(IntEnum):
     """The places of factors in a product, in the order of print."""
 
+    COEFFICIENT = auto()  # a coefficient of friction: mu N, mu m g
     PER_MASS = auto()  # the gravitational constant comes before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
@@ -274,6 +279,7 @@ class Place(IntEnum):
     LENGTH = auto()
     SUM = auto()
     OTHER = auto()  # numbers, densities, momenta
+    FORCE = auto()  # after a coefficient of friction: mu N
     RATE = auto()
     ROOT = auto()
     CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
@@ -290,7 +296,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
     if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
         return Place.MASS
     if dimension.mass:
-        return Place.COUPLING if dimension.length >= 2 else Place.OTHER
+        return Place.FORCE if dimension == FORCE else Place.COUPLING if dimension.length >= 2 else Place.OTHER
     if dimension.length and dimension.time:
         return Place.ACCELERATION
     return Place.LENGTH if dimension.length else Place.RATE

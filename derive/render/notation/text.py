@@ -23,9 +23,11 @@ from itertools import pairwise
 from typing import Any
 
 from derive.render.notation.layout import (
+    ACCENTS,
     DEGREE_SIGN,
     GREEK_LETTERS,
     SCRIPT_LETTERS,
+    SIGNS,
     THIN_SPACE,
     Applied,
     Array,
@@ -42,6 +44,7 @@ from derive.render.notation.layout import (
     Raised,
     RootSign,
     Row,
+    Sign,
     Upright,
     begins_with_number,
     first_of,
@@ -72,11 +75,12 @@ TEXT_OPERATORS = {
     "start": "",
     "on": "    ",
     "next": ",   ",
+    "stroke": "/",
 }
 LEADING_SIGNS: dict[Layout, str] = {Operator("minus"): "-", Operator("plus_minus"): "±"}  # at the beginning of a sum
 UNITS = {DEGREE_SIGN.text: "°", "partial": "∂"}
 PRINTED_LETTERS = {**GREEK_LETTERS, **SCRIPT_LETTERS}
-ACCENTS = {"vector": "\u20d7", "tensor": "\u20e1"}
+ARROWS = {"vector": "\u20d7", "tensor": "\u20e1"}
 _RAISED = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
 
 
@@ -137,7 +141,8 @@ def text_box(layout: Layout) -> TextBox:
             left, right = {"(": ("(", ")"), "[": ("[", "]"), "|": ("|", "|"), "{": ("{", "}")}[kind]
             return TextBox((f"{left}{inner.lines[0]}{right}",))
         case Lowered(base, word):
-            return text_box(base).beside(TextBox((f"_{word}",)))
+            below = word if isinstance(word, str) else in_one_line(word)
+            return text_box(base).beside(TextBox((f"_{below if below.isalnum() else f'({below})'}",)))
     return TextBox((_line(_on_one_line(layout) if _holds_matrix(layout) else layout),))
 
 
@@ -168,17 +173,19 @@ def _line(layout: Layout) -> str:
     match layout:
         case Digits(digits):
             return digits
-        case Name(base, subscript, dots, style):
+        case Name(base, subscript, dots, style, accent):
             letter = PRINTED_LETTERS.get(layout.letter, layout.letter)
             dotted = {0: "", 1: "\u0307", 2: "\u0308"}.get(dots, "'" * dots)
-            arrow = ACCENTS.get(style, "") if base != "0" else ""
+            arrow = ARROWS.get(style, "") if base != "0" else ""
             between, parts = layout.below
             below = f"_{between.join(GREEK_LETTERS.get(part, part) for part in parts)}" if subscript else ""
-            return letter + dotted + arrow + layout.primes + below
+            return letter + ACCENTS.get(accent, "") + dotted + arrow + layout.primes + below
         case Upright(text):
             return UNITS.get(text, text)
         case Operator(kind):
             return TEXT_OPERATORS[kind]
+        case Sign(command):
+            return SIGNS[command]
         case Fraction(above, below):
             return f"{_tight(above, is_above=True)}/{_tight(below)}"
         case Raised(base, power):
@@ -188,15 +195,17 @@ def _line(layout: Layout) -> str:
             if exponent.isalpha():
                 return f"{letter}^{exponent}"
             return letter + (small if set(exponent) <= set("0123456789-+") else f"^({exponent})")
-        case RootSign(inside):
+        case RootSign(inside, degree):
             inner = plain(inside)
-            return f"√{inner}" if isinstance(inside, Digits | Name) else f"√({inner})"
+            root = f"{_line(degree).translate(_RAISED)}√" if degree else "√"
+            return f"{root}{inner}" if isinstance(inside, Digits | Name) else f"{root}({inner})"
         case Bracketed(inside, lower, upper):
             return f"[{plain(inside)}]({plain(lower)}..{plain(upper)})"
         case Evaluated(inside, where):
             return f"{plain(inside)}|({plain(where)})"
         case IntegralSign(lower, upper):
-            return "∫ " if lower is None or upper is None else f"∫({plain(lower)}..{plain(upper)}) "
+            limits = "..".join(plain(limit) for limit in (lower, upper) if limit)
+            return f"∫({limits}) " if limits else "∫ "
         case Applied(name, argument, power):
             raised = _line(power).translate(_RAISED) if power else ""
             inner = plain(argument)
@@ -243,7 +252,7 @@ def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
 
 def _needs_space(before: Layout, item: Layout) -> bool:
     """Return whether two items need a space between them: `13/12 M a²`, but `2a` and `3(x + y)`."""
-    if isinstance(before, Operator | IntegralSign) or isinstance(item, Operator):
+    if isinstance(before, Operator | IntegralSign | Sign) or isinstance(item, Operator | Sign):
         return False
     if item == DEGREE_SIGN or is_differential(before):
         return False

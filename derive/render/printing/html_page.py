@@ -14,16 +14,30 @@ from pathlib import Path
 
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
+from derive.page.chain_lines import ChainLine
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    FigureRef,
+    Inline,
+    Math,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    ToldIn,
+    ToldOnce,
+    UnitMark,
+)
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
+from derive.render.printing.figure_numbers import figure_number
 from derive.render.printing.lines import PAGE_WIDTH, Printed, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import closing_title, inline_text
@@ -33,6 +47,7 @@ from derive.render.rendered import Files, Html
 LISTED = 3  # a page with at least this many parts has a table of contents
 # Characters that fit into a narrow window; a wider formula can be scrolled, also by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
+PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
 
 
 @dataclass(frozen=True)
@@ -41,16 +56,22 @@ class HtmlFragments:
 
     title: Html
     solution: Html
+    card: Html
 
 
-NO_HTML = HtmlFragments(Html(""), Html(""))
+NO_HTML = HtmlFragments(*[Html("")] * 3)
 
 
 def problem_html(
     document: Document, words: Phrases, notation: Notation, folder: Path, drawings: Files
 ) -> HtmlFragments:
     page = HtmlPage(document, words, notation, drawings)
-    return HtmlFragments(page.title(), filled_html(folder, "problem.html.j2", {"page": page}))
+    among_others = HtmlQuestions(document, words, notation, drawings, top=2)
+    return HtmlFragments(
+        page.title(),
+        filled_html(folder, "problem.html.j2", {"page": page}),
+        filled_html(folder, "card.html.j2", {"page": among_others}),
+    )
 
 
 class HtmlPage:
@@ -88,12 +109,17 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the sides of a result; a line may end between two sides or within one."""
-        line = credit.result
+        """Return the results of a step; a line may end between two sides or within one."""
+        return Html(", ".join(self._sides_of(line) for line in credit.results))
+
+    def _sides_of(self, line: ChainLine) -> str:
         sides = [("start", self.notation.side(line.left))] if line.left is not None else []
         sides.append((line.relation, self.notation.result(line.right)))
         shown = (in_pieces(side, inline=True, sign=TEX_OPERATORS[relation]) for relation, side in sides)
-        return Html("<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown))
+        return "<wbr> ".join(_scrolling_pieces(pieces, room=IN_TABLE) for pieces in shown)
+
+    def task_of(self, credit: Credit) -> Html:
+        return Html(escape(credit.task))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"
@@ -110,13 +136,25 @@ class HtmlPage:
         return Html(f"<strong>{escape(title)}</strong> {self.inline(self.document.closing)}")
 
     def inline(self, nodes: Sequence[Inline]) -> Html:
-        return Html("".join(self._node(node) for node in nodes))
+        """Return words and formulas; no line begins with the punctuation after a formula."""
+        found: list[str] = []
+        for node in nodes:
+            printed = self._node(node)
+            stop = PUNCTUATION.match(printed) if found and type(node) is Text else None
+            if stop and found[-1].endswith(("</math>", CLOSED)):
+                found[-1], printed = _ended(found[-1], stop[0]), printed[stop.end() :]
+            found.append(printed)
+        return Html("".join(found))
 
     def plain(self, nodes: Sequence[Inline]) -> str:
         return inline_text(nodes, self.notation, self.document.numbers)
 
     def _node(self, node: Inline) -> str:
         match node:
+            case FigureRef(number=figure):
+                return self._figure(figure, "&nbsp;")
+            case Text(" = "):
+                return "&nbsp;=&nbsp;"
             case Text(text):
                 return escape(text)
             case Math(expr):
@@ -154,7 +192,7 @@ class HtmlPage:
 
     def listed(self, part: PartPage) -> Html:
         """Return the question of a part for use as the text of a link, without links in its formulas."""
-        return Html(re.sub(r"</?(?:a|span|wbr)\b[^>]*>", "", self.inline(part.ask)))
+        return Html(re.sub(r"</?(?:a|span)\b[^>]*>", "", self.inline(part.ask)))
 
     # --- equations ---------------------------------------------------------------------------------------------------
 
@@ -176,18 +214,20 @@ class HtmlPage:
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
+        """Return a row; if the page repeats an equation with all its lines, the repetition has no number."""
         left = "" if line.left is None else _side("start", line.left)
         cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]
+        is_new = line.number is not None and self._is_first(line.number)
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
-        number = "" if line.number is None else f'<span class="number">({line.number})</span>'
+        number = f'<span class="number">({line.number})</span>' if is_new else ""
         beside = f'<span class="beside">{why}{number}</span>' if why or number else ""
-        anchor = "" if line.number is None or not self._is_first(line.number) else f' id="{self._anchor(line.number)}"'
+        anchor = f' id="{self._anchor(line.number)}"' if line.number is not None and is_new else ""
         return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether a number appears for the first time; only in this case does the row have an anchor."""
+        """Return whether a number appears for the first time; only in this case does the row show it."""
         known = number in self._placed
         self._placed.add(number)
         return not known
@@ -205,32 +245,47 @@ class HtmlPage:
     def caption(self, drawing: Illustration) -> Html:
         if drawing.number is None:
             return Html("")
-        label = f"{self.words.labels['figure']} {drawing.number}."
-        return Html(f"<strong>{escape(label)}</strong> {self.inline(drawing.caption)}")
+        return Html(f"<strong>{self.figure_name(drawing)}.</strong> {self.inline(drawing.caption)}")
+
+    def figure_name(self, drawing: Illustration) -> Html:
+        return Html("" if drawing.number is None else self._figure(drawing.number, " "))
+
+    def _figure(self, number: int, space: str) -> str:
+        """Return the name of a figure; on a page of several problems, the figures are later numbered in a row."""
+        shown = str(number) if self.standalone else figure_number(number)
+        return f"{escape(self.words.labels['figure'])}{space}{shown}"
 
 
 def _sides(line: Printed, stop: str) -> str:
     """Return the relations and right sides of a line as HTML. A result at the end is framed, unless the frame includes
-    the whole line. The browser may start a new row before each side."""
+    the whole line; punctuation after a frame is outside. The browser may start a new row before each side."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
         if relation == "next":
             shown = [_ending(shown, ","), '<span class="next"></span>']
         shown.append(_side("start" if relation == "next" else relation, side))
+    if line.frames_all:
+        return "".join([*shown, _stop(stop)])
     if at == len(line.sides):
         return _ending(shown, stop)
     (relation, first), *others = line.sides[at:]
     sign = TEX_OPERATORS[relation].strip()
     framed = "".join([_side("start", first), *(_side(*other) for other in others)])
     begun = of_latex(sign) if sign else ""
-    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span>{_stop(stop)}</span>'])
+    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}{_stop(stop)}</span></span>'])
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """Add punctuation that never begins a line: if the last side scrolls, its element includes the punctuation."""
-    closed = CLOSED * (2 if sides[-1].endswith(CLOSED * 2) else 1)
-    return "".join([*sides[:-1], sides[-1].removesuffix(closed), _stop(stop), closed])
+    """Add punctuation to the last side."""
+    begin, formula = sides[-1].removesuffix(CLOSED).split(">", 1)
+    return "".join([*sides[:-1], f"{begin}>{_ended(formula, _stop(stop)) if stop else formula}{CLOSED}"])
+
+
+def _ended(formula: str, stop: str) -> str:
+    """Add punctuation to a formula so that no line begins with the punctuation."""
+    before, at, last = formula.rpartition("<wbr>")
+    return f'{before}{at}<span class="ended">{last}{stop}</span>'
 
 
 def _stop(stop: str) -> str:

@@ -16,7 +16,19 @@ from derive.page.folding import sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.tree import Block, Display, Document, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    FigureRef,
+    Inline,
+    Math,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    ToldIn,
+    ToldOnce,
+    UnitMark,
+)
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
@@ -42,6 +54,7 @@ class Fragments:
     solution: Tex
     sheet: Tex
     report: Tex
+    source: Tex
 
 
 Blocks = tuple[Block, ...]
@@ -56,20 +69,22 @@ class Passage:
     after: tuple[Blocks, ...] = ()
 
 
-NOT_TYPESET = Fragments(*[Tex("")] * 4)
+NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 
 def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
     page, questions = LatexPage(document, words, notation), _Questions(document, words, notation)
+    reported = ReportPage(document, words, notation)
 
-    def fragment(template: str, what: LatexPage) -> Tex:
+    def fragment(template: str, what: LatexPage | ReportPage) -> Tex:
         return filled_template(folder, template, {"page": what})
 
     return Fragments(
         page.title(),
         fragment("problem.tex.j2", page),
         fragment("questions.tex.j2", questions),
-        filled_template(folder, "reported.tex.j2", {"page": ReportPage(document, words, notation)}),
+        fragment("reported.tex.j2", reported),
+        fragment("source.tex.j2", reported) if reported.errata or reported.remarks else Tex(""),
     )
 
 
@@ -89,6 +104,7 @@ class LatexPage:
         rubric: Mapping[str, Sequence[Credit]] | None = None,
     ):
         self.document, self.words, self.notation, self.rubric = document, words, notation, rubric or {}
+        self._placed: set[Number] = set()
 
     @property
     def id(self) -> Tex:
@@ -111,8 +127,11 @@ class LatexPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Tex:
-        formula = equation_latex(credit.result, self.notation)
-        return Tex(formula)
+        """Return the results of a step in one row."""
+        return Tex(r",\quad ".join(equation_latex(line, self.notation) for line in credit.results))
+
+    def task_of(self, credit: Credit) -> Tex:
+        return Tex(escaped(credit.task))
 
     def number_of(self, credit: Credit) -> str:
         return f"({credit.equations.number})"
@@ -140,6 +159,10 @@ class LatexPage:
 
     def _node(self, node: Inline) -> str:
         match node:
+            case FigureRef(number=number):
+                return self._figure_name(number, "~")
+            case Text(" = "):
+                return "~=~"
             case Text(text):
                 return escaped(text)
             case Math(expr):
@@ -213,10 +236,13 @@ class LatexPage:
         else:
             command, body = "row", _sides(first)
         reason = rf"\why{{{self.inline(last.reason)}}}" if last.reason else ""
-        number = "" if last.number is None else self._numbered(last.number)
+        is_new = last.number is not None and last.number not in self._placed
+        number = self._numbered(last.number) if last.number is not None and is_new else ""
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
     def _numbered(self, number: Number) -> str:
+        """Return the number of an equation, which a page shows once: hints show further lines of an equation."""
+        self._placed.add(number)
         return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
     def in_statement(self) -> Sequence[Illustration]:
@@ -224,9 +250,13 @@ class LatexPage:
 
     def drawing(self, drawing: Illustration) -> Tex:
         """Return the file of a drawing, the text that replaces a missing file, the figure number and the caption."""
-        number = "" if drawing.number is None else escaped(f"{self.words.labels['figure']} {drawing.number}.")
+        number = "" if drawing.number is None else f"{self._figure_name(drawing.number, ' ')}."
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
         return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
+
+    def _figure_name(self, number: int, space: str) -> str:
+        """Return the name of a figure; TeX adds the figures of earlier problems of the document to its number."""
+        return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
         """Return the note next to a display and its words: the grade, and the first route or check that has room."""

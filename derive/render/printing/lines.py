@@ -76,7 +76,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
-    packed = _with_bare_number_framed(packed, begun) if equations.frames_bare_number else packed
+    packed = _with_bare_value_framed(packed, begun) if equations.frames_bare_value else packed
     packed = _with_condition_framed(packed) if equations.framed else packed
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
@@ -94,8 +94,8 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
     return rows
 
 
-def _with_bare_number_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
-    """Repeat the left side of the chain before a bare number such as 0, so that the frame has a complete equation."""
+def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
+    """Repeat the left side of the chain before a bare number or letter, so that the frame has a complete equation."""
     *others, last = packed
     chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]

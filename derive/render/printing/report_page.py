@@ -70,8 +70,7 @@ class ReportPage:
 
     def what(self, row: Row) -> str:
         """Return a short description of the steps in a row."""
-        name = row.rule.rpartition(".")[2].replace("_", " ")
-        return str(self.words.labels["rules"].get(row.rule, name))
+        return self.words.rule(row.rule)
 
     def grade(self, row: Row) -> Tex:
         """Return the word for the grade, in bold type if nothing was proved."""

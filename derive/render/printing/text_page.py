@@ -14,7 +14,7 @@ from derive.page.tree import Block, Display, Document, Folded, Illustration, Par
 from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
-from derive.render.notation.text import columns, plain, text_box, to_the_right
+from derive.render.notation.text import columns, in_one_line, plain, text_box, to_the_right
 from derive.render.printing.lines import TEXT_WIDTH, Printed, printed_lines
 
 PAGE_COLUMNS = 88
@@ -36,7 +36,7 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
         case Text(text):
             return text
         case Math(expr):
-            return plain(notation.result(expr))
+            return in_one_line(notation.result(expr))
         case DimensionMark(dimension):
             return exponents(dimension)
         case UnitMark(text):
@@ -158,5 +158,5 @@ class _Page:
         if line.number is not None:
             number = f"({line.number})"
             room = PAGE_COLUMNS - len(number) - columns(lines[middle])
-            lines[middle] += (" " * room if room > 0 else "  ") + number
+            lines[middle] += (" " * room if room > 1 else "  ") + number
         return lines

@@ -16,9 +16,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, ClassVar, Generic, TypeVar
 
-from derive.course.stock import Described
+from derive.algebra.expressions import explicit
+from derive.course.placement import Placement, Range
+from derive.course.stock import Described, told_at
 from derive.course.yaml_tree import Word
-from derive.errors import DeriveError
+from derive.errors import DeriveError, did_you_mean, rejected
+from derive.figures import plot
 from derive.mechanics import Coordinate
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
@@ -117,9 +120,29 @@ class StockAnswers(Answers[W]):
         no such function."""
         return None
 
-    def solve(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return name -> answer for the requested names; a subclass also draws the described objects."""
-        return self.by_name.answers(asked)
+    def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
+        """Return name -> answer for the requested names, and draw the requested plots; a subclass also draws the
+        described objects."""
+        found = self.by_name.answers(asked)
+        for drawing in drawings:
+            if drawing.plot and drawing.against and drawing.range:
+                self._plot(drawing, drawing.plot, drawing.against, drawing.range)
+        return found
+
+    def _plot(self, drawing: Placement, answer: Word, against: Word, ends: Range) -> None:
+        """Draw the curve of an answer against a coordinate or a declared letter."""
+        quantities = self.by_name.named(answer)
+        if len(quantities) != 1:
+            rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
+        moving = self.coordinates.get(str(against))
+        kind = moving.kind if moving is not None else drawing.kind_against
+        letters = {symbol.name: symbol for symbol in explicit(quantities[0].value).free_symbols}
+        if kind is None or str(against) not in letters:
+            message = f"`{answer}` does not depend on `{against}`, so there is no curve"
+            rejected("wrong-argument", message, against.place, did_you_mean(against, letters))
+        lower, upper = ends.of_kind(kind)
+        with told_at(answer.place):
+            plot(drawing.key, quantities[0], letters[str(against)], (lower, upper), of=kind)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
         """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""

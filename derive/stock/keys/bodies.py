@@ -134,6 +134,7 @@ class DescribedBody:
     parts    one body, or several bodies in their positions
     mass     the mass of the whole, if it is given; it is then divided among the parts
     points   name of a point of the body -> its position
+    is_integrated   whether a standard moment of inertia is integrated in place of quoting it
     """
 
     called: str
@@ -141,6 +142,7 @@ class DescribedBody:
     is_made_of_parts: bool
     mass: Expr | None = None
     points: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
+    is_integrated: bool = False
     place: Place | None = field(default=None, repr=False, compare=False)
 
     def body(self) -> Body:
@@ -154,6 +156,7 @@ class DescribedBody:
                 whole: Body = Composite(*self.parts, mass=self.mass, points=self.points)
             else:
                 (whole,) = self.parts  # type: ignore[assignment]
+            whole = whole.integrated() if self.is_integrated else whole
             return whole.named(self.called) if self.called else whole
 
     @property
@@ -205,14 +208,14 @@ class Bodies:
         _one_of_three(written, {"shape", "position", "parts"}, "a body")
         if not written.parts:
             points = self._points(written)
-            return DescribedBody(called, (self._alone(written, None),), False, None, points, place)
+            return DescribedBody(called, (self._alone(written, None),), False, None, points, place=place)
         for size in (name for name in (*SIZES, "density", "limits") if name in written.values_at):
             message = f"a body made of parts has no `{size}` of its own"
             rejected("unknown-key", message, written.places[size], "give it for one of its parts")
         mass = self.letters.value(written.mass, "mass", "mass") if written.mass else None
         named = [Word.at(name, name.place) for name in written.parts]
         parts = each([partial(self._part, name, written.parts[name], mass, len(named) > 1) for name in named])
-        return DescribedBody(called, tuple(parts), True, mass, self._points(written), place)
+        return DescribedBody(called, tuple(parts), True, mass, self._points(written), place=place)
 
     def _points(self, written: BodyKeys) -> dict[str, tuple[Expr, ...]]:
         names = list(written.points)

@@ -186,6 +186,16 @@ FRICTION: Reader[Any] = Reader(
 )
 
 
+def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
+    """Return the parts of a contact; static friction knows the name of the body that would slip."""
+
+    def with_name(part: Any) -> Any:
+        limit = getattr(part, "limit", None)
+        return replace(part, limit=replace(limit, slider=name)) if limit is not None else part
+
+    return tuple(map(with_name, contact(**given)))
+
+
 @dataclass(frozen=True)
 class ContactKeys(Record):
     """The keys of one entry of `contacts:`, a body that touches a surface."""
@@ -220,7 +230,11 @@ class ContactKeys(Record):
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
         forces = tuple(map(str, [*self.symbols(), *self._components(known)]))
-        return Deferred(contact, (), named, forces=forces, place=self.places[""])
+        return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
+
+    def _name(self) -> str:
+        """Return the name of the body that touches the surface, `block` or that of `ladder.end`; empty for a place."""
+        return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
         """Return the symbols of the components that the friction of rolling has in space."""
@@ -305,6 +319,10 @@ class StringKeys(Record):
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
+    mass_of: Word | None = key(
+        "for a uniform rope with mass: the particle that has its mass and moves with its speed, at a constant height",
+        TEXT,
+    )
 
     def symbols(self) -> list[Word]:
         return [self.tension] if self.tension is not None else []
@@ -316,10 +334,11 @@ class StringKeys(Record):
             rejected("missing-key", "a string needs `to`, or `wound_on`", self.places[""])
         over = tuple(_over(each, known) for each in self.over)
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over)
+        mass = {"mass_of": material(self.mass_of, known)} if self.mass_of else {}
+        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over, **mass)
 
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
-        for name in ("to", "over", "length"):
+        for name in ("to", "over", "length", "mass_of"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string that is `wound_on` a body"
                 rejected("unused-key", message, self.places[name], "leave one of them out")

@@ -1,28 +1,38 @@
-"""Bodies that move, as `given:` describes them: their position, their orientation, their contact in rolling."""
+"""Bodies that move, as `given:` describes them: their position and their orientation."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from sympy import Expr, pi
 
 from derive.algebra.tidy import tidied
-from derive.course.schema import SCALAR, TEXT, Record, as_written, key, list_of, mapping_of, one_of, record_of
+from derive.course.schema import (
+    SCALAR,
+    TEXT,
+    YES_OR_NO,
+    Record,
+    as_written,
+    key,
+    list_of,
+    mapping_of,
+    one_of,
+    record_of,
+)
 from derive.course.stock import InLetters, each, told_at
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
-from derive.errors import Complaint, Faults, Rejected, rejected
-from derive.mechanics import RigidBody, no_slip, rolling_constraint
-from derive.mechanics.bodies.placed import PointOfBody
+from derive.errors import Faults, rejected
+from derive.mechanics import RigidBody
 from derive.mechanics.kinematics.places import Axes, Location, angle_of
 from derive.mechanics.model.surfaces import dot, unit
+from derive.mechanics.rotation.inertia import QUOTED_SHAPES
 from derive.steps.step import is_zero
 from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
-from derive.stock.keys.deferred import Deferred, Material
-from derive.stock.keys.parts import direction_of, force_letter, list_of_parts
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_known
+from derive.stock.keys.deferred import Deferred
+from derive.stock.keys.parts import direction_of
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace
 
 POINT = as_written(
     {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3}]},
@@ -71,6 +81,11 @@ class MovingBodyKeys(BodyKeys):
         "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
         COMPONENTS,
     )
+    is_integrated: bool = key(
+        "whether the page integrates a standard moment of inertia, such as that of a disc, in place of quoting it",
+        YES_OR_NO,
+        called="derive",
+    )
     across: str | None = key(
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
     )
@@ -81,7 +96,9 @@ class MovingBodyKeys(BodyKeys):
         self._check_one("orientation", "turned", "along", "to")
         self._check_used()
         body: DescribedBody | RigidBody = (
-            self._by_moments(called, letters) if self.moments else Bodies(letters).body(self, called)
+            self._by_moments(called, letters)
+            if self.moments
+            else replace(Bodies(letters).body(self, called), is_integrated=self.is_integrated)
         )
         turned = self._turned(places, letters)
         named: dict[str, Any] = {"across": self.across}
@@ -114,6 +131,9 @@ class MovingBodyKeys(BodyKeys):
             if name in self.values_at and "moments" not in self.values_at:
                 message = f"`{name}` has no effect on a body without `moments`"
                 faults.error("unused-key", message, self.places[name], help=f"the shape determines {what}")
+        if self.is_integrated and self.shape is not None and self.shape.strip() not in QUOTED_SHAPES:
+            message = f"`derive` has no effect: the moment of inertia of `{self.shape}` is always integrated"
+            faults.error("unused-key", message, self.places["derive"], help="leave it out")
         faults.stop()
 
     def _check_one(self, what: str, *names: str) -> None:
@@ -188,41 +208,7 @@ class MovingBodyKeys(BodyKeys):
         return tuple(each([partial(letters.constant, node, "held", "length") for node in self.held.items]))
 
 
-@dataclass(frozen=True)
-class RollingKeys(Record):
-    """The keys of one entry of `rolling:`, a body that rolls without slipping."""
-
-    body: Word = key("the body, by its name", TEXT, required=True)
-    at: WrittenPlace = key("the place where it touches the surface", PLACE, required=True)
-    ground: WrittenPlace | None = key(
-        "a place of the surface, if the surface moves; or the axes in which it is at rest, as for a turntable", PLACE
-    )
-    force: Word | None = key("the symbol of the force that prevents slipping, if you need that force", TEXT)
-
-    def part(self, places: Places, letters: InLetters, names: Collection[str]) -> Deferred[tuple[Any, ...]]:
-        check_known(self.body, names, "body")
-        named: dict[str, Any] = {"ground": _ground(self.ground, places) if self.ground else None}
-        forces: tuple[str, ...] = ()
-        if self.force:
-            forces = (force_letter(self.force, letters),)
-            named["force"] = forces[0]
-        bodies = {"body": (str(self.body),)}
-        return Deferred(rolls, (), {"at": places.at(self.at, "at"), **named}, bodies, self.places[""], forces)
-
-
-def _ground(written: WrittenPlace, places: Places) -> Location | Material | Axes:
-    """Return a place of the surface, or the rotating axes in which the surface is at rest, as for a turntable."""
-    way = written.way
-    if written.name is not None and str(written.name) in {str(name) for name in places.turns}:
-        return places.axes(written.name)
-    if way is not None and way.axes is not None and way.start is None:
-        places.at(written, "ground")
-        return places.axes(way.axes)
-    return places.at(written, "ground")
-
-
 BODIES = mapping_of(record_of(MovingBodyKeys, "a body", "a mapping with `shape` or `moments`", "the body `{}`"))
-ROLLING = list_of_parts(RollingKeys, "rolling")
 
 
 def placed(
@@ -252,17 +238,3 @@ def held(
 
 def _made(body: DescribedBody | RigidBody) -> Any:
     return body.body() if isinstance(body, DescribedBody) else body
-
-
-def rolls(body: Any, at: Location, ground: Any, force: str = "") -> tuple[Any, ...]:
-    """Return the conditions of rolling: with `force`, as constraints that this force enforces; otherwise, solved for
-    coordinates or rates."""
-    if isinstance(at, PointOfBody):
-        message = "the place of contact moves along the body, but `at` is a fixed point of the body"
-        raise Rejected(
-            Complaint("wrong-argument", message, help="describe the surface and the contact under `contacts`")
-        )
-    if force:
-        return rolling_constraint(body, at, force, ground)
-    found = no_slip(body, at, ground)
-    return found if isinstance(found, tuple) else (found,)

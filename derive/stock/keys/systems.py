@@ -65,7 +65,7 @@ from derive.stock.keys.parts import (
     ParticleKeys,
     SpringKeys,
 )
-from derive.stock.keys.placed import BODIES, ROLLING, MovingBodyKeys, RollingKeys
+from derive.stock.keys.placed import BODIES, MovingBodyKeys
 from derive.stock.keys.places import (
     COORDINATES,
     FUNCTIONS,
@@ -89,7 +89,7 @@ INDIFFERENT_TO_STATES = (
     "multipliers",
 )  # fmt: skip
 REPLACED_BY_LAGRANGIAN = (
-    "axes", "places", "particles", "bodies", "rolling", "gravity", "springs", "central", "potential", "charges",
+    "axes", "places", "particles", "bodies", "gravity", "springs", "central", "potential", "charges",
     "constraints", "impact", "surfaces", "contacts", "pulleys", "wires", "strings", "massless_rods",
     "joints", "motors", "dashpots",
 )  # fmt: skip
@@ -120,7 +120,6 @@ class SystemKeys(Record):
     )
     particles: Mapping[Word, ParticleKeys] = key("particles by name", PARTICLES)
     bodies: Mapping[Word, MovingBodyKeys] = key("rigid bodies by name", BODIES)
-    rolling: Sequence[RollingKeys] = key("bodies that roll without slipping", ROLLING)
     gravity: Tree | None = key("the acceleration of free fall, downwards; without gravity nothing has weight", SCALAR)
     springs: Sequence[SpringKeys] = key("springs without mass", SPRINGS)
     central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
@@ -135,7 +134,11 @@ class SystemKeys(Record):
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
     constraints: Sequence[ConstraintKeys] = key("conditions that constraint forces enforce", CONSTRAINTS)
     surfaces: Mapping[Word, SurfaceKeys] = key("surfaces that bodies touch, by name", SURFACES)
-    contacts: Sequence[ContactKeys] = key("bodies that touch a surface, with the normal force and friction", CONTACTS)
+    contacts: Sequence[ContactKeys] = key(
+        "bodies that touch a surface, with the normal force and friction: `{of: disc, on: road, friction: rolling}`",
+        CONTACTS,
+        formerly="rolling",
+    )
     pulleys: Mapping[Word, PulleyKeys] = key("massless frictionless pulleys with a radius, by name", PULLEYS)
     wires: Sequence[Word] = key(
         "particles that are threaded on a smooth wire, which has the shape of the curve of their one coordinate", WIRES
@@ -167,7 +170,7 @@ class DescribedSystem(Described):
     """A described system, whose values are expressions in its symbols.
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
-    particles, bodies, rolling, acting   the parts of the system, in the order of the file; `acting` has all other parts
+    particles, bodies, acting   the parts of the system, in the order of the file; `acting` has all other parts
     surfaces      the surfaces by name
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
@@ -182,7 +185,6 @@ class DescribedSystem(Described):
     coordinates: tuple[tuple[str, str, bool], ...] = ()
     particles: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
-    rolling: tuple[Deferred[tuple[Any, ...]], ...] = ()
     acting: tuple[Deferred[Any], ...] = ()
     surfaces: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     gravity: Expr | None = None
@@ -217,7 +219,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     brought = _brought(written)
     attempted(faults, _check_different, brought)
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
-    forces = _multipliers([*parts["acting"], *parts["rolling"]])
+    forces = _multipliers(parts["acting"])
     own = {**letters, **functions, **forces, **_constants(written.conserved, letters, known, faults)}
     names = [*map(str, (*written.bodies, *written.particles))]
     impact = attempted(faults, written.impact.read, letters, forces, names, places, known) if written.impact else None
@@ -255,7 +257,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return name of a field of `DescribedSystem` -> its value, for the particles, bodies, surfaces, rolling and
+    """Return name of a field of `DescribedSystem` -> its value, for the particles, bodies, surfaces and
     everything that acts on them."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
@@ -269,7 +271,6 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     several: list[Sequence[Any]] = [written.springs, written.central, written.charges, written.constraints]
     acting = [*chain(*(of_each(keys, places, known) for keys in several))]
     bodies = by_name(written.bodies, len(written.bodies) == 1, places, known)
-    rolling = of_each(written.rolling, places, known, {str(name) for name in written.bodies})
     names = {str(name) for name in (*written.bodies, *written.particles)}
     surfaces = by_name(written.surfaces, places, known, names)
     pulleys = by_name(written.pulleys, places, known)
@@ -284,10 +285,10 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     _check_surfaces_used(written, faults)
     _check_pulleys(written, faults)
     acting += [Deferred(landing_surface, (one,)) for name, one in surfaces.items() if name in _landed_on(written)]
-    with_friction = known.also(_multipliers([*acting, *rolling]))  # friction is proportional to a constraint force
+    with_friction = known.also(_multipliers(acting))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
     own = {"particles": particles, "bodies": bodies, "surfaces": surfaces}
-    return {**own, "rolling": tuple(rolling), "acting": tuple(acting)}
+    return {**own, "acting": tuple(acting)}
 
 
 def _landed_on(written: SystemKeys) -> set[str]:
@@ -376,14 +377,14 @@ def _momenta(
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces, including those of rolling; results may be solved for these symbols."""
+    """Return the symbols of constraint forces; results may be solved for these symbols."""
     names = [name for one in keeping for name in one.forces]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
 def _brought(written: SystemKeys) -> list[Word]:
     """Return the symbols that the description introduces in addition to its coordinates."""
-    forces = [*(one.force for one in written.constraints), *(one.force for one in written.rolling)]
+    forces = [one.force for one in written.constraints]
     forces += [symbol for one in _connections(written) for symbol in one.symbols()]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 

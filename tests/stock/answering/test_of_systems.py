@@ -99,9 +99,10 @@ solve: system
 symbols: {M: mass, b: length, a: length, g: acceleration}
 given:
   coordinates: {phi: angle, psi: angle}
-  places: {C: [b*sin(phi), -b*cos(phi)], K: [(a + b)*sin(phi), -(a + b)*cos(phi)]}
+  places: {C: [b*sin(phi), -b*cos(phi)]}
   bodies: {cylinder: {shape: disc, radius: a, mass: M, turned: psi, centre: C, across: z}}
-  rolling: {body: cylinder, at: K}
+  surfaces: {hollow: {centre: [0, 0], radius: a + b, side: inside}}
+  contacts: {of: cylinder, on: hollow, friction: rolling}
   gravity: g
 statement: A cylinder.
 parts:

@@ -73,4 +73,7 @@ def test_all_faults_of_an_impact_are_told_at_once(tmp_path: Path) -> None:
 
 def test_the_former_name_of_the_key_is_an_error_that_says_what_to_write(tmp_path: Path) -> None:
     (found,) = complaints(tmp_path, edited(BULLET, ("  impact:\n", "  blow:\n")))
-    assert (found.message, found.help) == ("`given` has no key `blow`", "write `impact`")
+    assert (found.message, found.help) == (
+        "`given` has no key `blow`",
+        "write `impact`: impulses and collisions at one instant",
+    )

@@ -9,7 +9,7 @@ from sympy import Rational, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
-from tests.stock.described import PENDULUM, edited, messages, solved
+from tests.stock.described import PENDULUM, complaints, edited, messages, solved
 
 l, m, g = symbols("l m g", positive=True)
 theta, theta_ddot = symbols("theta theta_ddot", real=True)
@@ -47,7 +47,8 @@ symbols: {M: mass, R: length}
 given:
   coordinates: {s: length, phi: angle}
   bodies: {hoop: {shape: hoop, radius: R, mass: M, turned: -phi, centre: [s, R], across: z}}
-  rolling: {body: hoop, at: [s, 0]}
+  surfaces: {floor: {through: [0, 0], along: [1, 0]}}
+  contacts: {of: hoop, on: floor, friction: rolling}
 statement: A hoop.
 parts:
   - ask: Roll.
@@ -90,4 +91,12 @@ def test_a_body_that_cannot_be_meant_is_told(body: str, said: str, tmp_path: Pat
 
 
 def test_what_rolls_is_a_body_of_the_system(tmp_path: Path) -> None:
-    assert "7: `hop` is not a body of this system" in messages(tmp_path, edited(ROLLING, ("{body: hoop", "{body: hop")))
+    found = messages(tmp_path, edited(ROLLING, ("{of: hoop", "{of: hop")))
+    assert found == ["8: `hop` is not a body or particle of this system"]
+
+
+def test_the_former_key_rolling_names_contacts(tmp_path: Path) -> None:
+    text = edited(ROLLING, ("contacts: {of: hoop, on: floor, friction: rolling}", "rolling: {body: hoop, at: [s, 0]}"))
+    (found,) = complaints(tmp_path, text)
+    assert (found.message, found.place.line) == ("`given` has no key `rolling`", 8)
+    assert found.help is not None and found.help.startswith("write `contacts`: bodies that touch a surface")

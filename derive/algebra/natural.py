@@ -1,0 +1,259 @@
+"""An expression written with natural quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
+
+A named quantity eliminates one symbol of its formula. Among all choices of quantities and symbols, the shortest form is
+kept. A form with fewer symbols counts as shorter: each symbol counts as much as two signs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+from typing import Any
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Function,
+    I,
+    Integer,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cancel,
+    cos,
+    factor_terms,
+    fraction,
+    igcd,
+    sin,
+    sqrt,
+    tan,
+    together,
+)
+from sympy import pi as _PI
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import Relation
+from derive.algebra.length import length
+from derive.algebra.ranges import Range, sign_within, within
+from derive.algebra.tidy import common_factor, tidied
+
+MOST_TOGETHER = 3  # quantities that one form may use
+SIGNS_OF_A_SYMBOL = 2  # the length of a symbol, compared with the length of a sign
+HALF = Rational(1, 2)
+LONGEST = 120  # a longer expression is left as it is
+INVERSES = {acos: cos, asin: sin, atan: tan}
+
+
+@dataclass(frozen=True)
+class Shortened:
+    """A shorter form of a value.
+
+    value    the form
+    used     the symbols of the quantities in it
+    nonzero  the factors by which an equation was divided
+    """
+
+    value: Any
+    used: tuple[Symbol, ...]
+    nonzero: tuple[Expr, ...] = ()
+
+
+def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
+    """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no form is
+    shorter than the value.
+
+    quantities   symbol -> its value in other symbols
+    kept         symbols that must not be eliminated, such as the coordinates
+    """
+    if not isinstance(value, Expr | Relation) or _size(value) > LONGEST:
+        return None
+    names = {_with_sign(name, known): name for name, known in quantities.items()}
+    near = {
+        dummy: quantities[name] for dummy, name in names.items() if quantities[name].free_symbols & value.free_symbols
+    }
+    best, least = None, _cost(value)
+    for some in _some_of(near):
+        chosen = {name: near[name] for name in some}
+        for known in _eliminations(chosen, kept):
+            form = _with(value, known, chosen)
+            cost = _cost(form.value)
+            if cost < least and _is_natural(form.value, chosen):
+                best, least = form, cost
+    return best and Shortened(best.value.xreplace(names), tuple(map(names.get, best.used)), best.nonzero)
+
+
+def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
+    """Whether a form is real and contains each quantity, and no sum has both a quantity and a symbol of its formula.
+
+    If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
+    """
+    if form.has(I) or not quantities.keys() <= form.free_symbols:
+        return False
+    sums = [{term.as_coeff_Mul()[1] for term in each.args} for each in form.atoms(Add)]
+    return not any(name in terms and terms & value.free_symbols for name, value in quantities.items() for terms in sums)
+
+
+def _with_sign(name: Symbol, value: Expr) -> Symbol:
+    """A symbol that is positive if the value is, or if the value is a square root; so the root of its square is the
+    symbol."""
+    return Dummy(name.name, positive=True) if is_positive(value) else Dummy(name.name, real=True)
+
+
+def is_positive(value: Expr) -> bool:
+    """Whether a value is positive wherever it is real and not zero."""
+    return sign_within(value) == 1 or value.is_Pow and value.exp == HALF
+
+
+def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
+    for count in range(1, MOST_TOGETHER + 1):
+        yield from combinations(names, count)
+
+
+def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
+    """Yield symbol -> its value in the names of the quantities, for each choice of one symbol for each quantity."""
+    choices = [list(_solutions(name, value, kept)) for name, value in quantities.items()]
+    for choice in product(*choices):
+        found = _solved_together(choice)
+        if found is not None:
+            yield found
+
+
+def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[tuple[Symbol, Expr]]:
+    """Yield each symbol of a formula with its value, if the equation name = formula has one solution for it."""
+    left, right = name, value
+    for sign in (1, -1):
+        if function := INVERSES.get(type(sign * value)):
+            left, right = function(sign * name), (sign * value).args[0]
+    for symbol in sorted(value.free_symbols - set(kept), key=str):
+        found = _solved(left, right, symbol)
+        if found is not None:
+            yield symbol, found
+
+
+def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
+    """Solve left = right for a symbol, if both sides, or their powers without roots, are linear in it or a power."""
+    order = _order_of_root(right, symbol)
+    above, below = fraction(together(cancel(right**order)))
+    try:
+        equation = Poly(above - left**order * below, symbol)
+    except PolynomialError:
+        return None
+    if equation.degree() < 1 or any(c.has(symbol) for c in equation.all_coeffs()):
+        return None
+    if equation.degree() == 1:
+        return cancel(-equation.nth(0) / equation.nth(1))
+    terms = {power for (power,) in equation.monoms()}
+    if terms == {0, equation.degree()} and symbol.is_positive:
+        return Pow(cancel(-equation.nth(0) / equation.LC()), Rational(1, equation.degree()))
+    return None
+
+
+def _order_of_root(value: Expr, symbol: Symbol) -> int:
+    """Return q if the value is a product with a q-th root that contains the symbol; otherwise 1."""
+    roots = {f.exp.q for f in Mul.make_args(value) if f.is_Pow and f.exp.is_Rational and f.has(symbol)} - {1}
+    return int(next(iter(roots))) if len(roots) == 1 else 1
+
+
+def _solved_together(choice: Sequence[tuple[Symbol, Expr]]) -> dict[Symbol, Expr] | None:
+    """Substitute the solutions in each other; None if a symbol then depends on itself."""
+    found: dict[Symbol, Expr] = {}
+    for symbol, value in choice:
+        value = value.subs(found)
+        if symbol in found or value.has(symbol):
+            return None
+        found = {other: known.subs(symbol, value) for other, known in found.items()} | {symbol: value}
+    gone = set(found)
+    return None if any(known.free_symbols & gone for known in found.values()) else found
+
+
+def _with(value: Any, known: Mapping[Symbol, Expr], quantities: Mapping[Symbol, Expr]) -> Shortened:
+    with within(_ranges(quantities)):
+        if isinstance(value, Relation):
+            return _relation(value, known, tuple(quantities))
+        return Shortened(_written(value, known), tuple(quantities))
+
+
+def compared(left: Expr, mark: str, right: Expr) -> Relation:
+    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
+    shared = common_factor([left, right])
+    if shared.is_positive:
+        left, right = tidied(left / shared), tidied(right / shared)
+    numbers = [side.as_coeff_Mul()[0] for side in (left, right)]
+    common = igcd(*(n.p for n in numbers)) if all(n.is_Integer for n in numbers) else 1
+    left, right = left / common, right / common
+    roots = [tidied(sqrt(side)) for side in (left, right)]
+    plain = all(root.is_rational_function() and root.is_positive for root in roots)
+    return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
+
+
+def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol, ...]) -> Shortened:
+    """Rewrite both sides, term by term; divide an equation with zero on the right by the positive symbols that all
+    terms on the left have in common."""
+    left, right = (Add(*(_written(term, known) for term in Add.make_args(side))) for side in (value.left, value.right))
+    if value.operator != "=" and left != 0 and right != 0:
+        return Shortened(compared(left, value.operator, right), used)
+    if value.operator != "=" or right != 0:
+        return Shortened(Relation(left, value.operator, right), used)
+    front = [f for f in Mul.make_args(factor_terms(left)) if f.is_positive and (f.is_Symbol or f.is_Pow)]
+    divided = Add(*(term / Mul(*front) for term in Add.make_args(left)))
+    return Shortened(Relation(divided, "=", Integer(0)), used, tuple(front))
+
+
+def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:
+    """Substitute, and bring to lowest terms what is under a root or in a function.
+
+    A sum is written term by term, unless this gives more terms. Any other value has its tidy form, or its own form if
+    that is shorter.
+    """
+    if not value.free_symbols & known.keys():
+        return value
+    kept = value.subs(known).replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
+    kept = kept.replace(lambda part: isinstance(part, Function), lambda part: part.func(*map(tidied, part.args)))
+    by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
+    if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
+        return by_terms
+    return min((kept, tidied(kept)), key=_cost)
+
+
+def _is_root(value: Expr) -> bool:
+    return value.is_Pow and value.exp.is_Rational and not value.exp.is_Integer and value.base.is_Add | value.base.is_Mul
+
+
+def _ranges(quantities: Mapping[Symbol, Expr]) -> dict[Symbol, Range]:
+    """The ranges of angles that are given by an inverse function."""
+    found = {}
+    for name, value in quantities.items():
+        if isinstance(value, acos):
+            found[name] = Range(Integer(0), _PI)
+        elif isinstance(-value, acos):
+            found[name] = Range(-_PI, Integer(0))
+        elif isinstance(value, asin | atan):
+            found[name] = Range(-_PI / 2, _PI / 2)
+    return found
+
+
+def _size(value: Any) -> int:
+    sides = (value.left, value.right) if isinstance(value, Relation) else (value,)
+    return sum(length(side.replace(lambda part: part.is_Mul, _under_one_root)) for side in sides)
+
+
+def _under_one_root(value: Expr) -> Expr:
+    """Write the square roots of a product as one root, which a page also does."""
+    roots = [f for f in value.args if f.is_Pow and f.exp in (HALF, -HALF)]
+    if len(roots) < 2:
+        return value
+    inside = Mul(*(f.base ** (2 * f.exp) for f in roots))
+    return Mul(*(f for f in value.args if f not in roots), Pow(inside, HALF, evaluate=False), evaluate=False)
+
+
+def _cost(value: Any) -> tuple[int, int]:
+    """The length with its symbols; of two forms with the same length, the one with fewer symbols is preferred."""
+    symbols = len(value.free_symbols)
+    return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

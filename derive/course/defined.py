@@ -1,0 +1,63 @@
+"""The key `define:` of a problem: quantities with a formula, such as `omega_0: sqrt(k/m)`, that results may use."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+
+from sympy import Expr, Symbol
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.natural import is_positive
+from derive.algebra.ranges import within
+from derive.course.declared import check_name
+from derive.course.expression import Declared, read_expression
+from derive.course.yaml_tree import Formula, Word
+from derive.errors import Faults, rejected
+
+NO_QUANTITIES = "none"  # `define: none`: results keep the letters of the problem
+
+
+@dataclass(frozen=True)
+class Defined(Declared):
+    """A defined quantity: its formula, in the declared letters and in quantities that are defined before it."""
+
+    formula: Expr = field(kw_only=True)
+    of_dimension: Dimension = field(kw_only=True)
+
+    @property
+    def dimension(self) -> Dimension:
+        return self.of_dimension
+
+
+def read_defined(
+    written: Mapping[Word, Formula], letters: Mapping[str, Declared], moving: Collection[str], faults: Faults
+) -> tuple[Defined, ...]:
+    """Return the defined quantities in the order of the file.
+
+    letters  the declared letters, which a formula may contain
+    moving   coordinates and other functions of the time, which a formula must not contain
+    """
+    found: dict[str, Defined] = {}
+    ranges = {letter.symbol: letter.lies for letter in letters.values() if letter.lies}
+    for word, formula in written.items():
+        with faults, within(ranges):
+            found[str(word)] = _defined(word, formula, {**letters, **found}, moving, faults)
+    return tuple(found.values())
+
+
+def _defined(
+    word: Word, formula: Formula, known: Mapping[str, Declared], moving: Collection[str], faults: Faults
+) -> Defined:
+    check_name(word, faults)
+    name = str(word)
+    if name in known or name in moving:
+        message = f"`{name}` already has a meaning in this problem, so it cannot be defined"
+        rejected("letter-clash", message, word.place, "choose another letter")
+    constant = {each: letter for each, letter in known.items() if each not in moving}
+    value, dimension = read_expression(formula.scalar, constant)
+    if not value.free_symbols:
+        message = f"`{name}` would be the number {value}, so it replaces no letters"
+        rejected("wrong-argument", message, formula.place, "define it by letters, as in `omega_0: sqrt(k/m)`")
+    symbol = Symbol(name, real=True, positive=True) if is_positive(value) else Symbol(name, real=True)
+    return Defined(name, symbol, "number", formula=value, of_dimension=dimension)

@@ -1,0 +1,183 @@
+"""Where a round body touches a surface: the place, the distance of the body from the surface, and the unit normal."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, pi, sin, tan
+
+from derive.algebra.expressions import Relation, stand_in
+from derive.algebra.relation import sides_without_minus
+from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected, Spelled, Unverified
+from derive.mechanics.bodies.boundary import Hollowed, Round
+from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.model.surfaces import Curve, Plane, Surface, column_of, direction_between, dot
+from derive.steps.record import assume, coordinates_in
+from derive.steps.signs import sign_for_all, sign_known
+from derive.steps.step import is_zero
+
+ZERO = Integer(0)
+SAMPLES = 4  # sets of values for which the lowest point of a body is checked
+EXACT = 1e-9
+
+
+def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Location]:
+    """Return the place where a round body touches a surface, its distance from the surface, and the unit normal."""
+    if surface.is_two_sided:
+        message = "a round body touches a plane, a curve, a circle or a sphere, but not a rail"
+        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
+    if isinstance(surface, Curve):
+        foot = _foot(placed, surface)
+        _assume_that_it_fits(placed, surface, foot)
+        return foot, ZERO, surface.normal(foot)
+    hub = placed.hub
+    away = surface.normal(hub)
+    if _has_rims(placed):
+        place, gap = lowest(placed, surface)
+        _check_lowest(placed, surface, place, gap)
+    else:
+        place, gap = hub - radius_of(placed) * away, surface.distance(hub) - radius_of(placed)
+    return Location(tuple(tidied(c) for c in place.components)), tidied(gap), away
+
+
+def _foot(placed: PlacedBody, curve: Curve) -> Location:
+    """Return the place where a round body touches a curve: the place whose normal passes through the centre of the
+    body, at the distance of the radius. The horizontal distance of this place must be a coordinate."""
+    radius = radius_of(placed)
+    for q in coordinates_in(column_of(placed.hub)):
+        foot = curve.point(q)
+        if is_zero(column_of(placed.hub - foot - radius * curve.normal(foot))):
+            return foot
+    message = f"the coordinates do not keep {placed.body.name} on the curve, so the point where it touches is unknown"
+    help_line = (
+        "let a coordinate x be the horizontal distance of the point of contact: the centre is at "
+        "[x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]"
+    )
+    raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
+    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve."""
+    bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
+    room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
+    if sign_for_all(room) != 1:
+        factors = (factor for factor in Mul.make_args(room) if not factor.is_positive)
+        more, less = sides_without_minus(Mul(*factors))
+        assume(Relation(more, ">", less))
+
+
+def _has_rims(placed: PlacedBody) -> bool:
+    """Whether a body that moves in space is a disc, a hoop, a cylinder or a cone: the convex hull of two circles."""
+    outline = _outline(placed)
+    return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
+
+
+def _outline(placed: PlacedBody) -> Round | None:
+    """Return the outer boundary of a body, if it is round."""
+    boundary = placed.body.boundary
+    outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
+    return outer if isinstance(outer, Round) else None
+
+
+def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
+    """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
+
+    The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
+    its lowest point has the length of the radius; it is opposite to the component of the normal along the rim.
+    """
+    if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
+        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
+    axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
+    along = n - dot(n, axis) * axis
+    if is_zero(ImmutableDenseMatrix(along.components)):
+        message = f"{placed.body.name} lies flat on the plane, so the point where it touches the plane is unknown"
+        raise Rejected(Complaint("no-contact", message, help="give a point of the body"))
+    way = direction_between(Location((ZERO, ZERO, ZERO)), along)
+    rims = []
+    for z, radius in _rims(placed):
+        centre = placed.place_of((ZERO, ZERO, z))
+        rims.append((centre - radius * way, surface.distance(centre) - radius * dot(n, way)))
+    return rims[0] if len(rims) == 1 else _lower(placed, *rims)
+
+
+def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
+    """Return the height along the axis and the radius of each rim; the tangent of an angle becomes a fraction, so that
+    sums are shorter."""
+    outline = _outline(placed)
+    assert outline is not None
+    radii = {z: outline.radius_at(z).replace(tan, lambda angle: sin(angle) / cos(angle)) for z in outline.ends}
+    return list(radii.items())
+
+
+def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
+    """Check that the place of contact is on a rim of the body; and numerically, for several values of the symbols, that
+    no place on a rim is nearer to the plane."""
+    u = stand_in("u_rim")
+    rims = [(z, radius, _own(placed, ZERO, ZERO, z)) for z, radius in _rims(placed)]
+    axis = _own(placed, ZERO, ZERO, Integer(1)) - _own(placed, ZERO, ZERO, ZERO)
+    arms = [(place - centre, radius) for _, radius, centre in rims]
+    is_on_rim = any(is_zero(dot(arm, arm) - radius**2) and is_zero(dot(arm, axis)) for arm, radius in arms)
+    above = [plane.distance(_own(placed, radius * cos(u), radius * sin(u), z)) - gap for z, radius, _ in rims]
+    letters = set[Expr]().union(*map(letters_of, above)) - {u}
+    heights = [height.xreplace({u: k * pi / 12}) for height in above for k in range(24)]
+    trials = islice(points(letters, seed_of(gap)), SAMPLES)
+    if not is_on_rim or any(height.xreplace(dict(at)).evalf() < -EXACT for at in trials for height in heights):
+        raise Unverified(Complaint("unverified", "the place of a contact is not the lowest point of the body"))
+
+
+def _own(placed: PlacedBody, *own: Expr) -> Location:
+    """Return the place of a point that has these components along the axes of the body."""
+    return placed.at + placed.seen_in_space(ImmutableDenseMatrix(own) - placed.point.position)
+
+
+def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location, Expr]) -> tuple[Location, Expr]:
+    """Return the lower of the lowest points of two rims; each point has its distance from the plane.
+
+    A body that touches the plane along the line between the two points must be held at one of them; then it does not
+    slip anywhere on the line if it does not slip at the other point.
+    """
+    sign = sign_known(one[1] - other[1])
+    if sign is None:
+        message = f"it is unknown which end of {placed.body.name} touches the plane"
+        help_line = "give the inclination of its axis a range, such as `theta: angle in (0, pi/2)`, or a point"
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    if sign:
+        return one if sign < 0 else other
+    for held, free in ((one, other), (other, one)):
+        if placed.is_held and is_zero(ImmutableDenseMatrix((held[0] - placed.at).components)):
+            return free
+    message = f"{placed.body.name} touches the plane along a line, so its forces act at no single point"
+    raise Rejected(Complaint("no-contact", message, help="hold an end of this line, such as the apex of a cone"))
+
+
+def radius_of(placed: PlacedBody) -> Expr:
+    """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
+    radius = _round_radius(placed)
+    if radius is None:
+        message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
+        help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    return radius
+
+
+def has_radius(placed: PlacedBody) -> bool:
+    """Whether a body is round in the plane of motion, or a ball in space."""
+    return _round_radius(placed) is not None
+
+
+def _round_radius(placed: PlacedBody) -> Expr | None:
+    if placed.rim is not None:
+        return placed.rim[1]
+    outer = _outline(placed)
+    if outer is None or placed.across not in (2, None):
+        return None
+    z = Symbol("z_along", real=True)
+    middle = (outer.ends[0] + outer.ends[1]) / 2
+    radius = outer.radius_at(middle)
+    is_widest = is_zero(outer.radius_at(z).diff(z).subs(z, middle))
+    is_ball = is_zero(outer.radius_at(z) ** 2 + (z - middle) ** 2 - radius**2)
+    return radius if is_ball or is_widest and placed.across == 2 else None

@@ -1,0 +1,97 @@
+"""The usual constants of an oscillator a q_ddot + b q_dot + c q = f(t), in which its motion is short.
+
+A motion proposes them. A step is made only for a constant that a result contains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from typing import Any
+
+from sympy import Expr, Symbol, sqrt
+
+from derive.algebra.tidy import tidied
+from derive.mechanics.vibrations import claims
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.level import Manner
+from derive.steps.natural import NamesValue, Proposal
+from derive.steps.record import free_letter, given_letters, result_called
+from derive.steps.rule import Rule, Shown
+from derive.steps.signs import sign_known
+from derive.steps.step import Quantity, same_value
+
+OSCILLATOR_CONSTANT = Rule(
+    "vibrations.oscillator_constant",
+    source="Taylor, *Classical Mechanics*, section 5.4",
+    outcomes={
+        "decay_rate": claims.is_decay_rate,
+        "without_damping": claims.is_frequency_without_damping,
+        "with_damping": claims.is_frequency_with_damping,
+    },
+    shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+)
+
+
+def oscillator_constants(equation: Quantity, a: Expr, b: Expr, c: Expr) -> Iterator[Proposal]:
+    """Propose beta = b/(2 a), omega_0 = sqrt(c/a) and, with damping, omega_1 = sqrt(omega_0^2 - beta^2), in 1/s.
+
+    equation   the equation of motion whose coefficients are a, b and c
+    """
+    if sign_known(a) != 1 or sign_known(c) != 1 or sign_known(b) not in (0, 1):
+        return
+    coefficients = {"equation": equation, "a": a, "b": b, "c": c}
+    frequency = _proposed("omega_0", "without_damping", lambda a, b, c: sqrt(c / a), coefficients)
+    if frequency is None:
+        return
+    if b != 0 and (rate := _proposed("beta", "decay_rate", lambda a, b, c: b / (2 * a), coefficients)) is not None:
+        yield rate
+        slower = _proposed(
+            "omega_1", "with_damping", lambda a, b, c: sqrt(c / a - b**2 / (4 * a**2)), coefficients, (frequency, rate)
+        )
+        if slower is not None:
+            yield slower
+    yield frequency
+
+
+def _proposed(
+    name: str,
+    outcome: str,
+    law: Callable[[Expr, Expr, Expr], Expr],
+    coefficients: Mapping[str, Any],
+    others: tuple[Proposal, ...] = (),
+) -> Proposal | None:
+    """Propose a constant, or an earlier result with the same symbol and value; None if the symbol is not free or would
+    only rename another symbol."""
+    value = tidied(law(*(coefficients[each] for each in "abc")))
+    name = free_letter(name)
+    known = result_called(name)
+    if known is not None:
+        return Proposal(known.symbol, known.value, lambda: known) if same_value(known.value, value) else None
+    if name in given_letters() or value.is_Atom:
+        return None
+    symbol = Symbol(name, real=True, positive=True)
+    return Proposal(symbol, value, partial(_constant, symbol, value, outcome, coefficients, others))
+
+
+def _constant(
+    symbol: Symbol, value: Expr, outcome: str, coefficients: Mapping[str, Any], others: tuple[Proposal, ...]
+) -> Quantity:
+    """A constant of the oscillator, by the coefficients of its equation, or by omega_0 and beta: a definition.
+
+    Outcomes: decay_rate, without_damping, with_damping.
+    Source: Taylor, *Classical Mechanics*, section 5.4.
+    """
+    inputs = {each.symbol.name: each.make() for each in others}
+    return establish(
+        OSCILLATOR_CONSTANT,
+        symbol,
+        (lambda omega_0, beta: sqrt(omega_0**2 - beta**2)) if inputs else lambda: value,
+        inputs,
+        key=symbol.name,
+        lines=Lines(put_in=None, result=False),
+        outcome=outcome,
+        phrase_data=PhraseData(outcome_data={each: coefficients[each] for each in "abc"}),
+        parents=[coefficients["equation"]],
+        facts=[NamesValue()],
+    )

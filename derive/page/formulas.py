@@ -1,0 +1,174 @@
+"""The formulas in an author's prose: read in the letters of the problem, so that letters and dimensions are checked.
+
+A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. A formula
+that cannot be read is printed if it has only commands that may be quoted, and its author is warned.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from sympy import Integer, MatrixSymbol, Symbol, oo
+
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.expressions import AXES, TIME, scalar
+from derive.algebra.kinds import named
+from derive.course.expression import Declared
+from derive.course.problem import Problem
+from derive.course.prose import TexFormula
+from derive.course.transcript import Transcript
+from derive.errors import Complaint, Rejected
+from derive.page.wording import Math, Text
+
+if TYPE_CHECKING:
+    from derive.course.latex import ReadMath, Side
+
+_WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
+_VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
+_LETTER = re.compile(
+    r"(\\d*dot|(?P<arrow>\\(vec|overrightarrow|boldsymbol|bm|mathbf)))?[{ ]*(\\[A-Za-z]+|[A-Za-z])\}?"
+    r"(_(\w|\\[A-Za-z]+|\{[\w, ]+\}|\{\\[a-z]+(\{\w+\})?\}))?\}?"
+)
+
+
+@dataclass(frozen=True)
+class _Derived(Declared):
+    """A symbol that the steps introduce; its dimension is known, and perhaps no kind has it."""
+
+    derived: Dimension = NUMBER
+
+    @property
+    def dimension(self) -> Dimension:
+        return self.derived
+
+
+class Formulas:
+    """Reads the formulas of one page and collects their errors and warnings.
+
+    known   the dimensions of all symbols of the page; None for a symbol whose dimension is unknown
+    """
+
+    def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None]):
+        self.letters = _letters(problem, known)
+        self.unknown = {symbol for symbol, dimension in known.items() if dimension is None}
+        self.scalars = {*known, *(letter.symbol for letter in problem.letters)}
+        self.vectors = {name.name: name for name in known if isinstance(name, MatrixSymbol)}
+        self.numbers = {measured.symbol: measured for measured in problem.measured}
+        self.faults: dict[Complaint, None] = {}
+        self.warnings: dict[Complaint, None] = {}
+
+    def node(self, formula: TexFormula) -> Math | Text:
+        """Return the formula for the page; after an error, its characters."""
+        from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
+
+        try:
+            read = self._read(formula)
+        except Rejected as error:
+            is_printable = self._complain(formula, error.complaints)
+            return Math(Transcript(quoted_formula(formula.tex))) if is_printable else Text(formula.tex)
+        values = [value for side in read.sides for entries in side.branches for value, _ in entries]
+        if len(values) == 1 and isinstance(values[0], Symbol) and (lone := _LETTER.fullmatch(formula.tex)):
+            return Math(self._letter(values[0], bool(lone["arrow"])))
+        letters = {letter.name for value in values for letter in value.free_symbols}
+        vectors = [vector for name, vector in self.vectors.items() if name in letters]
+        return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
+
+    def _letter(self, symbol: Symbol, is_vector: bool) -> Any:
+        """Return a lone letter as the page prints it; the vector of that name if it is written as a vector, or if no
+        scalar has the name."""
+        vector = self.vectors.get(symbol.name)
+        return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
+
+    def _read(self, formula: TexFormula) -> ReadMath:
+        from derive.course.latex import read_latex
+        from derive.course.latex.quoting import Unquotable, quoted_formula
+
+        try:
+            read = read_latex(formula.scalar, self.letters, in_prose=True)
+        except Rejected as error:
+            if not self.unknown or error.complaints[0].code != "dimension":
+                raise
+            read = read_latex(formula.scalar, self.letters, in_prose=True, homogeneous=False)
+            if not self._has_unknown(read):
+                raise
+        else:
+            for (left, right), mark in zip(pairwise(read.sides), read.marks[1:], strict=True):
+                if not self._has_unknown(read):
+                    _compare(left, right)
+                self._check_number(left, right, mark)
+        try:
+            quoted_formula(formula.scalar.text)
+        except Unquotable as error:
+            raise Rejected(_unquotable(formula, error)) from None
+        return read
+
+    def _check_number(self, left: Side, right: Side, mark: str) -> None:
+        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives another number for m."""
+        one, other = left.branches[0][0][0], right.branches[0][0][0]
+        if mark == "=" and one in self.numbers and other.is_number and other != self.numbers[one].si:
+            known = self.numbers[one]
+            message = f"`{left.text}` is {known.number} {known.unit}".rstrip() + f", so it is not `{right.text}`"
+            help_line = f"write `<<{one.name}>>`, which is printed with its number"
+            raise Rejected(Complaint("wrong-number", message, right.place, (), help_line))
+
+    def _has_unknown(self, read: ReadMath) -> bool:
+        entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
+        return any(self.unknown & value.free_symbols for value in entries)
+
+    def _complain(self, formula: TexFormula, reasons: tuple[Complaint, ...]) -> bool:
+        """Record errors, or a warning that the formula is printed without being checked; return whether it is
+        printed."""
+        from derive.course.latex.quoting import Unquotable, quoted_formula
+
+        wrong = [each for each in reasons if each.code in _WRONG]
+        first = reasons[0]
+        if wrong:
+            self.faults.update(dict.fromkeys(wrong))
+            return False
+        try:
+            quoted_formula(formula.scalar.text)
+        except Unquotable as error:
+            refused = first if first.code != "latex" or "not known" in first.message else _unquotable(formula, error)
+            self.faults[replace(refused, code="formula-in-prose")] = None
+            return False
+        message = f"this formula is printed, but its letters and dimensions are not checked: {first.message}"
+        help_line = first.help if first.code == "ambiguous" else None
+        self.warnings[Complaint("unread-formula", message, first.place, (), help_line, severity="warning")] = None
+        return True
+
+
+def _unquotable(formula: TexFormula, error: Any) -> Complaint:
+    message = str(error).replace("be quoted", "be printed")
+    return Complaint("formula-in-prose", message, formula.scalar.place_within(error.at))
+
+
+def _compare(left: Side, right: Side) -> None:
+    """Reject two sides of a chain that differ in shape or in dimension; zero and infinity fit every dimension."""
+    if left.shape != right.shape:
+        message = f"`{left.text}` and `{right.text}` are not both scalars, or not both vectors or matrices of one size"
+        raise Rejected(Complaint("dimension", message, right.place))
+    for mine, others in zip(left.branches[0], right.branches[0], strict=True):
+        (one, dimension), (other, its_dimension) = mine, others
+        if dimension != its_dimension and not {one, other} & {Integer(0), oo, -oo}:
+            message = f"`{left.text}` is {named(dimension)}, but `{right.text}` is {named(its_dimension)}"
+            raise Rejected(Complaint("dimension", f"{message}: they cannot be compared", right.place))
+
+
+def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
+    """Return the letters that a formula may have: those of the problem, axes, time, and the symbols of its steps."""
+    found: dict[str, Declared] = {axis: Declared(axis, scalar(axis), "length") for axis in AXES}
+    found[TIME.name] = Declared(TIME.name, TIME, "time")
+    for vector in (symbol for symbol in known if isinstance(symbol, MatrixSymbol)):
+        found[vector.name] = _derived(Symbol(vector.name, real=True), known[vector])
+    found.update({symbol.name: _derived(symbol, known[symbol]) for symbol in known if isinstance(symbol, Symbol)})
+    found.update({each.name: each for each in problem.letters})
+    variants = {f"var{name}": found[name] for name in found if name.partition("_")[0] in _VARIANTS}
+    return {**variants, **found}
+
+
+def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:
+    return _Derived(symbol.name, symbol, "", derived=dimension or NUMBER)

@@ -1,0 +1,123 @@
+"""A line that writes the result of a step with the symbols of other quantities, if this is shorter.
+
+Three kinds of quantities are used: those that the problem defines under `define:`, those that a verb proposes because
+they are usual in its field, such as beta = b/(2 m), and results of earlier steps on which the step depends, such as the
+radius r_0 of a circular orbit. The line is compared with the line before it like every line of a chain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.algebra.equality import equal
+from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
+from derive.algebra.natural import Shortened, shortened
+from derive.steps import record
+from derive.steps.level import Level
+from derive.steps.step import NUMBERS, ONLY_ABOUT, Fact, Form, Quantity
+
+NATURAL = "natural"  # the reason of a line that is written with the symbols of other quantities
+
+
+@dataclass(frozen=True)
+class NamesValue(Fact):
+    """Marks a quantity whose symbol may replace its value in the results of later steps."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A quantity of the field that a verb proposes; it becomes a step only if it makes a result shorter.
+
+    symbol  its usual symbol
+    value   its value in the symbols of the problem
+    make    returns the quantity
+    """
+
+    symbol: Symbol
+    value: Expr
+    make: Callable[[], Quantity]
+
+
+class NaturalQuantities:
+    """The quantities in which one step may write its result and the conditions of its sentence.
+
+    used   the quantities that the step uses
+    """
+
+    def __init__(self, symbol: Any, result: Any, inputs: Sequence[Quantity], proposals: Sequence[Proposal]):
+        constants, states = [], []
+        if record.may_use_quantities():
+            constants = [*proposals, *_named(record.defined_quantities())]
+            states = list(_named(_ancestors(inputs)))
+        self._constants = _by_symbol(constants, symbol, result)
+        self._known = {**_by_symbol(states, symbol, result), **self._constants}
+        self.used: list[Quantity] = []
+
+    def chain(self, chain: Sequence[Form], result: Any) -> list[Form]:
+        """Return the chain, with a line in natural quantities if this line is shorter than the result."""
+        last = next((i for i in reversed(range(len(chain))) if chain[i].because not in NUMBERS), None)
+        found = None if last is None or chain[last].because in ONLY_ABOUT else self._shortened(result, self._known)
+        if last is None or found is None:
+            return list(chain)
+        before = chain[last] if found.nonzero else replace(chain[last], level=Level.FULL)
+        return [*chain[:last], before, Form(found.value, NATURAL, nonzero=found.nonzero), *chain[last + 1 :]]
+
+    def formulas(self, formulas: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
+        """Return role -> the formula of a sentence in defined and proposed quantities, where this is shorter.
+
+        A condition for a state must not contain the symbols of this state.
+        """
+        found = {role: self._shortened(formula, self._constants) for role, (formula, _) in formulas.items()}
+        return {role: short.value for role, short in found.items() if short is not None}
+
+    def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
+        """Return the shortest form of a value or a condition; None for a value that is to remain in the given letters,
+        such as an energy: a formula of the coordinates that is neither an equation nor a motion."""
+        moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
+        is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
+        if not known or not (is_value or isinstance(value, Relation)):
+            return None
+        kept = {TIME, *moving}
+        found = shortened(value, {name: each.value for name, each in known.items()}, kept)
+        if found is None:
+            return None
+        names = [name for name in found.used if name in found.value.free_symbols]
+        values = {name: known[name].value for name in names}
+        if not equal(value, explicit(bound(found.value, values)), found.nonzero):
+            return None
+        self.used += [made for name in names if (made := known[name].make()) not in self.used]
+        return found
+
+
+def _by_symbol(proposals: Sequence[Proposal], symbol: Any, result: Any) -> dict[Symbol, Proposal]:
+    """Return symbol -> proposal, without the result itself."""
+    return {each.symbol: each for each in proposals if each.symbol != symbol and each.value != result}
+
+
+def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
+    """The quantities and their ancestors whose symbols may replace their values."""
+    ancestors = (each for quantity in quantities for each in quantity.ancestors())
+    return (quantity for quantity in ancestors if quantity.fact(NamesValue))
+
+
+def _named(quantities: Iterable[Quantity]) -> Iterator[Proposal]:
+    for quantity in quantities:
+        for symbol, value in _named_values(quantity):
+            if isinstance(symbol, Symbol) and isinstance(value, Expr) and value.free_symbols:
+                yield Proposal(symbol, value, partial(_itself, quantity))
+
+
+def _itself(quantity: Quantity) -> Quantity:
+    return quantity
+
+
+def _named_values(quantity: Quantity) -> list[tuple[Any, Any]]:
+    """Symbol and value; for several results of one step, such as (r_0, theta_0), each symbol with its value."""
+    symbol, value = quantity.symbol, explicit(quantity.value)
+    is_list = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
+    return list(zip(symbol, value, strict=True)) if is_list else [(symbol, value)]

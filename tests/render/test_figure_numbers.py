@@ -1,0 +1,10 @@
+"""Figures of several problems on a page: one series of numbers."""
+
+from __future__ import annotations
+
+from derive.render.printing.figure_numbers import figure_number, numbered_in_a_row
+
+
+def test_figures_are_numbered_in_a_row_and_references_with_them() -> None:
+    first = f"<p>see {figure_number(2)}</p> {figure_number(1)} {figure_number(2)}"
+    assert numbered_in_a_row([first, "none", figure_number(1)]) == ["<p>see 2</p> 1 2", "none", "3"]

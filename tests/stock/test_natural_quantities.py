@@ -1,0 +1,84 @@
+"""Results in natural quantities: `define:`, and the letters of an equilibrium."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sympy import Expr, Symbol
+
+from derive.algebra.natural import Shortened
+from derive.building.solution import rendered
+from derive.steps import natural
+from tests.courses import ROOT
+from tests.stock.described import complaints, course_with, edited, solved
+
+DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
+PLANET = (ROOT / "problems" / "library" / "central" / "kepler.yaml").read_text(encoding="utf-8")
+
+
+def defined(formulas: str) -> str:
+    without = "\n".join(line for line in DAMPED.splitlines() if not line.startswith("define:"))
+    return edited(without, ("\ngiven:", f"\ndefine: {formulas}\ngiven:"))
+
+
+def last_line(folder: Path, text: str, key: str) -> str:
+    return str(solved(folder, text)[key].step.result)
+
+
+def test_a_radial_frequency_is_the_rate_of_the_orbit(tmp_path: Path) -> None:
+    step = solved(tmp_path, PLANET)["frequency"]
+    assert str(step.step.result) == "l/(m*r_0**2)"
+    assert {str(s) for s in step.value.free_symbols} == {"G", "M", "m", "l"}  # later steps use the given letters
+
+
+def test_with_none_the_letters_of_the_problem_remain(tmp_path: Path) -> None:
+    text = edited(PLANET, ("\ngiven:", "\ndefine: none\ngiven:"))
+    assert last_line(tmp_path, text, "frequency") == "G**2*M**2*m**3/l**3"
+
+
+def test_a_motion_is_written_in_defined_quantities(tmp_path: Path) -> None:
+    text = defined("{beta: b/(2*m), omega_0: sqrt(k/m), omega_1: sqrt(omega_0**2 - beta**2)}")
+    found = solved(tmp_path, text)
+    assert {str(s) for s in found["weak"].step.result.free_symbols} == {"x_0", "beta", "omega_1", "t"}
+    assert {str(s) for s in found["strong"].step.result.free_symbols} == {"x_0", "beta", "omega_0", "t"}
+    assert dict(found["weak"].step.roles)["condition"].left == Symbol("beta", real=True, positive=True)
+    assert str(found["omega_1"].step.result) == "sqrt(-beta**2 + omega_0**2)"
+
+
+def test_a_wrong_form_is_not_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = natural.shortened
+
+    def doubled(value: Any, *others: Any) -> Shortened | None:
+        found = right(value, *others)
+        return found if found is None or not isinstance(value, Expr) else Shortened(2 * found.value, found.used)
+
+    assert last_line(tmp_path, PLANET, "frequency") == "l/(m*r_0**2)"
+    monkeypatch.setattr(natural, "shortened", doubled)
+    assert last_line(tmp_path, PLANET, "frequency") == "G**2*M**2*m**3/l**3"
+
+
+@pytest.mark.parametrize(
+    ("formulas", "code", "said"),
+    [
+        ("{k: b**2/m}", "letter-clash", "`k` already has a meaning"),
+        ("{x: b/m}", "letter-clash", "`x` already has a meaning"),
+        ("{beta: 1/2}", "wrong-argument", "would be the number 1/2"),
+        ("{beta: c/(2*m)}", "undeclared-symbol", "`c`"),
+        ("{beta: x/2}", "undeclared-symbol", "`x`"),
+        ("{beta: b + m}", "dimension", "cannot be added"),
+        ("{sin: b/m}", "symbol", "`sin` has a meaning of its own"),
+        ("none of it", "wrong-type", "`define` must be a mapping"),
+        ("", "missing-value", ""),
+    ],
+)
+def test_a_mistake_is_reported(tmp_path: Path, formulas: str, code: str, said: str) -> None:
+    found = complaints(tmp_path, defined(formulas))
+    assert any(each.code == code and said in each.message for each in found), found
+
+
+def test_a_quantity_that_shortens_nothing_is_a_warning(tmp_path: Path) -> None:
+    found = rendered(course_with(tmp_path, defined("{eta: x_0/a}")), "trial/one", only={"text"})
+    (warning,) = (each for each in found.warnings if each.code == "unused-definition")
+    assert warning.place is not None and "`eta`" in warning.message and warning.place.text.startswith("define:")

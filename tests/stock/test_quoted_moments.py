@@ -1,0 +1,49 @@
+"""Standard moments of inertia: quoted on the page, but derived and checked like every result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.building.solution import rendered
+from derive.errors import DeriveError
+from derive.mechanics.rotation import claims
+from derive.mechanics.rotation.inertia import STANDARD
+from tests.courses import ROOT
+from tests.stock.described import complaints, course_with, edited, solved
+
+DISC = (ROOT / "problems" / "library" / "rolling" / "disc_incline.yaml").read_text(encoding="utf-8")
+CONE = (ROOT / "problems" / "library" / "rolling" / "rolling_cone.yaml").read_text(encoding="utf-8")
+DERIVED = edited(DISC, ("shape: disc", "derive: true, shape: disc"))
+
+
+def page(folder: Path, text: str) -> str:
+    return rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"]
+
+
+def test_a_page_quotes_the_moment_of_a_disc(tmp_path: Path) -> None:
+    text = page(tmp_path, DISC)
+    assert "The moment of inertia of a uniform disc about its axis is" in text and "∫" not in text and "σ" not in text
+    evidence = {each.claim for each in solved(tmp_path, DISC)["moment_of_inertia"].step.evidence}
+    assert "particles" in evidence
+
+
+def test_an_author_can_ask_for_the_integral(tmp_path: Path) -> None:
+    text = page(tmp_path, DERIVED)
+    assert "∫" in text and "where σ = M/(π R²)" in text
+
+
+def test_a_wrong_entry_of_the_table_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(claims._TABLE, "disc_about_its_axis", lambda radius: radius**2)  # that of a hoop
+    with pytest.raises(DeriveError, match="could not be confirmed"):
+        solved(tmp_path, DISC)
+
+
+def test_each_standard_moment_is_in_the_table() -> None:
+    assert set(STANDARD.values()) == set(claims._TABLE)
+
+
+def test_the_key_has_an_effect_only_on_a_standard_shape(tmp_path: Path) -> None:
+    text = edited(CONE, ("shape: cone", "derive: true, shape: cone"))
+    assert any("`derive` has no effect" in each.message for each in complaints(tmp_path, text))
