@@ -79,6 +79,20 @@ def _level(node: Tree, name: str, faults: Faults) -> Level | None:
     return Level(word) if word else None
 
 
+def _method(node: Tree, name: str, faults: Faults) -> Word | None:
+    word = _METHODS.read(node, name, faults)
+    return Word.at(word, node.place) if word else None
+
+
+LAGRANGE, NEWTON, ENERGY, ANGULAR_MOMENTUM, BOTH = METHODS = (
+    "lagrange",
+    "newton",
+    "energy",
+    "angular_momentum",
+    "both",
+)
+_METHODS = one_of(METHODS)
+METHOD = Reader(_METHODS.schema, _method)
 _LEVELS = one_of(tuple(Level))
 DETAIL = Reader(_LEVELS.schema, _level, lambda: Level.BRIEF)
 POINTS = Reader({"type": "number", "minimum": 0, "maximum": 9999.5, "multipleOf": 0.5}, _points)
@@ -142,6 +156,7 @@ class Question(Record):
     rubric: dict[Word, Fraction] = key(
         "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )
+    method: Word | None = key("the method of this part, in place of that of the problem", METHOD)
     cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
 
     def form_of(self, answer: str) -> AnswerForm:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.algebra.kinds import KINDS
-from derive.course.parts import PARTS, POINTS, Question, points_in_all
+from derive.course.parts import METHOD, PARTS, POINTS, Question, points_in_all
 from derive.course.problem_set import mapping_in, path_of
 from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose
 from derive.course.schema import (
@@ -221,6 +221,11 @@ class ProblemKeys(Record):
     )
     strategy: Prose | None = key(
         "one or two sentences at the head of the solution: the method, and the reason for it", PROSE
+    )
+    method: Word | None = key(
+        "the way to the equations of motion of a `system`: `lagrange` (default), `newton`, `energy`, "
+        "`angular_momentum`, or `both` for Newton's laws and Lagrange's equations",
+        METHOD,
     )
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
