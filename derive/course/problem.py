@@ -71,6 +71,7 @@ class Problem:
     strategy: Prose | None = None
     note: Prose | None = None
     limits: tuple[LimitKeys, ...] = ()
+    observations: tuple[Word, ...] | None = None
     reference: str = ""
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
@@ -205,6 +206,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         strategy=written.strategy,
         note=written.note,
         limits=written.limits,
+        observations=written.observations,
         reference=as_text(written.reference),
         warnings=warnings,
     )

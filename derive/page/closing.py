@@ -48,7 +48,7 @@ def limiting_cases(
     numbers        numbers of the equations on the page; the caller adds numbers between two sentences
     """
     own = {key for keys in derivation.closing for key in keys}
-    shown = {key for keys in derivation.parts for key in keys} | own
+    shown = {key for keys in (*derivation.parts, *derivation.observed) for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these steps
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:  # the result does not depend on the symbols of this case

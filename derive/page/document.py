@@ -231,9 +231,16 @@ class _Writer:
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
         for value in filter(None, map(self.values.get, self.problem.keys_in_cases(part, [s.key for s in answers]))):
             self._append(blocks, value, framed=True)
+        blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, ends, steps)
         return PartPage(label, self._told(part.ask.pieces), part.points, placed, part.extra)
+
+    def _observed(self, index: int) -> tuple[Inline, ...]:
+        """Return the observations about the answers of a part, as one paragraph."""
+        keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
+        said = [self._phrase(self.derivation.step(key)) for key in keys]
+        return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
