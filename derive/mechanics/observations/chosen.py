@@ -2,12 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from itertools import islice
 
-from derive.mechanics.observations.frequencies import exact, modes, one_frequency, orbit, pendulum
+from derive.mechanics.observations.comparisons import (
+    circling,
+    familiar,
+    multiple,
+    order,
+    polhode,
+    reduced,
+    unaffected,
+)
+from derive.mechanics.observations.dependence import (
+    angle,
+    anywhere,
+    balanced,
+    branches,
+    independent,
+    one_sign,
+    resonance,
+    zero_of,
+)
+from derive.mechanics.observations.frequencies import exact, longer, modes, one_frequency, orbit, pair, pendulum
 from derive.mechanics.observations.view import View
+from derive.errors import Rejected, Unverified
 from derive.steps.step import Quantity
 
 MOST = 2  # observations of a problem, unless the author chooses
@@ -30,9 +50,26 @@ class Observation:
 OBSERVATIONS = (
     Observation("orbit", orbit),
     Observation("exact", exact, at_end=True),
+    Observation("branches", branches),
+    Observation("anywhere", anywhere),
+    Observation("one_sign", one_sign),
+    Observation("balanced", balanced),
+    Observation("order", order),
+    Observation("reduced", reduced),
+    Observation("polhode", polhode),
+    Observation("circling", circling),
+    Observation("angle", angle),
     Observation("pendulum", pendulum),
-    Observation("modes", modes),
+    Observation("pair", pair),
+    Observation("longer", longer),
+    Observation("resonance", resonance),
+    Observation("unaffected", unaffected),
+    Observation("familiar", familiar),
+    Observation("independent", independent, at_end=True),
+    Observation("multiple", multiple),
     Observation("one_frequency", one_frequency),
+    Observation("modes", modes),
+    Observation("zero", zero_of),
 )
 NAMES = tuple(each.name for each in OBSERVATIONS)
 
@@ -42,12 +79,19 @@ def best(views: Sequence[View], most: int = MOST) -> list[list[Quantity]]:
     found: list[list[Quantity]] = [[] for _ in views]
     for kind in OBSERVATIONS:
         places = range(len(views))
-        first = next(((i, q) for i in (reversed(places) if kind.at_end else places) for q in kind.found(views[i])), None)
+        tried = reversed(places) if kind.at_end else places
+        first = next(((i, q) for i in tried for q in confirmed(kind, views[i])), None)
         if first is not None:
             found[first[0]].append(first[1])
         if sum(map(len, found)) == most:
             break
     return found
+
+
+def confirmed(kind: Observation, view: View) -> Iterator[Quantity]:
+    """Yield the observations of a kind, up to the first one that its predicate does not confirm."""
+    with suppress(Unverified, Rejected):
+        yield from kind.found(view)
 
 
 def of_kinds(view: View, names: Collection[str]) -> dict[str, list[Quantity]]:

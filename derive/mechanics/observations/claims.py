@@ -6,11 +6,13 @@ They compute numbers at trial points: of the answer, and of the first line of it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, minimal_polynomial, pi, sqrt
+from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, minimal_polynomial, nan, pi, sin, sqrt
 
-from derive.algebra.expressions import Relation, bound, explicit, rate
+from derive.algebra.expressions import Amount, Relation, bound, explicit, rate
+from derive.algebra.swing import half_swing
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.steps.rule import Judged, Naming, Predicate
 from derive.steps.step import Quantity
@@ -31,10 +33,10 @@ def same(one: Expr, other: Expr) -> bool:
     return bool(abs(one - other) <= CLOSE * (abs(one) + abs(other)))
 
 
-def numbers(values: Iterable[Any], *more: Any) -> list[Point]:
+def numbers(values: Iterable[Any], *more: Any, tried: int = 12) -> list[Point]:
     """Return trial points for all symbols of these values."""
     letters = {s for value in (*values, *more) for s in letters_of(explicit(value))}
-    return trial_points(letters, *assumptions_about(letters))
+    return trial_points(letters, *assumptions_about(letters), tried=tried)
 
 
 def for_each_form(quantity: Quantity, is_so: Callable[[Expr, Point], bool | None], *others: Any) -> bool:
@@ -144,11 +146,12 @@ def closes_for(ratio: int) -> Naming:
     return is_so
 
 
-def rate_on_the_circle(facts: Judged, told: Relation) -> bool:
+def rate_on_the_circle(facts: Judged, told: Any) -> bool:
     """Whether the rate in letters, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in named_values(q))
-    value, rate = explicit(bound(told.right, names)), facts.inputs["orbital_rate"]
-    return everywhere(numbers([value, rate]), lambda point: same(value_at(value, point), value_at(rate, point)))
+    letters = told.right if isinstance(told, Relation) else told
+    value, there = explicit(bound(letters, names)), facts.inputs["orbital_rate"]
+    return everywhere(numbers([value, there]), lambda point: same(value_at(value, point), value_at(there, point)))
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
@@ -163,6 +166,17 @@ def ratio_of_modes(rational: bool) -> Predicate:
             return same(value_at(line, point), ratio.evalf(30) * value_at(slow.value, point))
 
         return (degree == 1) == rational and for_each_form(fast, agrees, slow.value)
+
+    return is_so
+
+
+def is_ratio_of(above: str, below: str) -> Naming:
+    """Judge an equation whose left side is the ratio of two answers and whose right side is the result."""
+
+    def is_so(facts: Judged, told: Relation) -> bool:
+        ratio = explicit(told.left)
+        symbols = [facts.quantities[role].symbol for role in (above, below)]
+        return bool(ratio == symbols[0] / symbols[1]) and told.right == facts.result
 
     return is_so
 
@@ -235,3 +249,362 @@ def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
         and len(left.as_ordered_terms()) == 2
         and everywhere(numbers([stiffness, square]), lambda p: same(value_at(stiffness, p), value_at(square, p)))
     )
+
+
+# --- dependence ---
+
+
+def _may_vary(letter: Symbol, point: Point) -> Point:
+    """Return a point at which only this symbol is different."""
+    return {**point, letter: point[letter] * Rational(8, 7)}
+
+
+def is_free_of(facts: Judged, letter: Symbol) -> bool:
+    """Whether the answer has the same value for other values of the symbol, but some equation behind it does not."""
+    of = facts.quantities["of"]
+    value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
+    points = numbers([value, letter])
+    unchanged = everywhere(points, lambda p: same(value_at(value, p), value_at(value, _may_vary(letter, p))))
+    behind = [form.expr for role, q in facts.quantities.items() if role != "of" for form in q.step.chain]
+    return unchanged and any(_depends_on(letter, line) for line in behind if isinstance(line, Expr | Relation))
+
+
+def _depends_on(letter: Symbol, value: Any) -> bool:
+    """Whether a value, or the difference of the sides of an equation, changes with the symbol."""
+    inner = explicit(value.residual if isinstance(value, Relation) else value)
+    if letter not in inner.free_symbols:
+        return False
+    return not everywhere(numbers([inner]), lambda p: same(value_at(inner, p), value_at(inner, _may_vary(letter, p))))
+
+
+def only_shifts_the_equilibrium(facts: Judged) -> bool:
+    """Whether the gravitational acceleration changes the equilibrium position, but not the frequency or period."""
+    return is_free_of(facts, facts.inputs["g"]) and _depends_on(facts.inputs["g"], facts.quantities["rest"].value)
+
+
+def is_pure_angle(facts: Judged, angle: Expr) -> bool:
+    """Whether the stated angle is a number that satisfies the condition."""
+    of = facts.quantities["of"]
+    left, right = of.value.sides if isinstance(of.value, Relation) else (of.symbol, of.value)
+    (moving,) = left.free_symbols
+    number = value_at(left.xreplace({moving: angle}), {})
+    return not explicit(right).free_symbols and same(number, value_at(explicit(right), {}))
+
+
+def is_rounded(facts: Judged, told: Amount) -> bool:
+    """Whether the number of degrees differs from the angle by less than half a unit of the last place."""
+    number = value_at(told.args[0].args[0], {})
+    return bool(abs(value_at(facts.inputs["angle"], {}) * 180 / pi - number).evalf(30) < Rational(1, 20))
+
+
+def vanishes_there(sign_changes: bool, role: str = "place") -> Predicate:
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, with or without change of sign."""
+
+    def is_so(facts: Judged) -> bool:
+        of, place = facts.quantities["of"], facts.inputs[role]
+
+        def at(line: Expr, point: Point) -> bool:
+            there = value_at(explicit(place.right), point)
+            little = abs(there) / 10**6 + (Rational(1, 10**6) if there == 0 else 0)
+            at_place, before, after = (
+                value_at(line, {**point, place.left: there + k * little}) for k in (0, -1, 1)
+            )
+            scale = value_at(line, point)
+            is_zero = abs(at_place) <= CLOSE * (abs(scale) + abs(before))
+            return bool(is_zero and (before * after < 0) == sign_changes and before != 0 and after != 0)
+
+        value = explicit(of.value)
+        return everywhere(numbers([value, place.right]), lambda point: at(value, point))
+
+    return is_so
+
+
+def grows_without_bound_there(facts: Judged) -> bool:
+    """Whether the amplitude exceeds every bound near the stated value of the symbol, where the free oscillation has the
+    same angular frequency."""
+    of, place, square = facts.quantities["of"], facts.inputs["place"], facts.inputs["square"]
+
+    def is_so(point: Point) -> bool:
+        there = value_at(explicit(place.right), point)
+        far, near = (abs(value_at(explicit(of.value), {**point, place.left: there * (1 + e)})) for e in (CLOSE, CLOSE**2))
+        return bool(near > 10**9 * far) and same(there**2, value_at(square, point))
+
+    return everywhere(numbers([explicit(of.value), place.right, square]), is_so)
+
+
+def branches_off(facts: Judged) -> bool:
+    """Whether an equilibrium is stable just where the others do not exist, and the others are stable where they exist.
+
+    Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
+    than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
+    other equilibria is positive.
+    """
+    curvature, cosine, border, beside = (facts.inputs[role] for role in ("curvature", "cosine", "border", "beside"))
+
+    def is_so(point: Point) -> bool:
+        there = value_at(explicit(border.right), point)
+        below, above = ({**point, border.left: there * (1 + e)} for e in (-Rational(1, 100), Rational(1, 100)))
+        stable = value_at(curvature, below) > 0 > value_at(curvature, above)
+        exist = value_at(cosine, below) > 1 > value_at(cosine, above) > 0
+        return bool(stable and exist and value_at(beside, above) > 0)
+
+    return everywhere(numbers([curvature, cosine, beside, border.right]), is_so)
+
+
+def is_this_multiple(facts: Judged) -> bool:
+    """Whether the first answer is this multiple of the second one, a number other than 1 and -1."""
+    of, other = (explicit(facts.quantities[role].value) for role in ("of", "other"))
+    ratio = facts.result
+    agrees = everywhere(numbers([of, other]), lambda p: same(value_at(of, p), ratio * value_at(other, p)))
+    return agrees and bool(ratio.is_Rational) and abs(ratio) > 1
+
+
+def are_in_order(facts: Judged) -> bool:
+    """Whether the first of several values is the greatest and the last one the least, by the stated ratio."""
+    roles = sorted(role for role in facts.quantities if role.startswith("case_"))
+    values = [explicit(facts.quantities[role].value) for role in roles]
+
+    def is_so(point: Point) -> bool:
+        found = [value_at(value, point) for value in values]
+        falling = all(one > other for one, other in pairwise(found))
+        return bool(falling) and same(found[0], facts.result * found[-1])
+
+    return len(values) > 1 and everywhere(numbers(values), is_so)
+
+
+def first_to_arrive(facts: Judged) -> bool:
+    """Whether the accelerations are in order and constant, so that of two bodies released together from rest the one
+    with the greater acceleration arrives first."""
+    moving = {s for q in facts.quantities.values() for each in q.coordinates for s in (each, rate(each))}
+    return are_in_order(facts) and not any(
+        explicit(q.value).free_symbols & moving for q in facts.quantities.values()
+    )
+
+
+def is_case_of_the_last(facts: Judged, told: Any) -> bool:
+    last = max((role for role in facts.quantities if role.startswith("case_")), key=lambda role: int(role[5:]))
+    return is_case_of(last)(facts, told)
+
+
+def is_in_both(facts: Judged, letter: Symbol) -> bool:
+    """Whether both answers depend on the symbol."""
+    return all(_depends_on(letter, facts.quantities[role].value) for role in ("of", "other"))
+
+
+def is_case_of(role: str) -> Naming:
+    """Judge whether a stated special value was substituted in the step with this role."""
+    return lambda facts, told: told in dict(facts.quantities[role].step.roles).values()
+
+
+def is_fraction_of_the_familiar(facts: Judged) -> bool:
+    """Whether the size of the acceleration is this fraction of the familiar one, and does not depend on other symbols."""
+    of, familiar = explicit(facts.quantities["of"].value), facts.inputs["familiar"]
+    part = facts.result
+    agrees = everywhere(numbers([of, familiar]), lambda p: same(abs(value_at(of, p)), part * abs(value_at(familiar, p))))
+    return agrees and bool(part.is_Rational) and 0 < part < 1
+
+
+def free_fall(facts: Judged) -> bool:
+    return is_fraction_of_the_familiar(facts) and facts.inputs["familiar"] == facts.inputs["g"]
+
+
+def slides_freely(facts: Judged) -> bool:
+    """Whether the familiar acceleration is g sin(alpha)."""
+    familiar, g, alpha = (facts.inputs[role] for role in ("familiar", "g", "alpha"))
+    return is_fraction_of_the_familiar(facts) and familiar == g * sin(alpha)
+
+
+def keeps_the_spring(facts: Judged) -> bool:
+    """Whether the energy of the springs with this constant does not change to second order along the mode.
+
+    The stiffness that belongs to the constant is the difference of the stiffness for two values of the constant.
+    """
+    letter, shape = facts.inputs["letter"], explicit(facts.quantities["shape"].value)
+    stiffness = facts.inputs["stiffness"]
+
+    def is_so(point: Point) -> bool:
+        more = {**point, letter: 2 * point[letter]}
+        size = range(stiffness.shape[0])
+        terms = [
+            value_at(shape[i], point) * value_at(shape[j], point)
+            * (value_at(stiffness[i, j], more) - value_at(stiffness[i, j], point))
+            for i in size
+            for j in size
+        ]
+        return bool(abs(sum(terms)) <= CLOSE * sum(map(abs, terms)) and any(t != 0 for t in terms))
+
+    return everywhere(numbers([*stiffness, *shape, letter]), is_so)
+
+
+def stays_at_rest(facts: Judged) -> bool:
+    """Whether the mode does not move the coordinate whose equation contains this mass."""
+    letter, shape = facts.inputs["letter"], explicit(facts.quantities["shape"].value)
+    mass, at = facts.inputs["mass"], int(facts.inputs["at"])
+
+    def is_so(point: Point) -> bool:
+        more = {**point, letter: 2 * point[letter]}
+        size = range(mass.shape[0])
+        changed = [
+            (i, j) for i in size for j in size if not same(value_at(mass[i, j], more), value_at(mass[i, j], point))
+        ]
+        return changed == [(at, at)] and value_at(shape[at], point) == 0
+
+    return everywhere(numbers([*mass, *shape, letter]), is_so)
+
+
+def circles(facts: Judged) -> bool:
+    """Whether the acceleration is the velocity turned by a right angle, multiplied by a constant rate.
+
+    The squared speed then does not change, and the direction of the velocity turns at the constant rate.
+    """
+    rate_, (u, v) = facts.result, facts.inputs["rates"]
+    along, across = (explicit(facts.quantities[role].value) for role in ("of", "other"))
+
+    def is_so(point: Point) -> bool:
+        ax, ay, x, y = (value_at(each, point) for each in (along, across, u, v))
+        turning = x * ay - y * ax
+        return bool(abs(x * ax + y * ay) <= CLOSE * (abs(x * ax) + abs(y * ay))) and same(
+            abs(turning), abs(value_at(rate_, point)) * (x**2 + y**2)
+        )
+
+    return everywhere(numbers([along, across, rate_, u, v]), is_so)
+
+
+def is_reduced_mass(facts: Judged) -> bool:
+    """Whether the coefficient of the acceleration in both equations is m with 1/m = 1/m_1 + 1/m_2."""
+    mass, (one, other) = facts.result, facts.inputs["masses"]
+    equations = [facts.quantities[role].value.residual for role in ("of", "other")]
+    accelerations = facts.inputs["accelerations"]
+
+    def is_so(point: Point) -> bool:
+        m = value_at(mass, point)
+        told = same(1 / m, 1 / value_at(one, point) + 1 / value_at(other, point))
+        return told and all(
+            same(_slope(explicit(equation), a, point), m) for equation, a in zip(equations, accelerations, strict=True)
+        )
+
+    return everywhere(numbers([*equations, mass]), is_so)
+
+
+def _slope(value: Expr, letter: Symbol, point: Point) -> Expr:
+    """Return the coefficient of a symbol in a linear expression, from two values."""
+    return value_at(value, {**point, letter: Integer(1)}) - value_at(value, {**point, letter: Integer(0)})
+
+
+def stays_on_both_surfaces(facts: Judged) -> bool:
+    """Whether T and |L|^2 do not change to first order in a short time, with the rates from Euler's equations."""
+    spins, euler = facts.inputs["spins"], facts.inputs["euler"]
+    values = [explicit(facts.quantities[role].value) for role in ("energy", "square")]
+    h = Rational(1, 10**12)
+
+    def is_so(point: Point) -> bool:
+        rates = [
+            -value_at(explicit(q.value.residual), {**point, rate(w): Integer(0)}) / _slope(explicit(q.value.residual), rate(w), point)
+            for q, w in zip(euler, spins, strict=True)
+        ]
+        moved = [{**point, **{w: point[w] + s * h * v for w, v in zip(spins, rates, strict=True)}} for s in (1, -1)]
+        change = [abs(value_at(value, moved[0]) - value_at(value, moved[1])) for value in values]
+        sizes = [abs(value_at(value, point)) for value in values]
+        return any(v != 0 for v in rates) and all(c < 10**3 * h**2 * n for c, n in zip(change, sizes, strict=True))
+
+    return everywhere(numbers([*values, *(q.value.residual for q in euler)]), is_so)
+
+
+def _with_momentum(facts: Judged, value: Expr, point: Point) -> Expr:
+    components = [explicit(each) for each in facts.quantities["momentum"].value]
+    known = {s: value_at(each, point) for s, each in zip(facts.inputs["names"], components, strict=True)}
+    return value_at(explicit(value), {**point, **known})
+
+
+def is_the_energy_in_momenta(facts: Judged, told: Relation) -> bool:
+    """Whether the left side, with the components of L substituted, is the kinetic energy."""
+    energy = facts.quantities["energy"]
+    points = numbers([energy.value, *facts.quantities["momentum"].value])
+    return told.right == energy.symbol and everywhere(
+        points, lambda p: same(_with_momentum(facts, told.left, p), value_at(explicit(energy.value), p))
+    )
+
+
+def is_the_squared_length(facts: Judged, told: Relation) -> bool:
+    """Whether the left side, with the components of L substituted, is the squared magnitude of L."""
+    square = facts.quantities["square"]
+    points = numbers([square.value, *facts.quantities["momentum"].value])
+    return told.right == square.symbol and everywhere(
+        points, lambda p: same(_with_momentum(facts, told.left, p), value_at(explicit(square.value), p))
+    )
+
+
+# --- places where something holds for every position ---
+
+
+def holds_everywhere(facts: Judged) -> bool:
+    """Whether the condition of equilibrium holds at every position for the stated value, and only there for this value."""
+    place, condition = facts.inputs["place"], explicit(facts.quantities["of"].value.residual)
+
+    def is_so(point: Point) -> bool:
+        there = value_at(explicit(place.right), point)
+        number, beside = (value_at(condition, {**point, place.left: v}) for v in (there, there * 2))
+        return bool(abs(number) <= CLOSE * abs(beside) and beside != 0)
+
+    return everywhere(numbers([condition, place.right]), is_so)
+
+
+def has_one_sign(facts: Judged) -> bool:
+    """Whether the sign of the force is the same for all values of the coordinate, but not for all given values."""
+    of, q = explicit(facts.quantities["of"].value), facts.inputs["q"]
+    seen = set()
+
+    def is_so(point: Point) -> bool:
+        found = {value_at(of, {**point, q: point[q] * k}) > 0 for k in (Rational(1, 50), -3, 1, 40)}
+        seen.update(found)
+        return len(found) == 1
+
+    return everywhere(numbers([of]), is_so) and seen == {True, False}
+
+
+def balances(facts: Judged) -> bool:
+    """Whether all components of the torque vanish for the stated angles, and at no other angle of the range."""
+    torque = [explicit(each) for each in facts.quantities["of"].value]
+    angle = facts.inputs["angle"]
+    told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
+
+    def is_so(point: Point) -> bool:
+        def size(at: Expr) -> Expr:
+            return max(abs(value_at(each, {**point, angle: at})) for each in torque)
+
+        largest = max(size(Rational(k, 37)) for k in range(1, 37))
+        others = [pi * Rational(2 * k + 1, 80) for k in range(20)]
+        return bool(
+            all(size(each) <= CLOSE * largest for each in told) and all(size(each) > largest / 10**4 for each in others)
+        )
+
+    return everywhere(numbers(torque, tried=3), is_so)
+
+
+def have_this_sum_and_product(facts: Judged) -> bool:
+    """Whether two frequencies have the stated sum and the stated product."""
+    of, other = (facts.quantities[role] for role in ("of", "other"))
+    added, multiplied = (facts.inputs[role].right for role in ("sum", "product"))
+
+    def is_so(line: Expr, point: Point) -> bool:
+        one, two = value_at(line, point), value_at(explicit(other.value), point)
+        return same(one + two, value_at(added, point)) and same(one * two, value_at(multiplied, point))
+
+    return for_each_form(of, is_so, explicit(other.value), added, multiplied)
+
+
+def longer_by(facts: Judged, told: Expr) -> bool:
+    """Whether the integral for the period at the stated amplitude exceeds its value at a very small amplitude by this
+    percentage, to the figures that are shown."""
+    f, q, letter, _ = facts.inputs["swing"].args
+    letters = letters_of(explicit(f)) - {q, letter}
+
+    def time(point: Point, at: Expr) -> Expr:
+        found = half_swing(explicit(f).xreplace({**point, letter: at}), q, at, 20)
+        return found / 2 if found is not None else nan
+
+    def is_so(point: Point) -> bool:
+        percent = 100 * (time(point, facts.inputs["amplitude"].right.doit()) / time(point, Rational(1, 10**3)) - 1)
+        return bool(abs(percent - told.args[0]) < Rational(1, 20))
+
+    return everywhere(trial_points(letters, tried=3), is_so)

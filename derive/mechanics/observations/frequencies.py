@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Integer, Symbol, cos, pi, sin, sqrt, sqrtdenest
+from sympy import Add, Expr, Integer, Pow, Symbol, cos, expand, pi, powsimp, sin, sqrt, sqrtdenest
 
-from derive.algebra.expressions import TIME, Factors, Relation, Terms, explicit, rate
+from derive.algebra.expressions import TIME, Amount, Factors, Ratio, Relation, Terms, explicit, rate
+from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.observations import claims
@@ -17,6 +18,7 @@ from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData, establish
+from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, Rule
 from derive.steps.signs import sign_for_all
@@ -46,7 +48,7 @@ def pendulum(view: View) -> Iterator[Quantity]:
     for of in view.values("angular speed", "time"):
         seen = _seen(of)
         square = _squared(of) if seen else None
-        for g in view.of_kind("acceleration") if square is not None else ():
+        for g in view.gravity if square is not None else ():
             yield from _pendulum_of(view, of, square, g, seen)
 
 
@@ -55,7 +57,8 @@ def _seen(of: Quantity) -> str:
         return "period"
     if of.step.rule in OSCILLATES and of.step.outcome not in ("growing", "free", "unstable", "neutral"):
         return "frequency"
-    return "rate" if of.step.rule == ROOTS and sign_for_all(of.value) == 1 else ""
+    is_rate = of.step.rule == ROOTS and not of.value.could_extract_minus_sign() and not is_zero(of.value)
+    return "rate" if is_rate else ""
 
 
 def _squared(of: Quantity) -> Expr:
@@ -155,11 +158,11 @@ def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, dict[str, Quantity]]
     for each in view.shown:
         if each.step.rule == ROOTS and each.step.kind == "angular speed" and sign_for_all(each.value) == 1:
             if any(parent.step.rule == STEADY for parent in each.parents):
-                yield explicit(each.value), Relation(each.symbol, "=", each.symbol), {"radius": each}
+                yield explicit(each.value), each.symbol, {"radius": each}
 
 
 def _orbit_of(of: Quantity, there: Expr, on_circle: Relation, parents: dict[str, Quantity]) -> Iterator[Quantity]:
-    square = tidied(explicit(of.value) ** 2 / there**2)
+    square = tidied(powsimp(tidied(explicit(of.value) ** 2 / there**2)))
     ratio = sqrt(square)
     outcome = {1: "one", 2: "two"}.get(ratio, "letters")
     if ratio.is_number and outcome == "letters":
@@ -198,6 +201,7 @@ MODES = Rule(
     source="Taylor, *Classical Mechanics*, chapter 11",
     outcomes={"rational": claims.ratio_of_modes(True), "irrational": claims.ratio_of_modes(False)},
     evidence={"squares": CHECK},
+    named={"ratio": claims.is_ratio_of("fast", "slow")},
 )
 
 
@@ -211,6 +215,7 @@ def modes(view: View) -> Iterator[Quantity]:
         return
     slow, fast, square = (odd or numbers)[0]
     ratio = sqrtdenest(sqrt(square))
+    told = Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)
     yield establish(
         MODES,
         None,
@@ -219,6 +224,7 @@ def modes(view: View) -> Iterator[Quantity]:
         routes={"squares": lambda r: (r**2 * explicit(slow.value) ** 2, explicit(fast.value) ** 2)},
         outcome="irrational" if odd else "rational",
         lines=ONE_LINE,
+        phrase_data=PhraseData(named={"ratio": told}),
         scope=OF_ANY_SUBJECT,
         key=f"{fast.key}_and_{slow.key}",
     )
@@ -233,7 +239,10 @@ ONE_FREQUENCY = Rule(
 
 
 def one_frequency(view: View) -> Iterator[Quantity]:
-    """One frequency of all motions: each orbit is an ellipse."""
+    """One frequency of all motions of a particle: each orbit is an ellipse."""
+    speeds = [q for q in view.shown if q.step.rule == "lagrange.squared_speed"]
+    if len(speeds) != 1 or not is_zero(explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))):
+        return
     for of in view.values("angular speed"):
         linear = next((each.fact(Linear) for each in of.ancestors() if each.fact(Linear) is not None), None)
         if of.step.outcome == "oscillating_repeated" and linear is not None and of.needed(Mode).root.times > 1:
@@ -326,3 +335,84 @@ def _path(
     if size.has(q):
         return None
     return Symbol(free_letter("s"), real=True), sqrt(2 * size) * sin(turned / 2), mass
+
+
+PAIR = Rule(
+    "observations.pair",
+    source="Brown, Gabrielse, *Reviews of Modern Physics* 58, 233 (1986)",
+    outcomes={"generic": claims.have_this_sum_and_product},
+    evidence={"square": CHECK},
+    named={"sum": lambda facts, told: True, "product": lambda facts, told: True},
+)
+
+
+def pair(view: View) -> Iterator[Quantity]:
+    """Sum and product of two frequencies, if these are simpler than the frequencies."""
+    found = [q for q in view.values("angular speed") if q.step.rule == "vibrations.gyroscopic_frequency"]
+    for one, other in pairwise(found):
+        added = tidied(explicit(one.value) + explicit(other.value))
+        multiplied = tidied(expand(explicit(one.value) * explicit(other.value)))
+        if not one.value.atoms(Pow) or added.has(sqrt(2).func) and any(not p.exp.is_Integer for p in added.atoms(Pow)):
+            continue
+        if any(not p.exp.is_Integer for p in one.value.atoms(Pow)):
+            yield establish(
+                PAIR,
+                None,
+                lambda *_, added=added: added,
+                {"of": one, "other": other},
+                routes={
+                    "square": lambda s, one=one, other=other, product=multiplied: (
+                        s**2 - 4 * product,
+                        expand((explicit(other.value) - explicit(one.value)) ** 2),
+                    )
+                },
+                lines=ONE_LINE,
+                phrase_data=PhraseData(
+                    named={
+                        "sum": Relation(Terms(one.symbol, other.symbol), "=", added),
+                        "product": Relation(Factors(one.symbol, other.symbol), "=", multiplied),
+                    }
+                ),
+                scope=OF_ANY_SUBJECT,
+                key=f"{one.key}_and_{other.key}",
+            )
+
+
+LONGER = Rule(
+    "observations.longer",
+    source="Taylor, *Classical Mechanics*, problem 4.38",
+    outcomes={"generic": lambda facts: True},
+    evidence={"series": CHECK},
+    named={"percent": claims.longer_by, "amplitude": lambda facts, told: told == Relation(facts.inputs["letter"], "=", AT)},
+)
+AT = Amount(Integer(30), "degree", pi / 180)
+
+
+def longer(view: View) -> Iterator[Quantity]:
+    """Size of the correction to the period for an amplitude of 30 degrees."""
+    for of in view.answers:
+        whole, value = of.fact(WholeSwing), explicit(of.value)
+        letter = whole.time.args[2] if whole is not None else None
+        if not isinstance(letter, Symbol) or letter not in value.free_symbols or view.letters.get(letter) != "angle":
+            continue
+        part = tidied(value / value.xreplace({letter: Integer(0)}))
+        if part.free_symbols != {letter}:
+            continue
+        excess = 100 * (part.xreplace({letter: explicit(AT)}) - 1)
+        yield establish(
+            LONGER,
+            None,
+            lambda *_, excess=excess: excess,
+            {"letter": letter},
+            routes={"series": lambda e, value=value, letter=letter: (
+                (1 + e / 100) * value.xreplace({letter: Integer(0)}), value.xreplace({letter: explicit(AT)})
+            )},
+            lines=ONE_LINE,
+            phrase_data=PhraseData(
+                named={"percent": rounded_form(excess, 2), "amplitude": Relation(letter, "=", AT)},
+                outcome_data={"swing": whole.time},
+            ),
+            parents=[q for q in of.parents],
+            scope=OF_ANY_SUBJECT,
+            key=f"{of.key}_longer",
+        )

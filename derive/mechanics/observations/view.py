@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import explicit
+from derive.mechanics.lagrange.facts import Energies
 from derive.steps.establish import Lines, Scope
 from derive.steps.step import Quantity
 from derive.steps.subject import EVERYTHING
 
 ONE_LINE = Lines(put_in=None, result=False, arranged=explicit)
 OF_ANY_SUBJECT = Scope(differ=EVERYTHING)
-FREQUENCIES = ("angular speed",)
 
 
 @dataclass(frozen=True)
@@ -27,11 +27,13 @@ class View:
 
     answers   the answers of the part
     shown     all steps of the page up to the end of this part
+    page      all steps of the page
     letters   the given symbols of the problem, with their kinds
     """
 
     answers: tuple[Quantity, ...]
     shown: tuple[Quantity, ...]
+    page: tuple[Quantity, ...]
     letters: Mapping[Symbol, str]
 
     def of_kind(self, kind: str) -> list[Symbol]:
@@ -46,10 +48,10 @@ class View:
                 yield each
 
     @property
-    def equations(self) -> list[Quantity]:
-        """Return the equations on the page that are not solved for a symbol."""
-        found = [each for each in self.shown if isinstance(each.value, Relation) and each.value.operator == "="]
-        return [each for each in found if not isinstance(each.value.left, Symbol)]
+    def gravity(self) -> list[Symbol]:
+        """Return the given accelerations that do not describe a motion: they are not in a kinetic energy."""
+        kinetic = [q.needed(Energies).kinetic for q in self.shown if q.fact(Energies) is not None]
+        return [g for g in self.of_kind("acceleration") if all(g not in explicit(q.value).free_symbols for q in kinetic)]
 
 
 def simple(value: Expr, most: int = 8) -> bool:

@@ -65,10 +65,11 @@ def _check_found(names: Sequence[Word], parts: Sequence[Mapping[str, Sequence[Qu
 
 def _views(problem: Problem, known: Mapping[str, Quantity], asked: Sequence[Sequence[str]]) -> list[View]:
     letters = {declared.symbol: declared.kind for declared in problem.symbols.values()}
+    page = tuple(with_ancestors(known[key] for keys in asked for key in keys).values())
     views = []
     shown: dict[str, Quantity] = {}
     for keys in asked:
         answers = tuple(known[key] for key in keys)
         shown |= with_ancestors(answers)
-        views.append(View(answers, tuple(shown.values()), letters))
+        views.append(View(answers, tuple(shown.values()), page, letters))
     return views
