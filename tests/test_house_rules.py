@@ -149,6 +149,7 @@ CHAPTERS = (
     "vibrations",
     "answers",
     "impacts",
+    "observations",
 )
 
 

@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: one sentence for each case; only vectors and tensors are displayed."""
+"""The limiting and special cases at the end of a page: one sentence for each case; only vectors and tensors are displayed."""
 
 from __future__ import annotations
 
@@ -32,6 +32,15 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
             message = f"this case is left out: `{of}` does not depend on {on}"
             found.append(Complaint("unused-limit", message, given.places[""], severity="warning"))
     return found
+
+
+def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
+    """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value."""
+    shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
+    special = [bool(given.where) for given in shown if not given.step]
+    if not special or not any(special):
+        return "limits"
+    return "special_cases" if len(special) == len(shown) and all(special) else "special_and_limits"
 
 
 def limiting_cases(

@@ -26,7 +26,7 @@ from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
-from derive.page.closing import limiting_cases, limits_left_out
+from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, letters_not_drawn
 from derive.page.introduced import references_in, wanting
@@ -251,7 +251,8 @@ class _Writer:
                 self.before = each
             else:
                 blocks.append(Paragraph(each))
-        return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
+        title = self.words.labels[sort_of_cases(self.problem, self.derivation)]
+        return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """Return the steps of a part that are framed: its answers, but not a formula whose number is framed instead."""

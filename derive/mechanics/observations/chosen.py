@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
+from derive.errors import Rejected, Unverified
 from derive.mechanics.observations.comparisons import (
     circling,
     familiar,
@@ -27,7 +28,6 @@ from derive.mechanics.observations.dependence import (
 )
 from derive.mechanics.observations.frequencies import exact, longer, modes, one_frequency, orbit, pair, pendulum
 from derive.mechanics.observations.view import View
-from derive.errors import Rejected, Unverified
 from derive.steps.step import Quantity
 
 MOST = 2  # observations of a problem, unless the author chooses

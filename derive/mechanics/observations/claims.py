@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, minimal_polynomial, nan, pi, sin, sqrt
+from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, cos, minimal_polynomial, nan, pi, sin, sqrt
 
 from derive.algebra.expressions import Amount, Relation, bound, explicit, rate
-from derive.algebra.swing import half_swing
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
+from derive.algebra.swing import half_swing
 from derive.steps.rule import Judged, Naming, Predicate
 from derive.steps.step import Quantity
-from derive.steps.trial_numbers import Point, assumptions_about, everywhere, real_at, trial_points
+from derive.steps.trial_numbers import Point, assumptions_about, everywhere, trial_points
 
 CLOSE = Rational(1, 10**15)
 
@@ -62,8 +62,6 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
 # --- frequencies ---
 
 
-
-
 # --- frequencies ---
 
 
@@ -72,24 +70,34 @@ def squared_rate(facts: Judged, number: Expr) -> Expr:
     return 4 * pi**2 / number**2 if facts.words["seen"] == "period" else number**2
 
 
-def swings_like_a_pendulum(facts: Judged, length: Expr) -> bool:
-    """Whether omega^2 l = g, and the length has no gravity in it, or is the value of a symbol of the page."""
-    of, g = facts.quantities["of"], facts.inputs["g"]
-    found = facts.inputs.get("equal", length)
-    if "equal" not in facts.inputs and g in found.free_symbols or isinstance(found, Symbol) and found == length == g:
-        return False
+def swings_like_a_pendulum(facts: Judged) -> bool:
+    """Whether omega^2 l = g for the result l."""
+    of, length, g = facts.quantities["of"], facts.result, facts.inputs["g"]
 
     def is_so(line: Expr, point: Point) -> bool:
-        return same(squared_rate(facts, value_at(line, point)).evalf(30) * value_at(found, point), value_at(g, point))
+        square = squared_rate(facts, value_at(line, point)).evalf(30)
+        return same(square * value_at(length, point), value_at(g, point))
 
-    return for_each_form(of, is_so, found, g)
+    return for_each_form(of, is_so, length, g)
 
 
-def is_value_of_a_symbol(facts: Judged, found: Expr) -> bool:
-    """Whether the length in letters is the value of the symbol that the sentence names."""
+def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
+    """Whether the stated length is the result without gravity in it, a symbol with this value, or a given length."""
+    if told == facts.result:
+        return facts.inputs["g"] not in told.free_symbols
+    return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
+
+
+def is_value_of_the_symbol(facts: Judged, found: Expr) -> bool:
+    """Whether the length is the value of the symbol that the sentence names."""
     told = facts.inputs["length"]
-    values = [value for q in facts.quantities.values() for name, value in named_values(q) if name == told]
-    return any(everywhere(numbers([v, found]), lambda point, v=v: same(value_at(v, point), value_at(found, point))) for v in values)
+    values = [explicit(value) for q in facts.quantities.values() for name, value in named_values(q) if name == told]
+    return found == facts.result and any(_agree(value, found) for value in values)
+
+
+def _agree(one: Expr, other: Expr) -> bool:
+    """Whether two values agree at all trial points."""
+    return everywhere(numbers([one, other]), lambda point: same(value_at(one, point), value_at(other, point)))
 
 
 def named_values(quantity: Quantity) -> Iterator[tuple[Any, Expr]]:
@@ -100,17 +108,21 @@ def named_values(quantity: Quantity) -> Iterator[tuple[Any, Expr]]:
         yield from zip(quantity.symbol, quantity.value, strict=True)
 
 
-def swings_in_the_field(facts: Judged, field: Expr) -> bool:
-    """Whether omega^2 l is the stated acceleration, which does not contain l and differs from g."""
-    of, length, g = facts.quantities["of"], facts.inputs["length"], facts.inputs["g"]
-    if length in field.free_symbols or g not in field.free_symbols:
-        return False
+def swings_in_the_field(facts: Judged) -> bool:
+    """Whether omega^2 l is the stated acceleration for the stated length l."""
+    of, length, field = facts.quantities["of"], facts.inputs["length"], facts.inputs["field"]
 
     def is_so(line: Expr, point: Point) -> bool:
-        number = squared_rate(facts, value_at(line, point)).evalf(30) * value_at(length, point)
-        return same(number, value_at(field, point)) and not same(number, value_at(g, point))
+        square = squared_rate(facts, value_at(line, point)).evalf(30)
+        return same(square * value_at(length, point), value_at(field, point))
 
-    return for_each_form(of, is_so, field, g, length)
+    return for_each_form(of, is_so, field, length)
+
+
+def differs_from_gravity(facts: Judged, field: Expr) -> bool:
+    """Whether the stated acceleration contains g, is not g itself, and does not contain the length."""
+    g, length = facts.inputs["g"], facts.inputs["length"]
+    return g in field.free_symbols and length not in field.free_symbols and not _agree(field, g)
 
 
 def orbital(facts: Judged, ratio: Expr, at: Mapping[Any, Expr] | None = None) -> bool:
@@ -150,8 +162,7 @@ def rate_on_the_circle(facts: Judged, told: Any) -> bool:
     """Whether the rate in letters, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in named_values(q))
     letters = told.right if isinstance(told, Relation) else told
-    value, there = explicit(bound(letters, names)), facts.inputs["orbital_rate"]
-    return everywhere(numbers([value, there]), lambda point: same(value_at(value, point), value_at(there, point)))
+    return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
@@ -219,7 +230,9 @@ def isochronous(facts: Judged) -> bool:
         slope = (force(small, at + apart) - force(small, at - apart)) / (2 * apart) / sqrt(value_at(mu, small))
         return bool(abs((slope / value_at(square, small)).evalf(30) - 1) < Rational(1, 10**6))
 
-    curved = not everywhere(numbers([mu]), lambda point: same(value_at(mu, point), value_at(mu, {**point, q: Integer(0)})))
+    curved = not everywhere(
+        numbers([mu]), lambda point: same(value_at(mu, point), value_at(mu, {**point, q: Integer(0)}))
+    )
     return curved and everywhere(numbers([q, mu, energy, square]), is_so)
 
 
@@ -252,6 +265,16 @@ def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 # --- dependence ---
+
+
+def is_the_result(facts: Judged, told: Any) -> bool:
+    """Whether the stated value is the result, which the outcome judges."""
+    return bool(told == facts.result)
+
+
+def names_a_letter(facts: Judged) -> bool:
+    """Whether the sentence names at least one symbol; each of these symbols has a predicate."""
+    return "letter_1" in facts.inputs
 
 
 def _may_vary(letter: Symbol, point: Point) -> Point:
@@ -297,18 +320,17 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
     return bool(abs(value_at(facts.inputs["angle"], {}) * 180 / pi - number).evalf(30) < Rational(1, 20))
 
 
-def vanishes_there(sign_changes: bool, role: str = "place") -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, with or without change of sign."""
+def vanishes_there(sign_changes: bool) -> Predicate:
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, with or without a change
+    of sign."""
 
     def is_so(facts: Judged) -> bool:
-        of, place = facts.quantities["of"], facts.inputs[role]
+        of, place = facts.quantities["of"], facts.result
 
         def at(line: Expr, point: Point) -> bool:
             there = value_at(explicit(place.right), point)
             little = abs(there) / 10**6 + (Rational(1, 10**6) if there == 0 else 0)
-            at_place, before, after = (
-                value_at(line, {**point, place.left: there + k * little}) for k in (0, -1, 1)
-            )
+            at_place, before, after = (value_at(line, {**point, place.left: there + k * little}) for k in (0, -1, 1))
             scale = value_at(line, point)
             is_zero = abs(at_place) <= CLOSE * (abs(scale) + abs(before))
             return bool(is_zero and (before * after < 0) == sign_changes and before != 0 and after != 0)
@@ -322,11 +344,13 @@ def vanishes_there(sign_changes: bool, role: str = "place") -> Predicate:
 def grows_without_bound_there(facts: Judged) -> bool:
     """Whether the amplitude exceeds every bound near the stated value of the symbol, where the free oscillation has the
     same angular frequency."""
-    of, place, square = facts.quantities["of"], facts.inputs["place"], facts.inputs["square"]
+    of, place, square = facts.quantities["of"], facts.result, facts.inputs["square"]
 
     def is_so(point: Point) -> bool:
         there = value_at(explicit(place.right), point)
-        far, near = (abs(value_at(explicit(of.value), {**point, place.left: there * (1 + e)})) for e in (CLOSE, CLOSE**2))
+        far, near = (
+            abs(value_at(explicit(of.value), {**point, place.left: there * (1 + e)})) for e in (CLOSE, CLOSE**2)
+        )
         return bool(near > 10**9 * far) and same(there**2, value_at(square, point))
 
     return everywhere(numbers([explicit(of.value), place.right, square]), is_so)
@@ -339,7 +363,11 @@ def branches_off(facts: Judged) -> bool:
     than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
     other equilibria is positive.
     """
-    curvature, cosine, border, beside = (facts.inputs[role] for role in ("curvature", "cosine", "border", "beside"))
+    curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
+    cosine, border = facts.inputs["cosine"], facts.result
+    here, branch, other = (explicit(facts.quantities[role].value) for role in ("here", "branch", "other"))
+    if here != 0 or not _agree(cos(branch), cosine) or not _agree(branch, -other):
+        return False
 
     def is_so(point: Point) -> bool:
         there = value_at(explicit(border.right), point)
@@ -361,8 +389,8 @@ def is_this_multiple(facts: Judged) -> bool:
 
 def are_in_order(facts: Judged) -> bool:
     """Whether the first of several values is the greatest and the last one the least, by the stated ratio."""
-    roles = sorted(role for role in facts.quantities if role.startswith("case_"))
-    values = [explicit(facts.quantities[role].value) for role in roles]
+    count = sum(role.startswith("case_") for role in facts.quantities)
+    values = [explicit(facts.quantities[f"case_{i}"].value) for i in range(1, count + 1)]
 
     def is_so(point: Point) -> bool:
         found = [value_at(value, point) for value in values]
@@ -376,14 +404,18 @@ def first_to_arrive(facts: Judged) -> bool:
     """Whether the accelerations are in order and constant, so that of two bodies released together from rest the one
     with the greater acceleration arrives first."""
     moving = {s for q in facts.quantities.values() for each in q.coordinates for s in (each, rate(each))}
-    return are_in_order(facts) and not any(
-        explicit(q.value).free_symbols & moving for q in facts.quantities.values()
-    )
+    return are_in_order(facts) and not any(explicit(q.value).free_symbols & moving for q in facts.quantities.values())
+
+
+def is_case_of_the_first(facts: Judged, told: Any) -> bool:
+    """Whether a stated special value was substituted in the first answer."""
+    return told in dict(facts.quantities["case_1"].step.roles).values()
 
 
 def is_case_of_the_last(facts: Judged, told: Any) -> bool:
-    last = max((role for role in facts.quantities if role.startswith("case_")), key=lambda role: int(role[5:]))
-    return is_case_of(last)(facts, told)
+    """Whether a stated special value was substituted in the last answer."""
+    last = sum(role.startswith("case_") for role in facts.quantities)
+    return told in dict(facts.quantities[f"case_{last}"].step.roles).values()
 
 
 def is_in_both(facts: Judged, letter: Symbol) -> bool:
@@ -391,16 +423,13 @@ def is_in_both(facts: Judged, letter: Symbol) -> bool:
     return all(_depends_on(letter, facts.quantities[role].value) for role in ("of", "other"))
 
 
-def is_case_of(role: str) -> Naming:
-    """Judge whether a stated special value was substituted in the step with this role."""
-    return lambda facts, told: told in dict(facts.quantities[role].step.roles).values()
-
-
 def is_fraction_of_the_familiar(facts: Judged) -> bool:
-    """Whether the size of the acceleration is this fraction of the familiar one, and does not depend on other symbols."""
+    """Whether the size of the acceleration is this fraction of the familiar one at all trial points."""
     of, familiar = explicit(facts.quantities["of"].value), facts.inputs["familiar"]
     part = facts.result
-    agrees = everywhere(numbers([of, familiar]), lambda p: same(abs(value_at(of, p)), part * abs(value_at(familiar, p))))
+    agrees = everywhere(
+        numbers([of, familiar]), lambda p: same(abs(value_at(of, p)), part * abs(value_at(familiar, p)))
+    )
     return agrees and bool(part.is_Rational) and 0 < part < 1
 
 
@@ -426,7 +455,8 @@ def keeps_the_spring(facts: Judged) -> bool:
         more = {**point, letter: 2 * point[letter]}
         size = range(stiffness.shape[0])
         terms = [
-            value_at(shape[i], point) * value_at(shape[j], point)
+            value_at(shape[i], point)
+            * value_at(shape[j], point)
             * (value_at(stiffness[i, j], more) - value_at(stiffness[i, j], point))
             for i in size
             for j in size
@@ -499,7 +529,8 @@ def stays_on_both_surfaces(facts: Judged) -> bool:
 
     def is_so(point: Point) -> bool:
         rates = [
-            -value_at(explicit(q.value.residual), {**point, rate(w): Integer(0)}) / _slope(explicit(q.value.residual), rate(w), point)
+            -value_at(explicit(q.value.residual), {**point, rate(w): Integer(0)})
+            / _slope(explicit(q.value.residual), rate(w), point)
             for q, w in zip(euler, spins, strict=True)
         ]
         moved = [{**point, **{w: point[w] + s * h * v for w, v in zip(spins, rates, strict=True)}} for s in (1, -1)]
@@ -538,8 +569,9 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 
 
 def holds_everywhere(facts: Judged) -> bool:
-    """Whether the condition of equilibrium holds at every position for the stated value, and only there for this value."""
-    place, condition = facts.inputs["place"], explicit(facts.quantities["of"].value.residual)
+    """Whether the condition of equilibrium holds at every position for the stated value, but not for twice
+    this value."""
+    place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
 
     def is_so(point: Point) -> bool:
         there = value_at(explicit(place.right), point)
@@ -562,23 +594,31 @@ def has_one_sign(facts: Judged) -> bool:
     return everywhere(numbers([of]), is_so) and seen == {True, False}
 
 
-def balances(facts: Judged) -> bool:
-    """Whether all components of the torque vanish for the stated angles, and at no other angle of the range."""
-    torque = [explicit(each) for each in facts.quantities["of"].value]
-    angle = facts.inputs["angle"]
-    told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
+def balances(count: int) -> Predicate:
+    """Judge whether all components of the torque vanish at this number of stated angles, and at no other angle from 0
+    to 90 degrees."""
 
-    def is_so(point: Point) -> bool:
-        def size(at: Expr) -> Expr:
-            return max(abs(value_at(each, {**point, angle: at})) for each in torque)
+    def is_so(facts: Judged) -> bool:
+        torque = [explicit(each) for each in facts.quantities["of"].value]
+        angle = facts.inputs["angle"]
+        told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
+        others = [pi * Rational(k, 80) for k in range(41) if pi * Rational(k, 80) not in told]
 
-        largest = max(size(Rational(k, 37)) for k in range(1, 37))
-        others = [pi * Rational(2 * k + 1, 80) for k in range(20)]
-        return bool(
-            all(size(each) <= CLOSE * largest for each in told) and all(size(each) > largest / 10**4 for each in others)
-        )
+        def only_there(point: Point) -> bool:
+            def size(at: Expr) -> Expr:
+                return max(abs(value_at(each, {**point, angle: at})) for each in torque)
 
-    return everywhere(numbers(torque, tried=3), is_so)
+            sizes = [size(each) for each in others]
+            return bool(all(size(each) <= CLOSE * max(sizes) for each in told) and min(sizes) > max(sizes) / 10**4)
+
+        return len(told) == count and everywhere(numbers(torque, tried=3), only_there)
+
+    return is_so
+
+
+def is_an_angle(facts: Judged, told: Relation) -> bool:
+    """Whether the statement gives a number for the angle; the outcome judges this number."""
+    return told.left == facts.inputs["angle"] and bool(told.right.is_number)
 
 
 def have_this_sum_and_product(facts: Judged) -> bool:
@@ -591,6 +631,25 @@ def have_this_sum_and_product(facts: Judged) -> bool:
         return same(one + two, value_at(added, point)) and same(one * two, value_at(multiplied, point))
 
     return for_each_form(of, is_so, explicit(other.value), added, multiplied)
+
+
+def adds_the_symbols(facts: Judged, told: Relation) -> bool:
+    one, other = (facts.quantities[role].symbol for role in ("of", "other"))
+    return bool(explicit(told.left) == one + other)
+
+
+def multiplies_the_symbols(facts: Judged, told: Relation) -> bool:
+    one, other = (facts.quantities[role].symbol for role in ("of", "other"))
+    return bool(explicit(told.left) == one * other)
+
+
+def has_an_amplitude(facts: Judged) -> bool:
+    """Whether the integral for the period depends on the stated symbol, its amplitude."""
+    return bool(facts.inputs["swing"].args[2] == facts.inputs["letter"])
+
+
+def is_the_amplitude(facts: Judged, told: Relation) -> bool:
+    return bool(told.left == facts.inputs["letter"] and told.right.is_number)
 
 
 def longer_by(facts: Judged, told: Expr) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -11,7 +11,7 @@ from sympy import Add, Expr, Symbol, sin
 from derive.algebra.expressions import Ratio, Relation, component_names, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.mechanics.observations import claims
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View
+from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, symbols_behind
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.steps.establish import PhraseData, establish
 from derive.steps.rule import CHECK, Rule
@@ -32,34 +32,35 @@ MULTIPLE = Rule(
 def multiple(view: View) -> Iterator[Quantity]:
     """Two velocities of one part whose ratio is a number other than 1 and -1."""
     found = [q for q in view.values() if _is_rate(q) and not is_zero(q.value)]
-    for one, other in combinations(found, 2):
-        ratio = tidied(explicit(one.value) / explicit(other.value))
-        of, to = (one, other) if ratio.is_number and abs(ratio) > 1 else (other, one)
-        ratio = tidied(explicit(of.value) / explicit(to.value))
-        both = [s for s in view.letters if s in explicit(of.value).free_symbols & explicit(to.value).free_symbols]
-        if ratio.is_Rational and abs(ratio) > 1 and one.symbol != other.symbol and 0 < len(both) < 5:
-            yield establish(
-                MULTIPLE,
-                None,
-                lambda *_, ratio=ratio: ratio,
-                {"of": of, "other": to},
-                routes={"product": lambda r, of=of, to=to: (r * explicit(to.value), explicit(of.value))},
-                lines=ONE_LINE,
-                phrase_data=PhraseData(
-                    named={
-                        "ratio": Relation(Ratio(of.symbol, to.symbol), "=", ratio),
-                        **{f"letter_{i}": s for i, s in enumerate(both, 1)},
-                    }
-                ),
-                scope=OF_ANY_SUBJECT,
-                key=f"{of.key}_multiple",
-            )
+    for pair in combinations(found, 2):
+        ratios = [tidied(explicit(of.value) / explicit(other.value)) for of, other in (pair, pair[::-1])]
+        if all(ratio.is_Rational for ratio in ratios) and ratios[0] not in (1, -1) and pair[0].symbol != pair[1].symbol:
+            of, other = pair if abs(ratios[0]) > 1 else pair[::-1]
+            both = view.in_order(explicit(of.value).free_symbols & explicit(other.value).free_symbols)
+            if 0 < len(both) < 5:
+                yield _multiple(of, other, max(ratios, key=abs), both)
 
 
 def _is_rate(q: Quantity) -> bool:
-    parents = any(parent.step.kind in RATES for parent in q.parents)
-    is_value = q.step.kind in RATES or q.step.rule == "answers.combination" and parents
-    return is_value and q.fact(Mode) is None and not q.step.rule.startswith("vibrations.")
+    """Whether an answer is a velocity, or a sum of velocities; a frequency is neither."""
+    adds_rates = q.step.rule == "answers.combination" and any(parent.step.kind in RATES for parent in q.parents)
+    return (q.step.kind in RATES or adds_rates) and not q.step.rule.startswith("vibrations.")
+
+
+def _multiple(of: Quantity, other: Quantity, ratio: Expr, both: Sequence[Symbol]) -> Quantity:
+    return establish(
+        MULTIPLE,
+        None,
+        lambda *_: ratio,
+        {"of": of, "other": other},
+        routes={"product": lambda found: (found * explicit(other.value), explicit(of.value))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={"ratio": Relation(Ratio(of.symbol, other.symbol), "=", ratio), **numbered("letter", both)}
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_multiple",
+    )
 
 
 ORDER = Rule(
@@ -67,43 +68,43 @@ ORDER = Rule(
     source="none needed: comparison of numbers",
     outcomes={"race": claims.first_to_arrive, "generic": claims.are_in_order},
     evidence={"product": CHECK},
-    named={"most": claims.is_case_of("case_0"), "least": claims.is_case_of_the_last},
+    named={"most": claims.is_case_of_the_first, "least": claims.is_case_of_the_last},
 )
 
 
 def order(view: View) -> Iterator[Quantity]:
-    """Answers for several special cases in the order of their size, if the ratios are numbers."""
-    cases = [q for q in view.values() if q.step.rule == PUT_IN and q.step.outcome == "values"]
-    for symbol in {q.symbol for q in cases}:
+    """Answers for several special cases in the order of their size, if their ratios are numbers."""
+    cases = [q for q in view.values() if (q.step.rule, q.step.outcome) == (PUT_IN, "values") and not is_zero(q.value)]
+    for symbol in dict.fromkeys(q.symbol for q in cases):
         own = [q for q in cases if q.symbol == symbol]
-        ratios = [tidied(explicit(q.value) / explicit(own[0].value)) for q in own if not is_zero(own[0].value)]
-        if len(own) < 2 or not all(r.is_Rational and r > 0 for r in ratios) or len(set(ratios)) < len(own):
-            continue
-        together = all(_is_constant(q) for q in own) and own[0].step.kind == "acceleration"
-        falling = [q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])]
-        ratio = tidied(explicit(falling[0].value) / explicit(falling[-1].value))
-        yield establish(
-            ORDER,
-            None,
-            lambda *_, ratio=ratio: ratio,
-            {},
-            routes={"product": lambda r, q=falling: (r * explicit(q[-1].value), explicit(q[0].value))},
-            outcome="race" if together else "generic",
-            lines=ONE_LINE,
-            phrase_data=PhraseData(
-                points_to={f"case_{i}": q for i, q in enumerate(falling)},
-                named={"most": _case(falling[0]), "least": _case(falling[-1])},
-            ),
-            scope=OF_ANY_SUBJECT,
-            key=f"{falling[0].key}_greatest",
-        )
+        ratios = [tidied(explicit(q.value) / explicit(own[0].value)) for q in own]
+        if len(own) > 1 and all(r.is_Rational and r > 0 for r in ratios) and len(set(ratios)) == len(own):
+            yield _in_order([q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])])
 
 
-def _is_constant(q: Quantity) -> bool:
-    return not explicit(q.value).free_symbols & {s for each in q.coordinates for s in (each, rate(each))}
+def _in_order(falling: Sequence[Quantity]) -> Quantity:
+    most, least = (explicit(q.value) for q in (falling[0], falling[-1]))
+    moving = {s for q in falling for each in q.coordinates for s in (each, rate(each))}
+    is_race = falling[0].step.kind == "acceleration" and not most.free_symbols & moving
+    return establish(
+        ORDER,
+        None,
+        lambda *_: tidied(most / least),
+        {},
+        routes={"product": lambda found: (found * least, most)},
+        outcome="race" if is_race else "generic",
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            points_to=numbered("case", falling),
+            named={"most": _case(falling[0]), "least": _case(falling[-1])},
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{falling[0].key}_greatest",
+    )
 
 
 def _case(q: Quantity) -> Any:
+    """Return the value of a symbol in a special case: I = 2 M R^2/5."""
     return next(told for role, told in q.step.roles if role.startswith("value_"))
 
 
@@ -119,30 +120,28 @@ FAMILIAR = Rule(
 def familiar(view: View) -> Iterator[Quantity]:
     """Acceleration that is a fixed fraction of that of free fall, or of a block on an incline without friction."""
     for of in view.values("acceleration"):
-        value = explicit(of.value)
-        for g in view.of_kind("acceleration"):
-            angles = [s for s in value.free_symbols if view.letters.get(s) == "angle"]
+        angles = [s for s in view.of_kind("angle") if s in explicit(of.value).free_symbols]
+        for g in view.gravity if of.step.rule == "lagrange.acceleration" and len(angles) < 2 else ():
             known = g * sin(angles[0]) if angles else g
-            part = abs(tidied(value / known))
-            if part.is_Rational and 0 < part < 1 and of.step.rule == "lagrange.acceleration":
-                yield _familiar(view, of, part, known, g, angles)
+            part = abs(tidied(explicit(of.value) / known))
+            if part.is_Rational and 0 < part < 1:
+                yield _familiar(view, of, part, known, {"g": g, **({"alpha": angles[0]} if angles else {})})
 
 
-def _familiar(view: View, of: Quantity, part: Expr, known: Expr, g: Symbol, angles: list[Symbol]) -> Quantity:
+def _familiar(view: View, of: Quantity, part: Expr, known: Expr, symbols: Mapping[str, Symbol]) -> Quantity:
     equations = [q for q in of.ancestors() if isinstance(q.value, Relation)]
-    used = {s for q in equations for s in explicit(q.value).free_symbols}
-    gone = [s for s in view.letters if s in used - explicit(of.value).free_symbols and view.letters[s] in ("mass", "length")]
+    gone = [s for s in view.in_order(symbols_behind(equations)) if view.letters[s] in ("mass", "length")]
     return establish(
         FAMILIAR,
         None,
         lambda *_: part,
-        {"of": of, "g": g, **({"alpha": angles[0]} if angles else {})},
+        {"of": of, **symbols},
         routes={"product": lambda found: ((found * known) ** 2, explicit(of.value) ** 2)},
-        outcome="incline" if angles else "fall",
+        outcome="incline" if "alpha" in symbols else "fall",
         lines=ONE_LINE,
         phrase_data=PhraseData(
-            named={f"letter_{i}": s for i, s in enumerate(gone, 1)},
-            points_to={f"equation_{i}": q for i, q in enumerate(equations)},
+            named=numbered("letter", gone),
+            points_to=numbered("equation", equations),
             outcome_data={"familiar": known},
         ),
         scope=OF_ANY_SUBJECT,
@@ -162,22 +161,33 @@ def unaffected(view: View) -> Iterator[Quantity]:
     """Mode whose frequency does not depend on a spring constant or a mass, and the reason in its shape."""
     shapes = [q for q in view.answers if q.step.rule == "vibrations.mode_shape"]
     frequencies = [q for q in view.answers if q.fact(Mode) is not None]
-    others = {s for q in frequencies for s in explicit(q.value).free_symbols}
+    used = {s for q in frequencies for s in explicit(q.value).free_symbols}
     for of, shape in zip(frequencies, shapes, strict=False):
-        if is_zero(of.value):
+        linear = linear_equations(of)
+        if linear is None or is_zero(of.value):
             continue
-        linear = next((q.fact(Linear) for q in of.ancestors() if q.fact(Linear) is not None), None)
-        for letter in sorted(others - explicit(of.value).free_symbols, key=str) if linear is not None else ():
-            kind = view.letters.get(letter)
-            if kind == "spring constant" and letter in linear.stiffness.free_symbols:
-                yield _unaffected(of, shape, letter, "spring", {"stiffness": linear.stiffness})
-            at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
-            if kind == "mass" and len(at) == 1 and letter not in linear.stiffness.free_symbols:
-                data = {"mass": linear.mass, "at": at[0]}
-                yield _unaffected(of, shape, letter, "mass", data)
+        for letter in view.in_order(used - explicit(of.value).free_symbols):
+            outcome, data = _reason(linear, letter, view.letters[letter])
+            if outcome:
+                yield _unaffected(of, shape, letter, outcome, data)
 
 
-def _unaffected(of: Quantity, shape: Quantity, letter: Symbol, outcome: str, data: dict[str, Any]) -> Quantity:
+def linear_equations(of: Quantity) -> Linear | None:
+    """Return the linear equations from which a frequency was derived."""
+    return next((fact for q in of.ancestors() if (fact := q.fact(Linear)) is not None), None)
+
+
+def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
+    """Return whether the symbol is the constant of a spring, or the mass of one coordinate, and the matrix with it."""
+    at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
+    if kind == "spring constant" and letter in linear.stiffness.free_symbols:
+        return "spring", {"stiffness": linear.stiffness}
+    if kind == "mass" and len(at) == 1 and letter not in linear.stiffness.free_symbols:
+        return "mass", {"mass": linear.mass, "at": at[0]}
+    return "", {}
+
+
+def _unaffected(of: Quantity, shape: Quantity, letter: Symbol, outcome: str, data: Mapping[str, Any]) -> Quantity:
     return establish(
         UNAFFECTED,
         None,
@@ -202,25 +212,28 @@ CIRCLING = Rule(
 
 def circling(view: View) -> Iterator[Quantity]:
     """Accelerations that are the velocity turned by a right angle: the motion is uniform in a circle."""
-    moving = {q.symbol: q for q in view.values("acceleration") if isinstance(q.symbol, Symbol)}
-    names = [s.name.removesuffix("_ddot") for s in moving if s.name.endswith("_ddot")]
-    for one, other in combinations(names, 2):
-        u, v = (rate(Symbol(name, real=True)) for name in (one, other))
-        first, second = (moving[rate(Symbol(name, real=True), 2)] for name in (one, other))
-        turning = tidied(explicit(second.value) / u)
-        if turning.free_symbols & {u, v} or is_zero(turning) or not is_zero(explicit(first.value) + turning * v):
-            continue
-        yield establish(
-            CIRCLING,
-            None,
-            lambda *_, turning=turning: turning,
-            {"of": first, "other": second},
-            routes={"turned": lambda w, first=first, v=v: (-w * v, explicit(first.value))},
-            lines=ONE_LINE,
-            phrase_data=PhraseData(outcome_data={"rates": (u, v)}),
-            scope=OF_ANY_SUBJECT,
-            key=f"{first.key}_circling",
-        )
+    moving = {q.symbol: q for q in view.values("acceleration")}
+    coordinates = dict.fromkeys(q for each in moving.values() for q in each.coordinates if rate(q, 2) in moving)
+    for x, y in combinations(sorted(coordinates, key=str), 2):
+        first, second = moving[rate(x, 2)], moving[rate(y, 2)]
+        turning = tidied(explicit(second.value) / rate(x))
+        constant = not is_zero(turning) and not turning.free_symbols & {x, y, rate(x), rate(y)}
+        if constant and is_zero(explicit(first.value) + turning * rate(y)):
+            yield _circling(first, second, turning, (rate(x), rate(y)))
+
+
+def _circling(first: Quantity, second: Quantity, turning: Expr, rates: tuple[Symbol, Symbol]) -> Quantity:
+    return establish(
+        CIRCLING,
+        None,
+        lambda *_: turning,
+        {"of": first, "other": second},
+        routes={"turned": lambda found: (-found * rates[1], explicit(first.value))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(outcome_data={"rates": rates}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{first.key}_circling",
+    )
 
 
 REDUCED = Rule(
@@ -234,29 +247,30 @@ REDUCED = Rule(
 def reduced(view: View) -> Iterator[Quantity]:
     """Equations of relative motion that are those of one particle with the reduced mass."""
     masses = view.of_kind("mass")
-    equations = [q for q in view.answers if q.step.rule == "lagrange.equation_of_motion"]
     if len(masses) != 2:
         return
     mass = masses[0] * masses[1] / (masses[0] + masses[1])
     found = []
-    for q in equations:
-        residual = explicit(q.value.residual)
-        own = [s for s in residual.free_symbols if s.name.endswith("_ddot")]
-        if len(own) == 1 and is_zero(tidied(residual.diff(own[0]) - mass)):
+    for q in (q for q in view.answers if q.step.rule == "lagrange.equation_of_motion"):
+        own = [rate(x, 2) for x in q.coordinates if rate(x, 2) in explicit(q.value).free_symbols]
+        if len(own) == 1 and is_zero(tidied(explicit(q.value.residual).diff(own[0]) - mass)):
             found.append((q, own[0]))
     if len(found) == 2:
-        (one, a), (other, b) = found
-        yield establish(
-            REDUCED,
-            None,
-            lambda *_: mass,
-            {"of": one, "other": other},
-            routes={"sum": lambda m: (1 / m, 1 / masses[0] + 1 / masses[1])},
-            lines=ONE_LINE,
-            phrase_data=PhraseData(outcome_data={"masses": tuple(masses), "accelerations": (a, b)}),
-            scope=OF_ANY_SUBJECT,
-            key=f"{one.key}_reduced",
-        )
+        yield _reduced([q for q, _ in found], mass, masses, [a for _, a in found])
+
+
+def _reduced(equations: Sequence[Quantity], mass: Expr, masses: Sequence[Symbol], along: Sequence[Symbol]) -> Quantity:
+    return establish(
+        REDUCED,
+        None,
+        lambda *_: mass,
+        {"of": equations[0], "other": equations[1]},
+        routes={"sum": lambda found: (1 / found, 1 / masses[0] + 1 / masses[1])},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(outcome_data={"masses": tuple(masses), "accelerations": tuple(along)}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{equations[0].key}_reduced",
+    )
 
 
 POLHODE = Rule(
@@ -274,24 +288,32 @@ def polhode(view: View) -> Iterator[Quantity]:
     energy = _conserved(kept, "rotation.kinetic_energy")
     square = _conserved([q for q in kept if q in view.answers], "answers.squared_magnitude")
     momentum = next((q for q in view.shown if q.step.rule == "rotation.angular_momentum"), None)
-    if energy is None or square is None or momentum is None:
-        return
-    names = component_names(momentum.symbol.name)
-    spins = {rate_of for rate_of in explicit(energy.value).free_symbols if energy.coordinates.get(rate_of)}
     euler = [q for q in view.shown if q.step.rule == "rotation.euler_equation"]
-    pairs = list(zip(names, list(explicit(momentum.value)), strict=True))
-    spins_in_order = [next(iter(value.free_symbols & spins), None) for _, value in pairs]
-    if len(euler) < 3 or None in spins_in_order:
-        return
+    if energy is not None and square is not None and momentum is not None and len(euler) == 3:
+        yield _polhode(energy, square, momentum, euler)
+
+
+def _conserved(kept: Sequence[Quantity], rule: str) -> Quantity | None:
+    """Return the quantity of this rule whose rate of change was found to vanish."""
+    return next((p for q in kept for p in q.ancestors() if p.step.rule == rule), None)
+
+
+def _polhode(energy: Quantity, square: Quantity, momentum: Quantity, euler: Sequence[Quantity]) -> Quantity:
+    names, value = component_names(momentum.symbol.name), explicit(energy.value)
+    components = dict(zip(names, list(explicit(momentum.value)), strict=True))
+    spins = [next(w for w in momentum.coordinates if w in each.free_symbols) for each in components.values()]
     in_momenta = Add(
-        *(name**2 * tidied(energy.value.diff(w, 2)) / (2 * value.diff(w) ** 2) for (name, value), w in zip(pairs, spins_in_order, strict=True))
+        *(
+            name**2 * tidied(value.diff(w, 2)) / (2 * components[name].diff(w) ** 2)
+            for name, w in zip(names, spins, strict=True)
+        )
     )
-    yield establish(
+    return establish(
         POLHODE,
         None,
         lambda *_: in_momenta,
         {},
-        routes={"energy": lambda found: (found.xreplace(dict(pairs)), explicit(energy.value))},
+        routes={"energy": lambda found: (found.xreplace(components), value)},
         lines=ONE_LINE,
         phrase_data=PhraseData(
             points_to={"energy": energy, "square": square, "momentum": momentum},
@@ -299,13 +321,8 @@ def polhode(view: View) -> Iterator[Quantity]:
                 "ellipsoid": Relation(in_momenta, "=", energy.symbol),
                 "sphere": Relation(Add(*(name**2 for name in names)), "=", square.symbol),
             },
-            outcome_data={"euler": tuple(euler), "spins": tuple(spins_in_order), "names": names},
+            outcome_data={"euler": tuple(euler), "spins": tuple(spins), "names": names},
         ),
         scope=OF_ANY_SUBJECT,
         key=f"{square.key}_and_energy",
     )
-
-
-def _conserved(kept: list[Quantity], rule: str) -> Quantity | None:
-    """Return the quantity of this rule whose rate of change was found to vanish."""
-    return next((p for q in kept for p in q.ancestors() if p.step.rule == rule), None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -13,7 +14,8 @@ from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.observations import claims
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, simple
+from derive.mechanics.observations.comparisons import linear_equations
+from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, simple
 from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
@@ -32,13 +34,15 @@ PENDULUM = Rule(
     "observations.pendulum",
     source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7 (the physical pendulum)",
     outcomes={
-        "length": lambda facts: claims.swings_like_a_pendulum(facts, facts.inputs["length"]),
-        "named": lambda facts: claims.swings_like_a_pendulum(facts, facts.inputs["equal"]),
-        "field": lambda facts: claims.swings_in_the_field(facts, facts.inputs["field"]),
+        "length": claims.swings_like_a_pendulum,
+        "named": claims.swings_like_a_pendulum,
+        "field": claims.swings_in_the_field,
     },
     evidence={"pendulum": CHECK},
     named={
-        "equal": claims.is_value_of_a_symbol,
+        "length": claims.is_a_length_or_its_symbol,
+        "equal": claims.is_value_of_the_symbol,
+        "field": claims.differs_from_gravity,
     },
 )
 
@@ -46,13 +50,14 @@ PENDULUM = Rule(
 def pendulum(view: View) -> Iterator[Quantity]:
     """Simple pendulum with the same frequency: omega^2 = g/l."""
     for of in view.values("angular speed", "time"):
-        seen = _seen(of)
-        square = _squared(of) if seen else None
-        for g in view.gravity if square is not None else ():
-            yield from _pendulum_of(view, of, square, g, seen)
+        for g in view.gravity if _seen(of) else ():
+            found = _like_a_pendulum(view, _squared(of), g)
+            if found is not None:
+                yield _pendulum(of, g, *found)
 
 
 def _seen(of: Quantity) -> str:
+    """Return the word for an answer that belongs to an oscillation or a rotation; "" for any other answer."""
     if of.step.rule == PERIOD:
         return "period"
     if of.step.rule in OSCILLATES and of.step.outcome not in ("growing", "free", "unstable", "neutral"):
@@ -67,54 +72,46 @@ def _squared(of: Quantity) -> Expr:
     return tidied(4 * pi**2 / value**2 if of.step.rule == PERIOD else value**2)
 
 
-def _pendulum_of(view: View, of: Quantity, square: Expr, g: Symbol, seen: str) -> Iterator[Quantity]:
+def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str, Any], list[Quantity]] | None:
+    """Return the outcome, the data of the sentence, and the step that introduces the symbol of the length.
+
+    A length that is only a given symbol is not worth a sentence: the system may be a simple pendulum.
+    """
     length = tidied(g / square)
-    data: dict[str, Any] = {"g": g}
-    outcome, named, parents = "length", {}, []
-    if g in length.free_symbols:
-        known = next(((q, n) for q in view.shown for n, v in claims.named_values(q) if _is(v, length)), None)
-        field = next((each for l in view.of_kind("length") if (each := _field(square, l, g)) is not None), None)
-        if known is not None:
-            outcome, named, parents = "named", {"equal": length}, [known[0]]
-            data["length"] = known[1]
-        elif field is not None:
-            outcome, data = "field", {**data, "length": field[0], "field": field[1]}
-        else:
-            return
-    elif isinstance(length, Symbol) or not simple(length, 6) or not _has_rational_factors(length):
-        return
-    else:
-        data["length"] = length
-    yield establish(
+    if g not in length.free_symbols:
+        worth_it = not isinstance(length, Symbol) and simple(length, 6) and _has_rational_factors(length)
+        return ("length", {"length": length}, []) if worth_it else None
+    for step in view.shown:
+        for name, value in claims.named_values(step):
+            if isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - length):
+                return "named", {"length": name, "equal": length}, [step]
+    for letter in view.of_kind("length"):
+        field = tidied(square * letter)
+        if field.is_Add and letter not in field.free_symbols and g in field.free_symbols and simple(field, 2):
+            return "field", {"length": letter, "field": field}, []
+    return None
+
+
+def _pendulum(of: Quantity, g: Symbol, outcome: str, data: dict[str, Any], known: list[Quantity]) -> Quantity:
+    square = _squared(of)
+    return establish(
         PENDULUM,
         None,
-        lambda *_: length,
-        {"of": of, **data},
+        lambda *_: tidied(g / square),
+        {"of": of, "g": g},
         routes={"pendulum": lambda found: (found * square, g)},
         outcome=outcome,
         lines=ONE_LINE,
-        phrase_data=PhraseData(named=named, words={"seen": seen}, points_to={f"known_{i}": q for i, q in enumerate(parents)}),
+        phrase_data=PhraseData(named=data, words={"seen": _seen(of)}, points_to=numbered("known", known)),
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_as_pendulum",
     )
 
 
-def _is(value: Any, other: Expr) -> bool:
-    return isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - other)
-
-
-def _field(square: Expr, length: Symbol, g: Symbol) -> tuple[Symbol, Expr] | None:
-    """Return a length l and the acceleration omega^2 l if l cancels and the acceleration is a sum that contains g."""
-    found = tidied(square * length)
-    fits = found.is_Add and length not in found.free_symbols and g in found.free_symbols and simple(found, 2)
-    return (length, found) if fits else None
-
-
 def _has_rational_factors(value: Expr) -> bool:
-    """Whether the numbers in a value are rational."""
-    return all(number.is_Rational for number in explicit(value).atoms() if number.is_number) and not any(
-        power.base.is_number for power in value.atoms(sqrt(2).func)
-    )
+    """Whether all numbers in a value are rational, without roots of numbers."""
+    roots = [power for power in value.atoms(Pow) if power.base.is_number]
+    return not roots and all(number.is_Rational for number in value.atoms() if number.is_number)
 
 
 ORBIT = Rule(
@@ -141,12 +138,14 @@ def orbit(view: View) -> Iterator[Quantity]:
     """Ratio of the radial frequency and the orbital rate: a nearly circular orbit closes if this ratio is rational."""
     for of in view.values("angular speed"):
         if of.step.rule in OSCILLATES and _seen(of):
-            for rate_there, on_circle, parents in _orbital_rates(view):
-                yield from _orbit_of(of, rate_there, on_circle, parents)
+            for there, told, step in _orbital_rates(view):
+                square = tidied(powsimp(tidied(explicit(of.value) ** 2 / there**2)))
+                if square.is_number or simple(square, 8):
+                    yield _orbit(of, there, told, step, square)
 
 
-def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, dict[str, Quantity]]]:
-    """Yield the orbital rate on the circular orbit, the same in letters, and the steps in which the letters occur."""
+def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, Quantity]]:
+    """Yield the orbital rate on the circular orbit, the same in letters, and the step that introduces these letters."""
     turning = [q for q in view.shown if q.step.rule == "hamilton.rate_by_momenta" and q.step.kind == "angular speed"]
     rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.symbol, Symbol)]
     if len(turning) == len(rests) == 1:
@@ -154,26 +153,19 @@ def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, dict[str, Quantity]]
         if radius.is_positive and radius in turning[0].value.free_symbols:
             value = tidied(explicit(turning[0].value).xreplace({radius: explicit(rests[0].value)}))
             told = Relation(turning[0].symbol, "=", turning[0].value.xreplace({radius: rests[0].symbol}))
-            yield value, told, {"radius": rests[0]}
-    for each in view.shown:
-        if each.step.rule == ROOTS and each.step.kind == "angular speed" and sign_for_all(each.value) == 1:
-            if any(parent.step.rule == STEADY for parent in each.parents):
-                yield explicit(each.value), each.symbol, {"radius": each}
+            yield value, told, rests[0]
+    for each in (q for q in view.shown if q.step.rule == ROOTS and q.step.kind == "angular speed"):
+        if sign_for_all(each.value) == 1 and any(parent.step.rule == STEADY for parent in each.parents):
+            yield explicit(each.value), each.symbol, each
 
 
-def _orbit_of(of: Quantity, there: Expr, on_circle: Relation, parents: dict[str, Quantity]) -> Iterator[Quantity]:
-    square = tidied(powsimp(tidied(explicit(of.value) ** 2 / there**2)))
+def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -> Quantity:
     ratio = sqrt(square)
     outcome = {1: "one", 2: "two"}.get(ratio, "letters")
     if ratio.is_number and outcome == "letters":
         outcome = "rational" if ratio.is_Rational else "irrational"
-    named: dict[str, Any] = {"on_circle": on_circle}
-    if outcome == "letters":
-        if not simple(square, 8):
-            return
-        found = {name: told for name, n in (("same", 1), ("double", 4)) if (told := _closing(square, n)) is not None}
-        named |= found
-    yield establish(
+    special = {"same": _closing(square, 1), "double": _closing(square, 4)} if outcome == "letters" else {}
+    return establish(
         ORBIT,
         None,
         lambda *_: ratio,
@@ -181,7 +173,11 @@ def _orbit_of(of: Quantity, there: Expr, on_circle: Relation, parents: dict[str,
         routes={"squares": lambda found: (found**2 * there**2, explicit(of.value) ** 2)},
         outcome=outcome,
         lines=ONE_LINE,
-        phrase_data=PhraseData(named=named, points_to=parents, outcome_data={"orbital_rate": there}),
+        phrase_data=PhraseData(
+            named={"on_circle": told, **{role: value for role, value in special.items() if value is not None}},
+            points_to={"radius": step},
+            outcome_data={"orbital_rate": there},
+        ),
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_and_orbit",
     )
@@ -207,24 +203,30 @@ MODES = Rule(
 
 def modes(view: View) -> Iterator[Quantity]:
     """Ratio of the frequencies of normal modes: every motion is periodic if all ratios are rational."""
-    found = [each for each in view.values("angular speed") if each.fact(Mode) is not None and _seen(each)]
-    ratios = [(one, other, tidied(explicit(other.value) ** 2 / explicit(one.value) ** 2)) for one, other in pairwise(found)]
-    numbers = [each for each in ratios if each[2].is_number]
-    odd = [each for each in numbers if not sqrt(each[2]).is_rational]
-    if not odd and (len(numbers) < len(ratios) or len(numbers) != 1):
-        return
-    slow, fast, square = (odd or numbers)[0]
-    ratio = sqrtdenest(sqrt(square))
-    told = Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)
-    yield establish(
+    every = [each for each in view.values("angular speed") if each.fact(Mode) is not None]
+    found = [each for each in every if _seen(each)]
+    ratios = [(slow, fast, _ratio(slow, fast)) for slow, fast in pairwise(found)]
+    odd = next((each for each in ratios if each[2].is_number and not each[2].is_rational), None)
+    if odd is not None:
+        yield _modes(*odd, "irrational")
+    elif len(ratios) == 1 and len(every) == 2 and ratios[0][2].is_Rational:
+        yield _modes(*ratios[0], "rational")
+
+
+def _ratio(slow: Quantity, fast: Quantity) -> Expr:
+    return sqrtdenest(sqrt(tidied(explicit(fast.value) ** 2 / explicit(slow.value) ** 2)))
+
+
+def _modes(slow: Quantity, fast: Quantity, ratio: Expr, outcome: str) -> Quantity:
+    return establish(
         MODES,
         None,
         lambda *_: ratio,
         {"slow": slow, "fast": fast},
-        routes={"squares": lambda r: (r**2 * explicit(slow.value) ** 2, explicit(fast.value) ** 2)},
-        outcome="irrational" if odd else "rational",
+        routes={"squares": lambda found: (found**2 * explicit(slow.value) ** 2, explicit(fast.value) ** 2)},
+        outcome=outcome,
         lines=ONE_LINE,
-        phrase_data=PhraseData(named={"ratio": told}),
+        phrase_data=PhraseData(named={"ratio": Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)}),
         scope=OF_ANY_SUBJECT,
         key=f"{fast.key}_and_{slow.key}",
     )
@@ -241,23 +243,27 @@ ONE_FREQUENCY = Rule(
 def one_frequency(view: View) -> Iterator[Quantity]:
     """One frequency of all motions of a particle: each orbit is an ellipse."""
     speeds = [q for q in view.shown if q.step.rule == "lagrange.squared_speed"]
-    if len(speeds) != 1 or not is_zero(explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))):
-        return
-    for of in view.values("angular speed"):
-        linear = next((each.fact(Linear) for each in of.ancestors() if each.fact(Linear) is not None), None)
-        if of.step.outcome == "oscillating_repeated" and linear is not None and of.needed(Mode).root.times > 1:
-            square = explicit(of.value) ** 2
-            yield establish(
-                ONE_FREQUENCY,
-                None,
-                lambda *_, square=square: square,
-                {"of": of},
-                routes={"squares": lambda found, linear=linear: (linear.stiffness, found * linear.mass)},
-                lines=ONE_LINE,
-                phrase_data=PhraseData(outcome_data={"system": (linear.mass, linear.stiffness)}),
-                scope=OF_ANY_SUBJECT,
-                key=f"{of.key}_of_all",
-            )
+    of_particle = len(speeds) == 1 and is_zero(
+        explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))
+    )
+    for of in view.values("angular speed") if of_particle else ():
+        linear = linear_equations(of)
+        if of.step.outcome == "oscillating_repeated" and linear is not None:
+            yield _one_frequency(of, linear)
+
+
+def _one_frequency(of: Quantity, linear: Linear) -> Quantity:
+    return establish(
+        ONE_FREQUENCY,
+        None,
+        lambda *_: explicit(of.value) ** 2,
+        {"of": of},
+        routes={"squares": lambda found: (linear.stiffness, found * linear.mass)},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(outcome_data={"system": (linear.mass, linear.stiffness)}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_of_all",
+    )
 
 
 EXACT = Rule(
@@ -269,72 +275,72 @@ EXACT = Rule(
 )
 
 
+@dataclass(frozen=True)
+class OneCoordinate:
+    """A Lagrangian mu(q) q_dot^2/2 - U(q), and the stable equilibrium `lowest`."""
+
+    q: Symbol
+    mu: Expr
+    energy: Expr
+    lowest: Expr
+
+    @property
+    def square(self) -> Expr:
+        """Return d^2U/ds^2 for ds = sqrt(mu) dq, without an integral: U''/mu - U' mu'/(2 mu^2)."""
+        slope, mu = self.energy.diff(self.q), self.mu
+        return tidied(slope.diff(self.q) / mu - slope * mu.diff(self.q) / (2 * mu**2))
+
+    def path(self, mass: Symbol) -> Expr | None:
+        """Return s with T = m s_dot^2/2 and U = U_0 + m omega^2 s^2/2, for U that grows as 1 - cos(q)."""
+        turned = self.q - self.lowest
+        height = self.energy - self.energy.xreplace({self.q: self.lowest})
+        size = tidied(2 * height / (self.square * mass) / (1 - cos(turned)))
+        return None if size.has(self.q) else sqrt(2 * size) * sin(turned / 2)
+
+
 def exact(view: View) -> Iterator[Quantity]:
-    """Oscillation whose period does not depend on the amplitude at all.
-
-    With T = mu q_dot^2/2 and ds = sqrt(mu) dq, the motion along s is harmonic if d^2U/ds^2 is constant. This derivative
-    is U''/mu - U' mu'/(2 mu^2), so no integral is needed; s follows from U = U_0 + omega^2 s^2/2.
-    """
-    linear = next((each.fact(Linear) for each in view.shown if each.fact(Linear) is not None), None)
-    lagrangian = next((each for each in view.shown if each.fact(Energies) is not None), None)
-    for of in view.answers:
-        if of.step.kind not in ("time", "angular speed") or linear is None or lagrangian is None:
-            continue
-        if len(linear.place) == 1 and (found := _one_coordinate(lagrangian, *linear.place[0])) is not None:
-            q, mu, energy = found
-            square = tidied(energy.diff(q, 2) / mu - energy.diff(q) * mu.diff(q) / (2 * mu**2))
-            if mu.diff(q) != 0 and not square.has(q) and sign_for_all(square) == 1:
-                yield _exact_for(view, of, q, mu, energy, square, linear.place[0][1])
+    """Oscillation whose period does not depend on the amplitude at all: d^2U/ds^2 is constant for ds = sqrt(mu) dq."""
+    found = _one_coordinate(view)
+    oscillates = [q for q in view.answers if q.step.kind in ("time", "angular speed")]
+    if found is not None and oscillates and found[1].mu.has(found[1].q):
+        square = found[1].square
+        if not square.has(found[1].q) and sign_for_all(square) == 1:
+            yield _exact(view, *found)
 
 
-def _one_coordinate(lagrangian: Quantity, place: Any, _: Expr) -> tuple[Symbol, Expr, Expr] | None:
-    """Return q, mu and U of a Lagrangian mu q_dot^2/2 - U with one coordinate."""
-    q, whole = place.symbol, explicit(lagrangian.value)
-    q_dot = rate(q)
-    mu, energy = tidied(whole.diff(q_dot, 2)), -whole.xreplace({q_dot: Integer(0)})
-    moving = {s for each in lagrangian.coordinates for s in (each, rate(each))} - {q, q_dot}
-    fits = not whole.free_symbols & {TIME, *moving} and is_zero(whole - mu * q_dot**2 / 2 + energy)
-    return (q, mu, energy) if fits else None
+def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
+    """Return the Lagrangian of a page whose only coordinate oscillates about an equilibrium."""
+    linear = next((fact for q in view.shown if (fact := q.fact(Linear)) is not None), None)
+    lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
+    if linear is None or lagrangian is None or len(linear.place) != 1 or len(lagrangian.coordinates) != 1:
+        return None
+    q, whole = linear.place[0][0].symbol, explicit(lagrangian.value)
+    mu, energy = tidied(whole.diff(rate(q), 2)), -whole.xreplace({rate(q): Integer(0)})
+    fits = TIME not in whole.free_symbols and is_zero(whole - mu * rate(q) ** 2 / 2 + energy)
+    return (lagrangian, OneCoordinate(q, mu, energy, explicit(linear.place[0][1]))) if fits else None
 
 
-def _exact_for(
-    view: View, of: Quantity, q: Symbol, mu: Expr, energy: Expr, square: Expr, lowest: Expr
-) -> Quantity:
-    path = _path(view, q, mu, energy, square, lowest)
-    named: dict[str, Any] = {}
-    data = {"q": q, "mu": mu, "energy": energy, "square": square, "lowest": lowest}
-    if path is not None:
-        s, value, data["mass"] = path
-        named = {
-            "path": Relation(s, "=", value),
-            "harmonic": Relation(Terms(rate(s, 2), Factors(square, s)), "=", Integer(0)),
-        }
+def _exact(view: View, lagrangian: Quantity, motion: OneCoordinate) -> Quantity:
+    q, mu, energy, square = motion.q, motion.mu, motion.energy, motion.square
+    mass = next((m for m in view.of_kind("mass") if m in mu.free_symbols and not tidied(mu / m).has(m)), None)
+    path = motion.path(mass) if mass is not None else None
+    s = Symbol(free_letter("s"), real=True)
+    harmonic = Relation(Terms(rate(s, 2), Factors(square, s)), "=", Integer(0))
     return establish(
         EXACT,
         None,
         lambda *_: square,
-        {"of": of},
+        {"lagrangian": lagrangian},
         routes={"harmonic": lambda found: ((energy.diff(q) ** 2 / mu).diff(q) / 2, found * energy.diff(q))},
-        outcome="along" if named else "generic",
+        outcome="generic" if path is None else "along",
         lines=ONE_LINE,
-        phrase_data=PhraseData(named=named, outcome_data=data),
+        phrase_data=PhraseData(
+            named={} if path is None else {"path": Relation(s, "=", path), "harmonic": harmonic},
+            outcome_data={"q": q, "mu": mu, "energy": energy, "square": square, "lowest": motion.lowest, "mass": mass},
+        ),
         scope=OF_ANY_SUBJECT,
-        key=f"{of.key}_exact",
+        key="exact_oscillation",
     )
-
-
-def _path(
-    view: View, q: Symbol, mu: Expr, energy: Expr, square: Expr, lowest: Expr
-) -> tuple[Symbol, Expr, Symbol] | None:
-    """Return s, its value as a function of q, and the mass m with T = m s_dot^2/2; for U that grows as 1 - cos q."""
-    mass = next((m for m in view.of_kind("mass") if m in mu.free_symbols and not tidied(mu / m).has(m)), None)
-    if mass is None:
-        return None
-    turned = q - lowest
-    size = tidied(2 * (energy - energy.xreplace({q: lowest})) / (square * mass) / (1 - cos(turned)))
-    if size.has(q):
-        return None
-    return Symbol(free_letter("s"), real=True), sqrt(2 * size) * sin(turned / 2), mass
 
 
 PAIR = Rule(
@@ -342,77 +348,81 @@ PAIR = Rule(
     source="Brown, Gabrielse, *Reviews of Modern Physics* 58, 233 (1986)",
     outcomes={"generic": claims.have_this_sum_and_product},
     evidence={"square": CHECK},
-    named={"sum": lambda facts, told: True, "product": lambda facts, told: True},
+    named={"sum": claims.adds_the_symbols, "product": claims.multiplies_the_symbols},
 )
 
 
 def pair(view: View) -> Iterator[Quantity]:
-    """Sum and product of two frequencies, if these are simpler than the frequencies."""
+    """Sum and product of two frequencies, if these have no root."""
     found = [q for q in view.values("angular speed") if q.step.rule == "vibrations.gyroscopic_frequency"]
     for one, other in pairwise(found):
         added = tidied(explicit(one.value) + explicit(other.value))
         multiplied = tidied(expand(explicit(one.value) * explicit(other.value)))
-        if not one.value.atoms(Pow) or added.has(sqrt(2).func) and any(not p.exp.is_Integer for p in added.atoms(Pow)):
-            continue
-        if any(not p.exp.is_Integer for p in one.value.atoms(Pow)):
-            yield establish(
-                PAIR,
-                None,
-                lambda *_, added=added: added,
-                {"of": one, "other": other},
-                routes={
-                    "square": lambda s, one=one, other=other, product=multiplied: (
-                        s**2 - 4 * product,
-                        expand((explicit(other.value) - explicit(one.value)) ** 2),
-                    )
-                },
-                lines=ONE_LINE,
-                phrase_data=PhraseData(
-                    named={
-                        "sum": Relation(Terms(one.symbol, other.symbol), "=", added),
-                        "product": Relation(Factors(one.symbol, other.symbol), "=", multiplied),
-                    }
-                ),
-                scope=OF_ANY_SUBJECT,
-                key=f"{one.key}_and_{other.key}",
-            )
+        if _has_root(one.value) and not _has_root(added) and not _has_root(multiplied):
+            yield _pair(one, other, added, multiplied)
+
+
+def _has_root(value: Expr) -> bool:
+    return any(not power.exp.is_Integer for power in value.atoms(Pow))
+
+
+def _pair(one: Quantity, other: Quantity, added: Expr, multiplied: Expr) -> Quantity:
+    apart = expand((explicit(other.value) - explicit(one.value)) ** 2)
+    return establish(
+        PAIR,
+        None,
+        lambda *_: added,
+        {"of": one, "other": other},
+        routes={"square": lambda found: (found**2 - 4 * multiplied, apart)},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={
+                "sum": Relation(Terms(one.symbol, other.symbol), "=", added),
+                "product": Relation(Factors(one.symbol, other.symbol), "=", multiplied),
+            }
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{one.key}_and_{other.key}",
+    )
 
 
 LONGER = Rule(
     "observations.longer",
     source="Taylor, *Classical Mechanics*, problem 4.38",
-    outcomes={"generic": lambda facts: True},
+    outcomes={"generic": claims.has_an_amplitude},
     evidence={"series": CHECK},
-    named={"percent": claims.longer_by, "amplitude": lambda facts, told: told == Relation(facts.inputs["letter"], "=", AT)},
+    named={"percent": claims.longer_by, "amplitude": claims.is_the_amplitude},
 )
-AT = Amount(Integer(30), "degree", pi / 180)
+THIRTY_DEGREES = Amount(Integer(30), "degree", pi / 180)
 
 
 def longer(view: View) -> Iterator[Quantity]:
     """Size of the correction to the period for an amplitude of 30 degrees."""
     for of in view.answers:
-        whole, value = of.fact(WholeSwing), explicit(of.value)
+        whole = of.fact(WholeSwing)
         letter = whole.time.args[2] if whole is not None else None
-        if not isinstance(letter, Symbol) or letter not in value.free_symbols or view.letters.get(letter) != "angle":
-            continue
-        part = tidied(value / value.xreplace({letter: Integer(0)}))
-        if part.free_symbols != {letter}:
-            continue
-        excess = 100 * (part.xreplace({letter: explicit(AT)}) - 1)
-        yield establish(
-            LONGER,
-            None,
-            lambda *_, excess=excess: excess,
-            {"letter": letter},
-            routes={"series": lambda e, value=value, letter=letter: (
-                (1 + e / 100) * value.xreplace({letter: Integer(0)}), value.xreplace({letter: explicit(AT)})
-            )},
-            lines=ONE_LINE,
-            phrase_data=PhraseData(
-                named={"percent": rounded_form(excess, 2), "amplitude": Relation(letter, "=", AT)},
-                outcome_data={"swing": whole.time},
-            ),
-            parents=[q for q in of.parents],
-            scope=OF_ANY_SUBJECT,
-            key=f"{of.key}_longer",
-        )
+        if whole is not None and isinstance(letter, Symbol) and view.letters.get(letter) == "angle":
+            part = tidied(explicit(of.value) / explicit(of.value).xreplace({letter: Integer(0)}))
+            if part.free_symbols == {letter}:
+                yield _longer(of, letter, part, whole)
+
+
+def _longer(of: Quantity, letter: Symbol, part: Expr, whole: WholeSwing) -> Quantity:
+    there = {letter: explicit(THIRTY_DEGREES)}
+    excess = 100 * (part.xreplace(there) - 1)
+    least = explicit(of.value).xreplace({letter: Integer(0)})
+    return establish(
+        LONGER,
+        None,
+        lambda *_: excess,
+        {"letter": letter},
+        routes={"series": lambda found: ((1 + found / 100) * least, explicit(of.value).xreplace(there))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={"percent": rounded_form(excess, 2), "amplitude": Relation(letter, "=", THIRTY_DEGREES)},
+            outcome_data={"swing": whole.time},
+        ),
+        parents=of.parents,
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_longer",
+    )

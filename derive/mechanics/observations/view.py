@@ -1,17 +1,17 @@
 """The part of a page that an observation is about, and what the steps of all observations have in common.
 
-An observation is a step without lines of its own. Its rule has the predicate, and its sentence names the answer and what
-was found about the answer.
+An observation is a step without lines of its own. Its rule has the predicate, and its sentence names the answer.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Relation, explicit
 from derive.mechanics.lagrange.facts import Energies
 from derive.steps.establish import Lines, Scope
 from derive.steps.step import Quantity
@@ -40,6 +40,10 @@ class View:
         """Return the given symbols of a kind."""
         return [letter for letter, own in self.letters.items() if own == kind]
 
+    def in_order(self, symbols: Collection[Any]) -> list[Symbol]:
+        """Return those of the symbols that are given, in the order of the problem."""
+        return [letter for letter in self.letters if letter in symbols]
+
     def values(self, *kinds: str) -> Iterator[Quantity]:
         """Yield the exact answers of these kinds (by default, of every kind) whose value is one expression."""
         for each in self.answers:
@@ -50,10 +54,25 @@ class View:
     @property
     def gravity(self) -> list[Symbol]:
         """Return the given accelerations that do not describe a motion: they are not in a kinetic energy."""
-        kinetic = [q.needed(Energies).kinetic for q in self.shown if q.fact(Energies) is not None]
-        return [g for g in self.of_kind("acceleration") if all(g not in explicit(q.value).free_symbols for q in kinetic)]
+        kinetic = [energies.kinetic for q in self.shown if (energies := q.fact(Energies)) is not None]
+        moving = {s for q in kinetic for s in explicit(q.value).free_symbols}
+        return [g for g in self.of_kind("acceleration") if g not in moving]
 
 
 def simple(value: Expr, most: int = 8) -> bool:
     """Whether a value is short enough for a sentence."""
-    return explicit(value).count_ops() <= most
+    return int(explicit(value).count_ops()) <= most
+
+
+def numbered(role: str, values: Iterable[Any]) -> dict[str, Any]:
+    """Return role_1, role_2, ... with these values."""
+    return {f"{role}_{i}": value for i, value in enumerate(values, 1)}
+
+
+def symbols_behind(steps: Iterable[Quantity]) -> set[Any]:
+    """Return the symbols in the values of these steps, and in the values that these steps substitute."""
+    found: set[Any] = set()
+    for q in steps:
+        substituted = [told for role, told in q.step.roles if role.startswith("value_") and isinstance(told, Relation)]
+        found |= {s for value in (q.value, *substituted) for s in explicit(value).free_symbols}
+    return found
