@@ -1,4 +1,4 @@
-"""The limiting and special cases at the end of a page: one sentence for each case; only vectors and tensors are displayed."""
+"""The limiting and special cases at the end of a page: one sentence each; only vectors and tensors are displayed."""
 
 from __future__ import annotations
 

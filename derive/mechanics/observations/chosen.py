@@ -19,8 +19,11 @@ from derive.mechanics.observations.comparisons import (
 from derive.mechanics.observations.dependence import (
     angle,
     anywhere,
+    at_once,
     balanced,
+    below,
     branches,
+    flat,
     independent,
     one_sign,
     resonance,
@@ -59,6 +62,8 @@ OBSERVATIONS = (
     Observation("polhode", polhode),
     Observation("circling", circling),
     Observation("angle", angle),
+    Observation("at_once", at_once),
+    Observation("below", below),
     Observation("pendulum", pendulum),
     Observation("pair", pair),
     Observation("longer", longer),
@@ -68,6 +73,7 @@ OBSERVATIONS = (
     Observation("independent", independent, at_end=True),
     Observation("multiple", multiple),
     Observation("one_frequency", one_frequency),
+    Observation("flat", flat),
     Observation("modes", modes),
     Observation("zero", zero_of),
 )

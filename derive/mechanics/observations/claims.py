@@ -16,7 +16,7 @@ from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.algebra.swing import half_swing
 from derive.steps.rule import Judged, Naming, Predicate
 from derive.steps.step import Quantity
-from derive.steps.trial_numbers import Point, assumptions_about, everywhere, trial_points
+from derive.steps.trial_numbers import Point, assumptions_about, everywhere, real_at, trial_points
 
 CLOSE = Rational(1, 10**15)
 
@@ -649,7 +649,7 @@ def has_an_amplitude(facts: Judged) -> bool:
 
 
 def is_the_amplitude(facts: Judged, told: Relation) -> bool:
-    return bool(told.left == facts.inputs["letter"] and told.right.is_number)
+    return bool(told.left == facts.inputs["letter"] and explicit(told.right).is_number)
 
 
 def longer_by(facts: Judged, told: Expr) -> bool:
@@ -667,3 +667,49 @@ def longer_by(facts: Judged, told: Expr) -> bool:
         return bool(abs(percent - told.args[0]) < Rational(1, 20))
 
     return everywhere(trial_points(letters, tried=3), is_so)
+
+
+def is_zero_there(facts: Judged) -> bool:
+    """Whether the stated speed makes the cosine equal to 1, and a smaller speed makes it smaller than 1."""
+    of, place = facts.quantities["of"].value, facts.result
+
+    def is_so(point: Point) -> bool:
+        there = value_at(explicit(place.right), point)
+        at, slower = (
+            value_at(explicit(of.right), {**point, place.left: there * part}) for part in (1, Rational(9, 10))
+        )
+        return same(at, Integer(1)) and bool(slower < 1)
+
+    return everywhere(numbers([of.right, place.right]), is_so)
+
+
+def stays_below_and_approaches(facts: Judged) -> bool:
+    """Whether the frequency, where it is real, is below the given angular velocity, and approaches it if this is
+    large."""
+    of, letter = facts.quantities["of"], facts.inputs["letter"]
+
+    def is_so(line: Expr, point: Point) -> bool | None:
+        number = real_at(line, point)
+        far = value_at(line, {**point, letter: Integer(10) ** 9}) / 10**9
+        return None if number is None else bool(number < point[letter] and abs(far - 1) < Rational(1, 10**6))
+
+    return for_each_form(of, is_so, letter)
+
+
+def is_sum_of_the_others(facts: Judged) -> bool:
+    """Whether one principal moment is the sum of the two others."""
+    values = [explicit(each) for each in facts.quantities["of"].value]
+
+    def is_so(point: Point) -> bool:
+        found = sorted(value_at(each, point) for each in values)
+        return same(found[0] + found[1], found[2])
+
+    return len(values) == 3 and everywhere(numbers(values), is_so)
+
+
+def adds_the_moments(facts: Judged, told: Relation) -> bool:
+    """Whether the equation holds for the values of the principal moments."""
+    of = facts.quantities["of"]
+    known = dict(zip(of.symbol, explicit(of.value), strict=True))
+    left, right = (side.xreplace(known) for side in told.sides)
+    return len(told.left.args) == 2 and _agree(left, right)

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
-from sympy import Add, Expr, Symbol, sin
+from sympy import Expr, Symbol, sin
 
-from derive.algebra.expressions import Ratio, Relation, component_names, explicit, rate
+from derive.algebra.expressions import Ratio, Relation, Terms, component_names, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.mechanics.observations import claims
 from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, symbols_behind
@@ -302,7 +302,7 @@ def _polhode(energy: Quantity, square: Quantity, momentum: Quantity, euler: Sequ
     names, value = component_names(momentum.symbol.name), explicit(energy.value)
     components = dict(zip(names, list(explicit(momentum.value)), strict=True))
     spins = [next(w for w in momentum.coordinates if w in each.free_symbols) for each in components.values()]
-    in_momenta = Add(
+    in_momenta = Terms(
         *(
             name**2 * tidied(value.diff(w, 2)) / (2 * components[name].diff(w) ** 2)
             for name, w in zip(names, spins, strict=True)
@@ -313,13 +313,13 @@ def _polhode(energy: Quantity, square: Quantity, momentum: Quantity, euler: Sequ
         None,
         lambda *_: in_momenta,
         {},
-        routes={"energy": lambda found: (found.xreplace(components), value)},
+        routes={"energy": lambda found: (explicit(found).xreplace(components), value)},
         lines=ONE_LINE,
         phrase_data=PhraseData(
             points_to={"energy": energy, "square": square, "momentum": momentum},
             named={
                 "ellipsoid": Relation(in_momenta, "=", energy.symbol),
-                "sphere": Relation(Add(*(name**2 for name in names)), "=", square.symbol),
+                "sphere": Relation(Terms(*(name**2 for name in names)), "=", square.symbol),
             },
             outcome_data={"euler": tuple(euler), "spins": tuple(spins), "names": names},
         ),

@@ -25,6 +25,7 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 SOLVED = ("answers.roots", "answers.put_in", "answers.solved_for")
 FREQUENCIES = ("vibrations.frequency", "vibrations.period")
 SIZES = ("mass", "length", "acceleration", "spring constant")  # symbols of a system, not of its motion
+CHOSEN = ("angle", "time", "speed", "angular speed")  # symbols of a motion, which may be results of other parts
 DEGREE = pi / 180
 
 INDEPENDENT = Rule(
@@ -49,7 +50,7 @@ def independent(view: View) -> Iterator[Quantity]:
             continue
         behind = [q for q in of.ancestors() if q.key != of.key and (isinstance(q.value, Relation) or q in of.parents)]
         others = symbols_behind(behind) - explicit(value).free_symbols - _unknowns(of)
-        gone = view.in_order(others if solved else others - _scales(view))
+        gone = [s for s in view.in_order(others if solved else others - _scales(view)) if view.letters[s] not in CHOSEN]
         if of.step.rule in FREQUENCIES:
             yield from _weight(view, of, gone, behind)
         elif 0 < len(gone) < 4 and (not solved or any(view.letters[s] == "length" for s in gone)):
@@ -467,4 +468,104 @@ def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) 
         phrase_data=PhraseData(named=numbered("place", [Relation(letter, "=", each) for each in found])),
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_balanced",
+    )
+
+
+AT_ONCE = Rule(
+    "observations.at_once",
+    source="Morin, *Introduction to Classical Mechanics*, chapter 5",
+    outcomes={"generic": claims.is_zero_there},
+    evidence={"put_in": CHECK},
+    named={"place": claims.is_the_result},
+)
+
+
+def at_once(view: View) -> Iterator[Quantity]:
+    """Speed for which a contact that is lost at some angle is lost at the angle zero, where the motion begins."""
+    for of in (q for q in view.answers if q.step.rule == "motion.leaves_contact" and isinstance(q.value, Relation)):
+        told = of.value
+        if told.operator == "=" and isinstance(told.left, cos) and isinstance(told.left.args[0], Symbol):
+            for letter in [s for s in view.of_kind("speed") if s in explicit(told.right).free_symbols]:
+                found = solved_for_letter(explicit(told.right) - 1, letter)
+                if found is not None and sign_for_all(found) == 1 and found.is_real:
+                    yield _at_once(of, Relation(letter, "=", found))
+
+
+def _at_once(of: Quantity, place: Relation) -> Quantity:
+    return establish(
+        AT_ONCE,
+        None,
+        lambda *_: place,
+        {"of": of},
+        routes={"put_in": lambda found: (explicit(of.value.right).xreplace({found.left: found.right}), Integer(1))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"place": place}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_at_once",
+    )
+
+
+BELOW = Rule(
+    "observations.below",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1",
+    outcomes={"generic": claims.stays_below_and_approaches},
+    evidence={"difference": CHECK},
+)
+
+
+def below(view: View) -> Iterator[Quantity]:
+    """Frequency of oscillation that is always below a given angular velocity, and approaches it if this is large."""
+    for of in view.values("angular speed"):
+        value = explicit(of.value)
+        for letter in [s for s in view.of_kind("angular speed") if s in value.free_symbols]:
+            apart = tidied(letter**2 - value**2)
+            if of.step.rule == "vibrations.frequency" and sign_for_all(apart) == 1:
+                if tidied(apart / letter**2).xreplace({letter: 1 / letter}).subs(letter, 0) == 0:
+                    yield _below(of, letter, apart)
+
+
+def _below(of: Quantity, letter: Symbol, apart: Expr) -> Quantity:
+    return establish(
+        BELOW,
+        None,
+        lambda *_: apart,
+        {"of": of, "letter": letter},
+        routes={"difference": lambda found: (found + explicit(of.value) ** 2, letter**2)},
+        lines=ONE_LINE,
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_below",
+    )
+
+
+FLAT = Rule(
+    "observations.flat",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7",
+    outcomes={"generic": claims.is_sum_of_the_others},
+    evidence={"sum": CHECK},
+    named={"sum": claims.adds_the_moments},
+)
+
+
+def flat(view: View) -> Iterator[Quantity]:
+    """Principal moments of a flat body: the moment about the normal is the sum of the two others."""
+    for of in (q for q in view.answers if q.step.kind == "moment of inertia" and isinstance(q.symbol, MatrixBase)):
+        names, values = list(of.symbol), [explicit(each) for each in of.value]
+        for i in range(len(values) if len(values) == 3 and len(set(values)) == 3 else 0):
+            j, k = sorted({0, 1, 2} - {i})
+            if is_zero(values[i] - values[j] - values[k]):
+                yield _flat(of, Relation(Add(names[j], names[k]), "=", names[i]))
+
+
+def _flat(of: Quantity, told: Relation) -> Quantity:
+    values = dict(zip(of.symbol, explicit(of.value), strict=True))
+    return establish(
+        FLAT,
+        None,
+        lambda *_: told,
+        {"of": of},
+        routes={"sum": lambda found: (found.left.xreplace(values), found.right.xreplace(values))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"sum": told}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_flat",
     )

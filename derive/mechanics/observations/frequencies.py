@@ -325,7 +325,7 @@ def _exact(view: View, lagrangian: Quantity, motion: OneCoordinate) -> Quantity:
     mass = next((m for m in view.of_kind("mass") if m in mu.free_symbols and not tidied(mu / m).has(m)), None)
     path = motion.path(mass) if mass is not None else None
     s = Symbol(free_letter("s"), real=True)
-    harmonic = Relation(Terms(rate(s, 2), Factors(square, s)), "=", Integer(0))
+    harmonic = Relation(Terms(rate(s, 2), square * s), "=", Integer(0))
     return establish(
         EXACT,
         None,
