@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -30,9 +30,10 @@ from derive.mechanics.observations.dependence import (
     zero_of,
 )
 from derive.mechanics.observations.frequencies import exact, longer, modes, one_frequency, orbit, pair, pendulum
-from derive.mechanics.observations.view import View
+from derive.mechanics.observations.view import Observed, View
 from derive.steps.step import Quantity
 
+Steps = list[Quantity]
 MOST = 2  # observations of a problem, unless the author chooses
 
 
@@ -46,7 +47,7 @@ class Observation:
     """
 
     name: str
-    found: Callable[[View], Iterator[Quantity]]
+    found: Callable[[View], Observed]
     at_end: bool = False
 
 
@@ -80,9 +81,9 @@ OBSERVATIONS = (
 NAMES = tuple(each.name for each in OBSERVATIONS)
 
 
-def best(views: Sequence[View], most: int = MOST) -> list[list[Quantity]]:
+def best(views: Sequence[View], most: int = MOST) -> list[Steps]:
     """Return the observations of each part: at most `most` in all, at most one of each kind."""
-    found: list[list[Quantity]] = [[] for _ in views]
+    found: list[Steps] = [[] for _ in views]
     for kind in OBSERVATIONS:
         places = range(len(views))
         tried = reversed(places) if kind.at_end else places
@@ -94,12 +95,12 @@ def best(views: Sequence[View], most: int = MOST) -> list[list[Quantity]]:
     return found
 
 
-def confirmed(kind: Observation, view: View) -> Iterator[Quantity]:
+def confirmed(kind: Observation, view: View) -> Observed:
     """Yield the observations of a kind, up to the first one that its predicate does not confirm."""
     with suppress(Unverified, Rejected):
         yield from kind.found(view)
 
 
-def of_kinds(view: View, names: Collection[str]) -> dict[str, list[Quantity]]:
+def of_kinds(view: View, names: Collection[str]) -> dict[str, Steps]:
     """Return every observation of these kinds about the answers of a part."""
     return {kind.name: list(kind.found(view)) for kind in OBSERVATIONS if kind.name in names}

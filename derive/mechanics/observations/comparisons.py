@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -11,7 +11,7 @@ from sympy import Expr, Symbol, sin
 from derive.algebra.expressions import Ratio, Relation, Terms, component_names, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.mechanics.observations import claims
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, symbols_behind
+from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, Observed, View, numbered, symbols_behind
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.steps.establish import PhraseData, establish
 from derive.steps.rule import CHECK, Rule
@@ -29,7 +29,7 @@ MULTIPLE = Rule(
 )
 
 
-def multiple(view: View) -> Iterator[Quantity]:
+def multiple(view: View) -> Observed:
     """Two velocities of one part whose ratio is a number other than 1 and -1."""
     found = [q for q in view.values() if _is_rate(q) and not is_zero(q.value)]
     for pair in combinations(found, 2):
@@ -44,7 +44,7 @@ def multiple(view: View) -> Iterator[Quantity]:
 def _is_rate(q: Quantity) -> bool:
     """Whether an answer is a velocity, or a sum of velocities; a frequency is neither."""
     adds_rates = q.step.rule == "answers.combination" and any(parent.step.kind in RATES for parent in q.parents)
-    return (q.step.kind in RATES or adds_rates) and not q.step.rule.startswith("vibrations.")
+    return (q.step.kind in RATES or adds_rates) and q.step.rule.partition(".")[0] != "vibrations"
 
 
 def _multiple(of: Quantity, other: Quantity, ratio: Expr, both: Sequence[Symbol]) -> Quantity:
@@ -72,7 +72,7 @@ ORDER = Rule(
 )
 
 
-def order(view: View) -> Iterator[Quantity]:
+def order(view: View) -> Observed:
     """Answers for several special cases in the order of their size, if their ratios are numbers."""
     cases = [q for q in view.values() if (q.step.rule, q.step.outcome) == (PUT_IN, "values") and not is_zero(q.value)]
     for symbol in dict.fromkeys(q.symbol for q in cases):
@@ -117,7 +117,7 @@ FAMILIAR = Rule(
 )
 
 
-def familiar(view: View) -> Iterator[Quantity]:
+def familiar(view: View) -> Observed:
     """Acceleration that is a fixed fraction of that of free fall, or of a block on an incline without friction."""
     for of in view.values("acceleration"):
         angles = [s for s in view.of_kind("angle") if s in explicit(of.value).free_symbols]
@@ -157,7 +157,7 @@ UNAFFECTED = Rule(
 )
 
 
-def unaffected(view: View) -> Iterator[Quantity]:
+def unaffected(view: View) -> Observed:
     """Mode whose frequency does not depend on a spring constant or a mass, and the reason in its shape."""
     shapes = [q for q in view.answers if q.step.rule == "vibrations.mode_shape"]
     frequencies = [q for q in view.answers if q.fact(Mode) is not None]
@@ -210,7 +210,7 @@ CIRCLING = Rule(
 )
 
 
-def circling(view: View) -> Iterator[Quantity]:
+def circling(view: View) -> Observed:
     """Accelerations that are the velocity turned by a right angle: the motion is uniform in a circle."""
     moving = {q.symbol: q for q in view.values("acceleration")}
     coordinates = dict.fromkeys(q for each in moving.values() for q in each.coordinates if rate(q, 2) in moving)
@@ -244,7 +244,7 @@ REDUCED = Rule(
 )
 
 
-def reduced(view: View) -> Iterator[Quantity]:
+def reduced(view: View) -> Observed:
     """Equations of relative motion that are those of one particle with the reduced mass."""
     masses = view.of_kind("mass")
     if len(masses) != 2:
@@ -282,7 +282,7 @@ POLHODE = Rule(
 )
 
 
-def polhode(view: View) -> Iterator[Quantity]:
+def polhode(view: View) -> Observed:
     """Constant kinetic energy and constant |L|: in the body, the tip of L stays on an ellipsoid and on a sphere."""
     kept = [q for q in view.shown if q.step.rule == "motion.rate_under" and is_zero(q.value)]
     energy = _conserved(kept, "rotation.kinetic_energy")

@@ -13,7 +13,15 @@ from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies, ForceOf
 from derive.mechanics.observations import claims
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, simple, symbols_behind
+from derive.mechanics.observations.view import (
+    OF_ANY_SUBJECT,
+    ONE_LINE,
+    Observed,
+    View,
+    numbered,
+    simple,
+    symbols_behind,
+)
 from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData, establish
@@ -41,7 +49,7 @@ INDEPENDENT = Rule(
 )
 
 
-def independent(view: View) -> Iterator[Quantity]:
+def independent(view: View) -> Observed:
     """Given symbols that occur in the equations behind an answer, but not in the answer."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
@@ -60,11 +68,11 @@ def independent(view: View) -> Iterator[Quantity]:
 def _may_be_free(view: View, of: Quantity) -> bool:
     """Whether it is worth saying on which symbols an answer does not depend.
 
-    A special case has no other values of the symbols that were replaced. An answer with a conserved momentum may depend
+    A special case has no other values of the symbols that were replaced. An answer with an angular momentum may depend
     on every symbol that is in this momentum.
     """
-    kept = [q.symbol for q in of.ancestors() if q.step.rule == "hamilton.conserved"]
-    if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or explicit(of.value).free_symbols & {*kept}:
+    kept = {*view.of_kind("angular momentum")} & explicit(of.value).free_symbols
+    if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or kept:
         return False
     if isinstance(of.value, Relation):
         return isinstance(of.value.left, cos | sin | tan) and bool(explicit(of.value.right).free_symbols)
@@ -135,7 +143,7 @@ ANGLE = Rule(
 )
 
 
-def angle(view: View) -> Iterator[Quantity]:
+def angle(view: View) -> Observed:
     """An angle that is a pure number, in degrees, and the sizes of the system on which it does not depend."""
     for of in view.answers:
         told = of.value if isinstance(of.value, Relation) else Relation(of.symbol, "=", of.value)
@@ -190,7 +198,7 @@ ZERO_OF = Rule(
 )
 
 
-def zero_of(view: View) -> Iterator[Quantity]:
+def zero_of(view: View) -> Observed:
     """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes."""
     for of in view.values("acceleration", "force", "torque"):
         for base, power in _factors(explicit(of.value)):
@@ -262,7 +270,7 @@ BRANCHES = Rule(
 )
 
 
-def branches(view: View) -> Iterator[Quantity]:
+def branches(view: View) -> Observed:
     """Angular velocity at which an equilibrium loses its stability and two others branch off from it."""
     rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.symbol, Symbol)]
     for of in (q for q in view.answers if q.fact(StableWhere) is not None):
@@ -325,7 +333,7 @@ RESONANCE = Rule(
 )
 
 
-def resonance(view: View) -> Iterator[Quantity]:
+def resonance(view: View) -> Observed:
     """Driving frequency at which the amplitude without damping grows without bound: that of the free oscillation."""
     for of in view.answers:
         if (of.step.rule, of.step.outcome) == ("vibrations.steady_amplitude", "undamped"):
@@ -370,7 +378,7 @@ ANYWHERE = Rule(
 )
 
 
-def anywhere(view: View) -> Iterator[Quantity]:
+def anywhere(view: View) -> Observed:
     """Value of an angular velocity for which every position is an equilibrium."""
     for of in view.shown:
         if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
@@ -406,7 +414,7 @@ ONE_SIGN = Rule(
 )
 
 
-def one_sign(view: View) -> Iterator[Quantity]:
+def one_sign(view: View) -> Observed:
     """Normal force whose sign does not depend on the position, although its size does."""
     for of in view.values("force"):
         value = tidied(of.value)
@@ -445,7 +453,7 @@ BALANCED = Rule(
 )
 
 
-def balanced(view: View) -> Iterator[Quantity]:
+def balanced(view: View) -> Observed:
     """Angles from 0 to 90 degrees for which no torque of the bearings is needed."""
     for of in view.answers:
         entries = [each for each in explicit(of.value) if each != 0] if isinstance(of.value, MatrixBase) else []
@@ -480,7 +488,7 @@ AT_ONCE = Rule(
 )
 
 
-def at_once(view: View) -> Iterator[Quantity]:
+def at_once(view: View) -> Observed:
     """Speed for which a contact that is lost at some angle is lost at the angle zero, where the motion begins."""
     for of in (q for q in view.answers if q.step.rule == "motion.leaves_contact" and isinstance(q.value, Relation)):
         told = of.value
@@ -513,7 +521,7 @@ BELOW = Rule(
 )
 
 
-def below(view: View) -> Iterator[Quantity]:
+def below(view: View) -> Observed:
     """Frequency of oscillation that is always below a given angular velocity, and approaches it if this is large."""
     for of in view.values("angular speed"):
         value = explicit(of.value)
@@ -546,7 +554,7 @@ FLAT = Rule(
 )
 
 
-def flat(view: View) -> Iterator[Quantity]:
+def flat(view: View) -> Observed:
     """Principal moments of a flat body: the moment about the normal is the sum of the two others."""
     for of in (q for q in view.answers if q.step.kind == "moment of inertia" and isinstance(q.symbol, MatrixBase)):
         names, values = list(of.symbol), [explicit(each) for each in of.value]

@@ -15,7 +15,7 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.observations import claims
 from derive.mechanics.observations.comparisons import linear_equations
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, View, numbered, simple
+from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, Observed, View, numbered, simple
 from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
@@ -47,7 +47,7 @@ PENDULUM = Rule(
 )
 
 
-def pendulum(view: View) -> Iterator[Quantity]:
+def pendulum(view: View) -> Observed:
     """Simple pendulum with the same frequency: omega^2 = g/l."""
     for of in view.values("angular speed", "time"):
         for g in view.gravity if _seen(of) else ():
@@ -134,7 +134,7 @@ ORBIT = Rule(
 )
 
 
-def orbit(view: View) -> Iterator[Quantity]:
+def orbit(view: View) -> Observed:
     """Ratio of the radial frequency and the orbital rate: a nearly circular orbit closes if this ratio is rational."""
     for of in view.values("angular speed"):
         if of.step.rule in OSCILLATES and _seen(of):
@@ -201,7 +201,7 @@ MODES = Rule(
 )
 
 
-def modes(view: View) -> Iterator[Quantity]:
+def modes(view: View) -> Observed:
     """Ratio of the frequencies of normal modes: every motion is periodic if all ratios are rational."""
     every = [each for each in view.values("angular speed") if each.fact(Mode) is not None]
     found = [each for each in every if _seen(each)]
@@ -240,7 +240,7 @@ ONE_FREQUENCY = Rule(
 )
 
 
-def one_frequency(view: View) -> Iterator[Quantity]:
+def one_frequency(view: View) -> Observed:
     """One frequency of all motions of a particle: each orbit is an ellipse."""
     speeds = [q for q in view.shown if q.step.rule == "lagrange.squared_speed"]
     of_particle = len(speeds) == 1 and is_zero(
@@ -298,7 +298,7 @@ class OneCoordinate:
         return None if size.has(self.q) else sqrt(2 * size) * sin(turned / 2)
 
 
-def exact(view: View) -> Iterator[Quantity]:
+def exact(view: View) -> Observed:
     """Oscillation whose period does not depend on the amplitude at all: d^2U/ds^2 is constant for ds = sqrt(mu) dq."""
     found = _one_coordinate(view)
     oscillates = [q for q in view.answers if q.step.kind in ("time", "angular speed")]
@@ -352,7 +352,7 @@ PAIR = Rule(
 )
 
 
-def pair(view: View) -> Iterator[Quantity]:
+def pair(view: View) -> Observed:
     """Sum and product of two frequencies, if these have no root."""
     found = [q for q in view.values("angular speed") if q.step.rule == "vibrations.gyroscopic_frequency"]
     for one, other in pairwise(found):
@@ -396,7 +396,7 @@ LONGER = Rule(
 THIRTY_DEGREES = Amount(Integer(30), "degree", pi / 180)
 
 
-def longer(view: View) -> Iterator[Quantity]:
+def longer(view: View) -> Observed:
     """Size of the correction to the period for an amplitude of 30 degrees."""
     for of in view.answers:
         whole = of.fact(WholeSwing)

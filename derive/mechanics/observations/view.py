@@ -17,6 +17,7 @@ from derive.steps.establish import Lines, Scope
 from derive.steps.step import Quantity
 from derive.steps.subject import EVERYTHING
 
+Observed = Iterator[Quantity]  # the steps that state the observations of one kind
 ONE_LINE = Lines(put_in=None, result=False, arranged=explicit)
 OF_ANY_SUBJECT = Scope(differ=EVERYTHING)
 
