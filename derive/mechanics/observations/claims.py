@@ -594,26 +594,21 @@ def has_one_sign(facts: Judged) -> bool:
     return everywhere(numbers([of]), is_so) and seen == {True, False}
 
 
-def balances(count: int) -> Predicate:
-    """Judge whether all components of the torque vanish at this number of stated angles, and at no other angle from 0
-    to 90 degrees."""
+def balances(facts: Judged) -> bool:
+    """Whether all components of the torque vanish at the stated angles, and at no other angle from 0 to 90 degrees."""
+    torque = [explicit(each) for each in facts.quantities["of"].value]
+    angle = facts.inputs["angle"]
+    told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
+    others = [pi * Rational(k, 80) for k in range(41) if pi * Rational(k, 80) not in told]
 
-    def is_so(facts: Judged) -> bool:
-        torque = [explicit(each) for each in facts.quantities["of"].value]
-        angle = facts.inputs["angle"]
-        told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
-        others = [pi * Rational(k, 80) for k in range(41) if pi * Rational(k, 80) not in told]
+    def only_there(point: Point) -> bool:
+        def size(at: Expr) -> Expr:
+            return max(abs(value_at(each, {**point, angle: at})) for each in torque)
 
-        def only_there(point: Point) -> bool:
-            def size(at: Expr) -> Expr:
-                return max(abs(value_at(each, {**point, angle: at})) for each in torque)
+        sizes = [size(each) for each in others]
+        return bool(all(size(each) <= CLOSE * max(sizes) for each in told) and min(sizes) > max(sizes) / 10**4)
 
-            sizes = [size(each) for each in others]
-            return bool(all(size(each) <= CLOSE * max(sizes) for each in told) and min(sizes) > max(sizes) / 10**4)
-
-        return len(told) == count and everywhere(numbers(torque, tried=3), only_there)
-
-    return is_so
+    return bool(told) and everywhere(numbers(torque, tried=3), only_there)
 
 
 def is_an_angle(facts: Judged, told: Relation) -> bool:

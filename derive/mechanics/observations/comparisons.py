@@ -66,15 +66,19 @@ def _multiple(of: Quantity, other: Quantity, ratio: Expr, both: Sequence[Symbol]
 ORDER = Rule(
     "observations.order",
     source="none needed: comparison of numbers",
-    outcomes={"race": claims.first_to_arrive, "generic": claims.are_in_order},
+    outcomes={"generic": claims.first_to_arrive},
     evidence={"product": CHECK},
     named={"most": claims.is_case_of_the_first, "least": claims.is_case_of_the_last},
 )
 
 
 def order(view: View) -> Observed:
-    """Answers for several special cases in the order of their size, if their ratios are numbers."""
-    cases = [q for q in view.values() if (q.step.rule, q.step.outcome) == (PUT_IN, "values") and not is_zero(q.value)]
+    """Constant accelerations for several special cases in the order of their size, if their ratios are numbers."""
+    cases = [
+        q
+        for q in view.values("acceleration")
+        if (q.step.rule, q.step.outcome) == (PUT_IN, "values") and _is_constant(q)
+    ]
     for symbol in dict.fromkeys(q.symbol for q in cases):
         own = [q for q in cases if q.symbol == symbol]
         ratios = [tidied(explicit(q.value) / explicit(own[0].value)) for q in own]
@@ -82,17 +86,20 @@ def order(view: View) -> Observed:
             yield _in_order([q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])])
 
 
+def _is_constant(q: Quantity) -> bool:
+    """Whether an answer is not zero and contains no coordinate and no rate."""
+    moving = {s for each in q.coordinates for s in (each, rate(each))}
+    return not is_zero(q.value) and not explicit(q.value).free_symbols & moving
+
+
 def _in_order(falling: Sequence[Quantity]) -> Quantity:
     most, least = (explicit(q.value) for q in (falling[0], falling[-1]))
-    moving = {s for q in falling for each in q.coordinates for s in (each, rate(each))}
-    is_race = falling[0].step.kind == "acceleration" and not most.free_symbols & moving
     return establish(
         ORDER,
         None,
         lambda *_: tidied(most / least),
         {},
         routes={"product": lambda found: (found * least, most)},
-        outcome="race" if is_race else "generic",
         lines=ONE_LINE,
         phrase_data=PhraseData(
             points_to=numbered("case", falling),

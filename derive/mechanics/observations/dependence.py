@@ -25,7 +25,7 @@ from derive.mechanics.observations.view import (
 from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData, establish
-from derive.steps.rule import CHECK, Rule, anything
+from derive.steps.rule import CHECK, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
@@ -137,7 +137,7 @@ def _only_shifted(of: Quantity, g: Symbol, rest: Quantity, equations: Sequence[Q
 ANGLE = Rule(
     "observations.angle",
     source="none needed: arithmetic",
-    outcomes={"generic": anything, "whatever": claims.names_a_letter},
+    outcomes={"generic": claims.names_a_letter},
     evidence={"put_back": CHECK},
     named={"angle": claims.is_pure_angle, "size": claims.is_rounded, "letter": claims.is_free_of},
 )
@@ -153,21 +153,27 @@ def angle(view: View) -> Observed:
         if isinstance(told.left.args[0], Symbol):
             size = INVERSE[type(told.left)](explicit(told.right))
             if not any(q.step.kind == "angle" and is_zero(q.value - size) for q in view.page):
-                yield _angle(view, of, told, size)
+                yield from _angle(view, of, told, size)
 
 
-def _angle(view: View, of: Quantity, told: Relation, size: Expr) -> Quantity:
-    q = told.left.args[0]
+def _angle(view: View, of: Quantity, told: Relation, size: Expr) -> Observed:
     behind = [each for each in of.ancestors() if each.key != of.key and isinstance(each.value, Relation)]
     behind += [each for each in of.parents if each not in behind]
     gone = [s for s in view.in_order(symbols_behind(behind)) if view.letters[s] in SIZES][:4]
+    if gone:
+        yield _angle_for_all(of, told, size, gone, behind)
+
+
+def _angle_for_all(
+    of: Quantity, told: Relation, size: Expr, gone: Sequence[Symbol], behind: Sequence[Quantity]
+) -> Quantity:
+    q = told.left.args[0]
     return establish(
         ANGLE,
         None,
         lambda *_: size,
         {"of": of},
         routes={"put_back": lambda found: (told.left.xreplace({q: found}), told.right)},
-        outcome="whatever" if gone else "generic",
         lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"angle": size, "size": _in_degrees(size), **numbered("letter", gone)},
@@ -447,7 +453,7 @@ def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:
 BALANCED = Rule(
     "observations.balanced",
     source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 8",
-    outcomes={"one": claims.balances(1), "two": claims.balances(2)},
+    outcomes={"generic": claims.balances},
     evidence={"put_in": CHECK},
     named={"place": claims.is_an_angle},
 )
@@ -460,7 +466,7 @@ def balanced(view: View) -> Observed:
         if of.step.kind == "torque" and len(entries) == 1:
             for letter in [s for s in view.of_kind("angle") if s in entries[0].free_symbols]:
                 found = [end for end in (Integer(0), pi / 2) if is_zero(entries[0].xreplace({letter: end}))]
-                if found:
+                if len(found) == 2:
                     yield _balanced(of, entries[0], letter, found)
 
 
@@ -471,7 +477,6 @@ def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) 
         lambda *_: entry,
         {"of": of, "angle": letter},
         routes={"put_in": lambda e: (Add(*(e.xreplace({letter: each}) ** 2 for each in found)), Integer(0))},
-        outcome="two" if len(found) == 2 else "one",
         lines=ONE_LINE,
         phrase_data=PhraseData(named=numbered("place", [Relation(letter, "=", each) for each in found])),
         scope=OF_ANY_SUBJECT,

@@ -137,11 +137,18 @@ ORBIT = Rule(
 def orbit(view: View) -> Observed:
     """Ratio of the radial frequency and the orbital rate: a nearly circular orbit closes if this ratio is rational."""
     for of in view.values("angular speed"):
-        if of.step.rule in OSCILLATES and _seen(of):
+        if of.step.rule in OSCILLATES and _seen(of) and _has_polar_coordinates(view):
             for there, told, step in _orbital_rates(view):
                 square = tidied(powsimp(tidied(explicit(of.value) ** 2 / there**2)))
                 if square.is_number or simple(square, 8):
                     yield _orbit(of, there, told, step, square)
+
+
+def _has_polar_coordinates(view: View) -> bool:
+    """Whether the Lagrangian of the page has two coordinates, a positive distance and an angle."""
+    lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
+    known = lagrangian.coordinates if lagrangian is not None else {}
+    return sorted(kind for q, kind in known.items() if kind == "angle" or q.is_positive) == ["angle", "length"]
 
 
 def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, Quantity]]:
@@ -269,7 +276,7 @@ def _one_frequency(of: Quantity, linear: Linear) -> Quantity:
 EXACT = Rule(
     "observations.exact",
     source="Landau, Lifshitz, *Mechanics*, section 11, problem 2",
-    outcomes={"along": claims.isochronous, "generic": claims.isochronous},
+    outcomes={"generic": claims.isochronous},
     evidence={"harmonic": CHECK},
     named={"path": claims.is_the_length_along_the_path, "harmonic": claims.is_harmonic_along_the_path},
 )
@@ -304,8 +311,9 @@ def exact(view: View) -> Observed:
     oscillates = [q for q in view.answers if q.step.kind in ("time", "angular speed")]
     if found is not None and oscillates and found[1].mu.has(found[1].q):
         square = found[1].square
-        if not square.has(found[1].q) and sign_for_all(square) == 1:
-            yield _exact(view, *found)
+        for mass in view.of_kind("mass") if not square.has(found[1].q) and sign_for_all(square) == 1 else ():
+            if mass in found[1].mu.free_symbols and (path := found[1].path(mass)) is not None:
+                yield _exact(*found, mass, path)
 
 
 def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
@@ -320,10 +328,8 @@ def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
     return (lagrangian, OneCoordinate(q, mu, energy, explicit(linear.place[0][1]))) if fits else None
 
 
-def _exact(view: View, lagrangian: Quantity, motion: OneCoordinate) -> Quantity:
+def _exact(lagrangian: Quantity, motion: OneCoordinate, mass: Symbol, path: Expr) -> Quantity:
     q, mu, energy, square = motion.q, motion.mu, motion.energy, motion.square
-    mass = next((m for m in view.of_kind("mass") if m in mu.free_symbols and not tidied(mu / m).has(m)), None)
-    path = motion.path(mass) if mass is not None else None
     s = Symbol(free_letter("s"), real=True)
     harmonic = Relation(Terms(rate(s, 2), square * s), "=", Integer(0))
     return establish(
@@ -332,10 +338,9 @@ def _exact(view: View, lagrangian: Quantity, motion: OneCoordinate) -> Quantity:
         lambda *_: square,
         {"lagrangian": lagrangian},
         routes={"harmonic": lambda found: ((energy.diff(q) ** 2 / mu).diff(q) / 2, found * energy.diff(q))},
-        outcome="generic" if path is None else "along",
         lines=ONE_LINE,
         phrase_data=PhraseData(
-            named={} if path is None else {"path": Relation(s, "=", path), "harmonic": harmonic},
+            named={"path": Relation(s, "=", path), "harmonic": harmonic},
             outcome_data={"q": q, "mu": mu, "energy": energy, "square": square, "lowest": motion.lowest, "mass": mass},
         ),
         scope=OF_ANY_SUBJECT,

@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, explicit, is_matrix
 from derive.mechanics.lagrange.facts import Energies
 from derive.steps.establish import Lines, Scope
 from derive.steps.step import Quantity
@@ -48,7 +48,7 @@ class View:
     def values(self, *kinds: str) -> Iterator[Quantity]:
         """Yield the exact answers of these kinds (by default, of every kind) whose value is one expression."""
         for each in self.answers:
-            is_number = isinstance(each.value, Expr) and each.symbol is not None
+            is_number = isinstance(each.value, Expr) and not is_matrix(each.value) and each.symbol is not None
             if is_number and each.exact and (not kinds or each.step.kind in kinds):
                 yield each
 
