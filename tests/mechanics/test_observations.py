@@ -173,7 +173,14 @@ def _one_sided(facts: Judged) -> Judged:
     return _other(facts, "of", value=explicit(of.value) * (q - b))
 
 
+def _growing(facts: Judged) -> Judged:
+    """Equations whose roots have the other sign, so that the two rates are growth rates."""
+    mass, stiffness = facts.inputs["system"]
+    return _with(facts, system=(mass, -stiffness))
+
+
 SEEDED: dict[str, Any] = {
+    "modes": lambda facts: [_growing(facts)],
     "exact": lambda facts: [
         _with(facts, energy=facts.inputs["energy"] + facts.inputs["energy"] ** 2 / 7),  # an anharmonic force
         _with(facts, square=facts.inputs["square"] * 2),

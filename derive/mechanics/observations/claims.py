@@ -174,11 +174,21 @@ def ratio_of_modes(rational: bool) -> Predicate:
         degree = Poly(minimal_polynomial(ratio, Symbol("z"))).degree()
 
         def agrees(line: Expr, point: Point) -> bool:
-            return same(value_at(line, point), ratio.evalf(30) * value_at(slow.value, point))
+            number = value_at(slow.value, point)
+            oscillate = all(_is_a_frequency(facts, each, point) for each in (number, value_at(line, point)))
+            return oscillate and same(value_at(line, point), ratio.evalf(30) * number)
 
-        return (degree == 1) == rational and for_each_form(fast, agrees, slow.value)
+        mass, stiffness = facts.inputs["system"]
+        return (degree == 1) == rational and for_each_form(fast, agrees, slow.value, *mass, *stiffness)
 
     return is_so
+
+
+def _is_a_frequency(facts: Judged, number: Expr, point: Point) -> bool:
+    """Whether det(K - omega^2 M) = 0, which is false of a growth rate."""
+    mass, stiffness = (matrix.applyfunc(lambda e: value_at(e, point)) for matrix in facts.inputs["system"])
+    found, size = ((stiffness - sign * number**2 * mass).det() for sign in (1, -1))
+    return bool(abs(found) <= abs(size) / 10**9)  # the determinant loses digits
 
 
 def is_ratio_of(above: str, below: str) -> Naming:

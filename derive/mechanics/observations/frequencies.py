@@ -60,7 +60,11 @@ def _seen(of: Quantity) -> str:
     """Return the word for an answer that belongs to an oscillation or a rotation; "" for any other answer."""
     if of.step.rule == PERIOD:
         return "period"
-    if of.step.rule in OSCILLATES and of.step.outcome not in ("growing", "free", "unstable", "neutral"):
+    mode = of.fact(Mode)
+    stays = of.step.outcome not in ("growing", "unstable", "neutral") and (
+        mode is None or mode.root.sign not in (-1, 0)
+    )
+    if of.step.rule in OSCILLATES and stays:
         return "frequency"
     is_rate = of.step.rule == ROOTS and not of.value.could_extract_minus_sign() and not is_zero(of.value)
     return "rate" if is_rate else ""
@@ -214,17 +218,18 @@ def modes(view: View) -> Observed:
     found = [each for each in every if _seen(each)]
     ratios = [(slow, fast, _ratio(slow, fast)) for slow, fast in pairwise(found)]
     odd = next((each for each in ratios if each[2].is_number and not each[2].is_rational), None)
-    if odd is not None:
-        yield _modes(*odd, "irrational")
-    elif len(ratios) == 1 and len(every) == 2 and ratios[0][2].is_Rational:
-        yield _modes(*ratios[0], "rational")
+    linear = linear_equations(every[0]) if every else None
+    if odd is not None and linear is not None:
+        yield _modes(linear, *odd, "irrational")
+    elif linear is not None and len(ratios) == 1 and len(every) == 2 and ratios[0][2].is_Rational:
+        yield _modes(linear, *ratios[0], "rational")
 
 
 def _ratio(slow: Quantity, fast: Quantity) -> Expr:
     return sqrtdenest(sqrt(tidied(explicit(fast.value) ** 2 / explicit(slow.value) ** 2)))
 
 
-def _modes(slow: Quantity, fast: Quantity, ratio: Expr, outcome: str) -> Quantity:
+def _modes(linear: Linear, slow: Quantity, fast: Quantity, ratio: Expr, outcome: str) -> Quantity:
     return establish(
         MODES,
         None,
@@ -233,7 +238,10 @@ def _modes(slow: Quantity, fast: Quantity, ratio: Expr, outcome: str) -> Quantit
         routes={"squares": lambda found: (found**2 * explicit(slow.value) ** 2, explicit(fast.value) ** 2)},
         outcome=outcome,
         lines=ONE_LINE,
-        phrase_data=PhraseData(named={"ratio": Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)}),
+        phrase_data=PhraseData(
+            named={"ratio": Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)},
+            outcome_data={"system": (linear.mass, linear.stiffness)},
+        ),
         scope=OF_ANY_SUBJECT,
         key=f"{fast.key}_and_{slow.key}",
     )
