@@ -150,6 +150,7 @@ CHAPTERS = (
     "vibrations",
     "answers",
     "impacts",
+    "observations",
 )
 
 

@@ -99,6 +99,18 @@ POINTS = Reader({"type": "number", "minimum": 0, "maximum": 9999.5, "multipleOf"
 KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$"}
 
 
+def _observations(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | None:
+    items = node.items if isinstance(node, Sequence) else (node,)
+    if not items or any(not isinstance(item, Scalar) or item.empty for item in items):
+        wrong_type(faults, f"`{name}`", "`none`, or one or more kinds of observations", node)
+        return None
+    return tuple(item.word for item in items if isinstance(item, Scalar))
+
+
+OBSERVATIONS = Reader(one_or_more({"type": "string", "pattern": r"\S"}), _observations)
+OBSERVATIONS_MEANING = "the kinds of observations after the answers, such as `pendulum`, or `none`; by default chosen"
+
+
 @dataclass(frozen=True)
 class AnswerForm(Record):
     """The required form of a number, in one unit or in several; a key that is left out has the default of the
@@ -153,6 +165,7 @@ class Question(Record):
         called="form",
     )
 
+    observations: tuple[Word, ...] | None = key(OBSERVATIONS_MEANING, OBSERVATIONS)
     rubric: dict[Word, Fraction] = key(
         "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )

@@ -75,6 +75,7 @@ class Problem:
     limits: tuple[LimitKeys, ...] = ()
     defined: tuple[Defined, ...] = ()
     uses_natural_quantities: bool = True
+    observations: tuple[Word, ...] | None = None
     reference: str = ""
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
@@ -215,6 +216,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         limits=written.limits,
         defined=defined,
         uses_natural_quantities=written.define.are_used,
+        observations=written.observations,
         reference=as_text(written.reference),
         warnings=warnings,
     )

@@ -26,7 +26,7 @@ from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
-from derive.page.closing import limiting_cases, limits_left_out
+from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn
 from derive.page.formulas import Formulas
@@ -250,6 +250,7 @@ class _Writer:
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
         for value in filter(None, map(self.values.get, self.problem.keys_in_cases(part, [s.key for s in answers]))):
             self._append(blocks, value, framed=True)
+        blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
         return PartPage(label, self._question(part, own), part.points, placed, part.extra)
@@ -265,6 +266,12 @@ class _Writer:
             return asked
         return (*asked, *take(numbers, self.words))
 
+    def _observed(self, index: int) -> tuple[Inline, ...]:
+        """Return the observations about the answers of a part, as one paragraph."""
+        keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
+        said = [self._phrase(self.derivation.step(key)) for key in keys]
+        return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
+
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
         blocks: list[Block] = []
@@ -274,7 +281,8 @@ class _Writer:
                 self.before = each
             else:
                 blocks.append(Paragraph(each))
-        return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
+        title = self.words.labels[sort_of_cases(self.problem, self.derivation)]
+        return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """Return the steps of a part that are framed: its answers, but not a formula whose number is framed instead."""
