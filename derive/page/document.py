@@ -256,12 +256,13 @@ class _Writer:
         return PartPage(label, self._question(part, own), part.points, placed, part.extra)
 
     def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
-        """Return the question of a part; the numbers of the cases of its plots belong to the question."""
-        plots = {part.cases, *(drawing.key for drawing in drawings)}
+        """Return the question of a part, with the numbers of the cases of a plot if the part asks for these numbers or
+        mentions `<<cases>>`. A plot that only illustrates an answer has its numbers in its caption."""
+        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
+        plots = {part.cases, *(drawing.key for drawing in drawings if is_mentioned)}
         cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
         numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
         asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
-        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
         if is_mentioned or all(are_told(each, asked) for each in cases):
             return asked
         return (*asked, *take(numbers, self.words))

@@ -168,7 +168,7 @@ def _one(
         .named({"second_order": compared_with(lambda: _of_second_order(equations, i, moving, place, eta))}),
         outcome=_outcome(linear, i, bool(away)),
         phrase_data=PhraseData(
-            points_to={"motion": equations[i], **({"other": equations[i - 1]} if len(equations) > 1 else {})},
+            points_to=_pointed(equations, i),
             outcome_data={
                 "place": tuple(place.values()),
                 "displacements": tuple(s.symbol for s in eta),
@@ -345,6 +345,14 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
     away = [q for q in moving if place[q.symbol] != 0]
     names = {q: "eta" if len(away) == 1 else f"eta_{n + 1}" for n, q in enumerate(away)}
     return tuple(Coordinate(scalar(names[q]), q.kind) if q in names else q for q in moving)
+
+
+def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
+    """Return the equations that the sentence names: the own equation; another one if there are several; and for the
+    first of more than two equations, also one in the middle, so that the sentence says "(6) to (8)"."""
+    others = {"other": equations[i - 1]} if len(equations) > 1 else {}
+    middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
+    return {"motion": equations[i], **others, **middle}
 
 
 def _of_second_order(
