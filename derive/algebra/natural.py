@@ -201,9 +201,11 @@ def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol,
         return Shortened(compared(left, value.operator, right), used)
     if value.operator != "=" or right != 0:
         return Shortened(Relation(left, value.operator, right), used)
-    front = [f for f in Mul.make_args(factor_terms(left)) if f.is_positive and (f.is_Symbol or f.is_Pow)]
+    front = [
+        f for f in Mul.make_args(factor_terms(left)) if f.is_positive and (f.is_Symbol or f.is_Pow or f.is_Rational)
+    ]
     divided = Add(*(term / Mul(*front) for term in Add.make_args(left)))
-    return Shortened(Relation(divided, "=", Integer(0)), used, tuple(front))
+    return Shortened(Relation(divided, "=", Integer(0)), used, tuple(f for f in front if not f.is_Rational))
 
 
 def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:

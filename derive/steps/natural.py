@@ -54,8 +54,12 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        self._constants = _by_symbol(constants, symbol, result)
-        self._known = {**_by_symbol(states, symbol, result), **self._constants}
+        own: set[Any] = getattr(
+            symbol, "free_symbols", set()
+        )  # a square omega_0^2 does not contain omega_0 in its own result
+        self._constants = {each.symbol: each for each in constants if each.symbol not in own}
+        others = (each for each in states if each.symbol not in own and each.value != result)
+        self._known = {**{each.symbol: each for each in others}, **self._constants}
         self.used: list[Quantity] = []
 
     def chain(self, chain: Sequence[Form], result: Any) -> list[Form]:
@@ -92,11 +96,6 @@ class NaturalQuantities:
             return None
         self.used += [made for name in names if (made := known[name].make()) not in self.used]
         return found
-
-
-def _by_symbol(proposals: Sequence[Proposal], symbol: Any, result: Any) -> dict[Symbol, Proposal]:
-    """Return symbol -> proposal, without the result itself."""
-    return {each.symbol: each for each in proposals if each.symbol != symbol and each.value != result}
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:

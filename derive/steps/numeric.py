@@ -53,6 +53,7 @@ from derive.steps.claims import (
     value_integrated,
 )
 from derive.steps.establish import Lines, PhraseData, Scope, establish
+from derive.steps.natural import NATURAL
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Fact, Form, Level, Quantity
 
@@ -425,6 +426,8 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
     Source: as `value_of`.
     """
     value = answer.value
+    if answer.step.chain[-1].because == NATURAL:
+        return None  # sqrt(2 - sqrt(2)) omega_0 has other letters than its value
     if isinstance(value, Relation) or not value.free_symbols or (isinstance(value, MatrixBase) and not of_vectors):
         return None
     common, rest = factored_matrix(value) if isinstance(value, MatrixBase) else (value, Integer(1))

@@ -10,7 +10,7 @@ from derive.building.solution import rendered
 from tests.courses import ROOT
 from tests.stock.described import course_with, edited
 
-PENDULUM = (ROOT / "problems" / "library" / "pendulums" / "rod_pendulum.yaml").read_text(encoding="utf-8")
+PENDULUM = (ROOT / "problems" / "library" / "pendulums" / "spring_pendulum.yaml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -18,7 +18,10 @@ PENDULUM = (ROOT / "problems" / "library" / "pendulums" / "rod_pendulum.yaml").r
     [
         ("Write Lagrange's equation for the one angle.", []),
         ("Use Hamilton's equations.", ["the strategy names Hamilton's equation, but no step on this page uses it"]),
-        ("The normal modes follow.", ["the strategy names normal mode, but no step on this page uses it"]),
+        (
+            "Use the parallel-axis theorem.",
+            ["the strategy names parallel-axis theorem, but no step on this page uses it"],
+        ),
     ],
 )
 def test_a_law_that_is_named_is_on_the_page(tmp_path: Path, strategy: str, said: list[str]) -> None:
