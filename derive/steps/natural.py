@@ -56,7 +56,7 @@ class NaturalQuantities:
             states = list(_named(_ancestors(inputs)))
         own: set[Any] = getattr(
             symbol, "free_symbols", set()
-        )  # a square omega_0^2 does not contain omega_0 in its own result
+        )  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)
         self._known = {**{each.symbol: each for each in others}, **self._constants}
