@@ -143,12 +143,14 @@ CHAPTERS = (
     "rotation",
     "model",
     "lagrange",
+    "newton",
     "hamilton",
     "rest",
     "motion",
     "vibrations",
     "answers",
     "impacts",
+    "observations",
 )
 
 
@@ -498,6 +500,7 @@ CARRIED = {  # facts about the origin of a value; where they are read, values th
         "Energies",
         "ActedOn",
         "ForcedMotion",
+        "MovedAlone",
         "PhaseSpace",
         "SeenWith",
         "RestOf",

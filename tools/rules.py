@@ -11,6 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 import derive.mechanics
+import derive.mechanics.observations.chosen
 import derive.steps.defined
 import derive.steps.numeric
 from derive.mechanics.in_results import RESULT_VERBS

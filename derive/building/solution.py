@@ -48,6 +48,7 @@ from derive.steps.memory import Memory
 from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
+from derive.stock.keys.observations import observations_of
 
 
 def rendered(
@@ -144,7 +145,8 @@ def derived(
     if clashes := letter_clashes(problem, known, run.coordinates):
         raise Rejected(clashes)
     closing = limits_of(problem, known, run)
-    derivation = derivation_of(asked, known, run, groups, closing)
+    observed = observations_of(problem, known, [list(keys) for keys in asked], run)
+    derivation = derivation_of(asked, known, run, groups, closing, observed)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):

@@ -2,8 +2,8 @@
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
 reference. It also depends on the given values, on the description, on the symbols and their numbers, on the limiting
-cases (`limits:`, with `why:` and its line in the file), and on the answers, forms and cases that parts ask for. It does
-not depend on other words, on points or on templates.
+cases (`limits:`, with `why:` and its line in the file), on the chosen observations, and on the answers, forms and cases
+that parts ask for. It does not depend on other words, on points or on templates.
 """
 
 from __future__ import annotations
@@ -71,5 +71,6 @@ def steps_key(problem: Problem) -> str:
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
-    read = (problem.reference, repr(problem.limits))
+    observed = (problem.observations, [part.observations for part in problem.parts])
+    read = (problem.reference, repr(problem.limits), repr(observed))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

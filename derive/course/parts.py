@@ -79,10 +79,36 @@ def _level(node: Tree, name: str, faults: Faults) -> Level | None:
     return Level(word) if word else None
 
 
+def _method(node: Tree, name: str, faults: Faults) -> Word | None:
+    word = _METHODS.read(node, name, faults)
+    return Word.at(word, node.place) if word else None
+
+
+LAGRANGE, NEWTON, ENERGY, ANGULAR_MOMENTUM, BOTH = METHODS = (
+    "lagrange",
+    "newton",
+    "energy",
+    "angular_momentum",
+    "both",
+)
+_METHODS = one_of(METHODS)
+METHOD = Reader(_METHODS.schema, _method)
 _LEVELS = one_of(tuple(Level))
 DETAIL = Reader(_LEVELS.schema, _level, lambda: Level.BRIEF)
 POINTS = Reader({"type": "number", "minimum": 0, "maximum": 9999.5, "multipleOf": 0.5}, _points)
 KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$"}
+
+
+def _observations(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | None:
+    items = node.items if isinstance(node, Sequence) else (node,)
+    if not items or any(not isinstance(item, Scalar) or item.empty for item in items):
+        wrong_type(faults, f"`{name}`", "`none`, or one or more kinds of observations", node)
+        return None
+    return tuple(item.word for item in items if isinstance(item, Scalar))
+
+
+OBSERVATIONS = Reader(one_or_more({"type": "string", "pattern": r"\S"}), _observations)
+OBSERVATIONS_MEANING = "the kinds of observations after the answers, such as `pendulum`, or `none`; by default chosen"
 
 
 @dataclass(frozen=True)
@@ -139,9 +165,11 @@ class Question(Record):
         called="form",
     )
 
+    observations: tuple[Word, ...] | None = key(OBSERVATIONS_MEANING, OBSERVATIONS)
     rubric: dict[Word, Fraction] = key(
         "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )
+    method: Word | None = key("the method of this part, in place of that of the problem", METHOD)
     cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
 
     def form_of(self, answer: str) -> AnswerForm:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator
 from collections.abc import Mapping as Table
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
 from posixpath import normpath
@@ -34,9 +34,9 @@ from derive.course.problem_set import path_of
 from derive.course.prose import Prose
 from derive.course.schema import read_record
 from derive.course.script import Parameter, Script, imported_script, run
-from derive.course.stock import Described, StockScript, stock_names, stock_script
+from derive.course.stock import Described, Methods, StockScript, stock_names, stock_script
 from derive.course.unused import unused_in
-from derive.course.written import SCRIPT, LimitKeys, SortOfLetter, written_problem
+from derive.course.written import SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
 from derive.steps.defined import define
@@ -75,6 +75,7 @@ class Problem:
     limits: tuple[LimitKeys, ...] = ()
     defined: tuple[Defined, ...] = ()
     uses_natural_quantities: bool = True
+    observations: tuple[Word, ...] | None = None
     reference: str = ""
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
@@ -181,6 +182,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     if not all(kind.known for kind in written.symbols.values()):
         faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
+    pinned = _by_method(pinned, written, script, faults)
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     moving = pinned.described.letters if pinned.described else {}
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
@@ -214,6 +216,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         limits=written.limits,
         defined=defined,
         uses_natural_quantities=written.define.are_used,
+        observations=written.observations,
         reference=as_text(written.reference),
         warnings=warnings,
     )
@@ -227,6 +230,22 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
     for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
+
+
+def _by_method(pinned: Pinned, written: ProblemKeys, script: Script | StockScript | None, faults: Faults) -> Pinned:
+    """Add the methods that the problem and its parts state to the description of a system."""
+    of_names: dict[str, Word] = {}
+    for part in written.parts:
+        if part.method is not None:
+            of_names = {**{str(name): part.method for name in part.answers}, **of_names}
+    methods = Methods(written.method, of_names)
+    if not methods.stated or pinned.described is None and isinstance(script, StockScript):
+        return pinned  # without a description, its errors have been reported
+    if pinned.described is None or not pinned.described.has_methods:
+        message = "a `method` leads to equations of motion, so it belongs to `solve: system`"
+        faults.error("unused-key", message, methods.stated[0].place, help="leave it out")
+        return pinned
+    return replace(pinned, described=replace(pinned.described, methods=methods))
 
 
 def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from sympy import Expr
 
@@ -36,6 +36,26 @@ NOWHERE: Mapping[str, Place] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
+class Methods:
+    """The ways to the equations of motion that a problem asks for.
+
+    whole     the method of the problem; None for the default
+    of_names  the name of an answer -> the method of the part that is the first to ask for this answer
+    """
+
+    whole: Word | None = None
+    of_names: Mapping[str, Word] = field(default_factory=dict)
+
+    def of(self, name: str) -> Word | None:
+        return self.of_names.get(name, self.whole)
+
+    @property
+    def stated(self) -> tuple[Word, ...]:
+        """All methods that the problem states."""
+        return tuple(filter(None, (self.whole, *self.of_names.values())))
+
+
+@dataclass(frozen=True)
 class Described:
     """The description that a problem gives.
 
@@ -46,6 +66,7 @@ class Described:
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
     without   keys, each with the names of the answers that do not depend on the key
     assumed   relations between symbols that are assumed to hold
+    methods   the ways to the equations of motion that the problem asks for
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
@@ -56,6 +77,8 @@ class Described:
     results: tuple[Any, ...] = ()
     without: tuple[tuple[Word, Collection[str]], ...] = field(default=(), repr=False, compare=False)
     assumed: tuple[Assumed, ...] = ()
+    methods: Methods = Methods()
+    has_methods: ClassVar[bool] = False  # whether the description leads to equations of motion
 
     @property
     def made(self) -> dict[Word, tuple[Word, ...]]:

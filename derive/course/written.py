@@ -11,7 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from derive.algebra.kinds import KINDS
-from derive.course.parts import PARTS, POINTS, Question, points_in_all
+from derive.course.parts import (
+    METHOD,
+    OBSERVATIONS,
+    OBSERVATIONS_MEANING,
+    PARTS,
+    POINTS,
+    Question,
+    points_in_all,
+)
 from derive.course.problem_set import mapping_in, path_of
 from derive.course.prose import PROSE, PROSE_OR_NOTHING, Prose, read_prose
 from derive.course.schema import (
@@ -222,6 +230,11 @@ class ProblemKeys(Record):
     strategy: Prose | None = key(
         "one or two sentences at the head of the solution: the method, and the reason for it", PROSE
     )
+    method: Word | None = key(
+        "the way to the equations of motion of a `system`: `lagrange` (default), `newton`, `energy`, "
+        "`angular_momentum`, or `both` for Newton's laws and Lagrange's equations",
+        METHOD,
+    )
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
         "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
@@ -233,6 +246,7 @@ class ProblemKeys(Record):
         "where the drawings of the script appear, by their names", mapping_of(_DRAWING)
     )
     limits: tuple[LimitKeys, ...] = key("limiting and special cases that check the answers at the end", LIMITS)
+    observations: tuple[Word, ...] | None = key(OBSERVATIONS_MEANING, OBSERVATIONS)
     note: Prose | None = key("a remark after the last part, in prose", PROSE)
     reference: Mapping | None = key("what a source states about the same problem", mapping_node({}))
 

@@ -29,7 +29,7 @@ from derive.steps.record import coordinates_in, current_run
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
-__all__ = ["force_diagram"]
+__all__ = ["force_diagram", "free_body_diagram"]
 
 LONG = Rational(3, 4)  # the drawn length of a force, relative to the size of the body
 ON_PARTICLE = Rational(3, 5)
@@ -69,6 +69,39 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
     arrows = [each.arrow(long * _share(size, max(sizes))) for each, size in zip(drawn, sizes, strict=True)]
     return drawing(key, [*_outline(of), *arrows], values=scene.values)
+
+
+def free_body_diagram(key: str, system: System, of: Any, leads_to: Sequence[str]) -> Drawing | None:
+    """Return a drawing of one body or particle with the forces on it before they are known: each letter is drawn in the
+    direction in which it is positive, and the lengths of the arrows have no meaning.
+
+    key       the name of the drawing
+    of        the body or particle, as a part of the system
+    leads_to  the keys of the laws of this body, before which the drawing is placed
+    The result is None in the cases in which `force_diagram` returns None, except for the sizes of the forces.
+    """
+    acting = [force for each in connections_of(system, Connection) for force in each.on(of)]
+    if not acting or _has_others(system) or not _moves_by(system, of, acting, {}):
+        return None
+    scene = Connections(system)
+    if not scene.is_possible:
+        return None
+    letters = {each.force for each in system.constraints}
+    drawn = list(_weight(system, of))
+    for force, times in Counter(acting).items():  # a string pulls a pulley twice
+        size, direction = force.size, Location(force.direction)
+        if size == 1:  # for friction of size 1 the direction contains the true size
+            size, direction = _size_and_direction(direction, list(letters))
+        way = ImmutableDenseMatrix(list(direction.components))
+        at = _beside(force) if isinstance(force.of, PlacedBody) else force.of.at
+        pushes = isinstance(force.of, PlacedBody) and size in _of_surfaces(system)
+        drawn.append(_Drawn(at, way, size, times * size, (), pushes))
+    long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
+    return drawing(key, [*_outline(of), *(each.arrow(long) for each in drawn)], values=scene.values, leads_to=leads_to)
+
+
+def _of_surfaces(system: System) -> set[Symbol]:
+    return {each.force for each in system.constraints if each.enforcer == "surface"}
 
 
 @dataclass(frozen=True)
@@ -162,7 +195,7 @@ def _forces(
     """
     drawn = []
     still = {rate(q): Integer(0) for q in system.coordinates}
-    surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
+    surfaces = _of_surfaces(system)
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)

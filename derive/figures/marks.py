@@ -112,6 +112,7 @@ class Drawing:
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
     left_out      conditions of the system that the drawing does not show
+    leads_to      the keys of steps that the drawing precedes, as a force diagram precedes Newton's laws
     """
 
     key: str
@@ -120,6 +121,7 @@ class Drawing:
     coordinates: tuple[tuple[Any, str], ...] = ()
     values: tuple[tuple[Any, Any], ...] = ()
     left_out: tuple[Any, ...] = ()
+    leads_to: tuple[str, ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:

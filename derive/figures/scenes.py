@@ -46,6 +46,7 @@ def drawing(
     view: str | None = None,
     values: Mapping[Any, Any] | None = None,
     left_out: Sequence[Any] = (),
+    leads_to: Sequence[str] = (),
 ) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
@@ -55,6 +56,7 @@ def drawing(
              by default "plane" if a position has two components
     values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`
     left_out   conditions that the drawing does not show; a caption states them
+    leads_to the keys of steps before which the drawing is placed, by default after the steps that it shows
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -65,7 +67,7 @@ def drawing(
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
-    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(left_out))
+    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(left_out), tuple(leads_to))
     noted(found)
     return found
 

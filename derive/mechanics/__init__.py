@@ -30,6 +30,7 @@ from derive.mechanics.hamilton.effective import *
 from derive.mechanics.hamilton.phase_space import *
 from derive.mechanics.impacts.impact import *
 from derive.mechanics.impacts.impulses import *
+from derive.mechanics.impacts.momentum_laws import *
 from derive.mechanics.kinematics.coordinates import *
 from derive.mechanics.kinematics.places import *
 from derive.mechanics.lagrange.applied_forces import *
@@ -57,6 +58,10 @@ from derive.mechanics.motion.flight import *
 from derive.mechanics.motion.leaving import *
 from derive.mechanics.motion.slipping import *
 from derive.mechanics.motion.steady import *
+from derive.mechanics.newton.agreement_of_laws import *
+from derive.mechanics.newton.energy import *
+from derive.mechanics.newton.second_law import *
+from derive.mechanics.newton.torque_law import *
 from derive.mechanics.rest.equilibria import *
 from derive.mechanics.rest.potentials import *
 from derive.mechanics.rest.stability import *

@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: one sentence for each case; only vectors and tensors are displayed."""
+"""The limiting and special cases at the end of a page: one sentence each; only vectors and tensors are displayed."""
 
 from __future__ import annotations
 
@@ -34,6 +34,15 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
     return found
 
 
+def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
+    """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value."""
+    shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
+    special = [bool(given.where) for given in shown if not given.step]
+    if not special or not any(special):
+        return "limits"
+    return "special_cases" if len(special) == len(shown) and all(special) else "special_and_limits"
+
+
 def limiting_cases(
     problem: Problem,
     derivation: Derivation,
@@ -48,7 +57,7 @@ def limiting_cases(
     numbers        numbers of the equations on the page; the caller adds numbers between two sentences
     """
     own = {key for keys in derivation.closing for key in keys}
-    shown = {key for keys in derivation.parts for key in keys} | own
+    shown = {key for keys in (*derivation.parts, *derivation.observed) for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these steps
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:  # the result does not depend on the symbols of this case

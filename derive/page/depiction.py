@@ -166,8 +166,16 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
     return found
 
 
+def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
+    """Return the keys of the steps before which a drawing is placed; a plot has none."""
+    return drawing.leads_to if isinstance(drawing, m.Drawing) else ()
+
+
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part after which all steps of the drawing are derived; None without such a part."""
+    """Return the index of the first part after which all steps of the drawing are derived, or of the part that derives
+    the first step to which the drawing leads; None without such a part."""
+    if leads_to(drawing):
+        return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
     for index, keys in enumerate(((), *derivation.parts), FOUND):
         known |= set(keys)

@@ -26,9 +26,9 @@ from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses
-from derive.page.closing import limiting_cases, limits_left_out
+from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
-from derive.page.depiction import caption_numbers, depictions, keys_of_plots, letters_not_drawn
+from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn
 from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
@@ -220,7 +220,12 @@ class _Writer:
         stem = self.problem.id.rpartition("/")[2]
         away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
         here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
-        return [Illustration(d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys) for d in here]
+        return [
+            Illustration(
+                d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys, leads_to(d.drawing)
+            )
+            for d in here
+        ]
 
     def _part(self, index: int, part: Question, illustrations: Sequence[Illustration]) -> PartPage:
         label = chr(ord("a") + index)
@@ -228,10 +233,12 @@ class _Writer:
             return PartPage(label, (), None, (), part.extra, shown=False)
         answers = self.derivation.answering(part.answers)
         blocks: list[Block] = [Paragraph(nodes) for nodes in found_before(answers, self.shown_in, self.words)]
+        begins: dict[str, int] = {}
         ends: dict[str, int] = {}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
+            begins[key] = len(blocks)
             self.rest = self.selection.standing_after(key, self.derivation.parts[index])
             self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
@@ -243,20 +250,28 @@ class _Writer:
             self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
         for value in filter(None, map(self.values.get, self.problem.keys_in_cases(part, [s.key for s in answers]))):
             self._append(blocks, value, framed=True)
+        blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
-        placed = _illustrated(_punctuated(blocks), own, ends, steps)
+        placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
         return PartPage(label, self._question(part, own), part.points, placed, part.extra)
 
     def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
-        """Return the question of a part; the numbers of the cases of its plots belong to the question."""
-        plots = {part.cases, *(drawing.key for drawing in drawings)}
+        """Return the question of a part, with the numbers of the cases of a plot if the part asks for these numbers or
+        mentions `<<cases>>`. A plot that only illustrates an answer has its numbers in its caption."""
+        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
+        plots = {part.cases, *(drawing.key for drawing in drawings if is_mentioned)}
         cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
         numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
         asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
-        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
         if is_mentioned or all(are_told(each, asked) for each in cases):
             return asked
         return (*asked, *take(numbers, self.words))
+
+    def _observed(self, index: int) -> tuple[Inline, ...]:
+        """Return the observations about the answers of a part, as one paragraph."""
+        keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
+        said = [self._phrase(self.derivation.step(key)) for key in keys]
+        return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
@@ -267,7 +282,8 @@ class _Writer:
                 self.before = each
             else:
                 blocks.append(Paragraph(each))
-        return PartPage("", (Text(self.words.labels["limits"]),), None, _punctuated(blocks)) if blocks else None
+        title = self.words.labels[sort_of_cases(self.problem, self.derivation)]
+        return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """Return the steps of a part that are framed: its answers, but not a formula whose number is framed instead."""
@@ -398,13 +414,26 @@ def _goes_on(block: Block) -> bool:
 
 
 def _illustrated(
-    blocks: tuple[Block, ...], own: Sequence[Illustration], ends: Mapping[str, int], steps: int
+    blocks: tuple[Block, ...],
+    own: Sequence[Illustration],
+    begins: Mapping[str, int],
+    ends: Mapping[str, int],
+    steps: int,
 ) -> tuple[Block, ...]:
-    """Insert each drawing after the last step that it shows; a drawing that shows no steps begins the part."""
+    """Insert each drawing after the last step that it shows, or before the first step to which it leads; a drawing that
+    shows no steps begins the part."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
-    completed = [max((ends[k] for k in d.rests_on if k in ends), default=n) for d, n in zip(own, without, strict=True)]
+    completed = [
+        min((begins[k] for k in d.leads_to if k in begins), default=0)
+        if d.leads_to
+        else max((ends[k] for k in d.rests_on if k in ends), default=n)
+        for d, n in zip(own, without, strict=True)
+    ]
     places = [
-        next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i)) for place in completed
+        next(i for i in range(place, -1, -1) if i == 0 or _parts_nothing(blocks, i))
+        if drawing.leads_to
+        else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
+        for drawing, place in zip(own, completed, strict=True)
     ]
     found: list[Block] = []
     for i, block in enumerate(blocks):

@@ -53,7 +53,8 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Illustration:
-    """A drawing of the script: the stem of its file names, alternative text, caption, number, and steps shown."""
+    """A drawing of the script: the stem of its file names, alternative text, caption, number, the steps that it
+    shows, and the steps before which it is placed."""
 
     key: str
     stem: str
@@ -62,6 +63,7 @@ class Illustration:
     caption: tuple[Inline, ...]
     at: str
     rests_on: tuple[str, ...] = ()
+    leads_to: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ class Derivation:
     groups: tuple[tuple[str, tuple[str, ...]], ...] = ()
     in_words: tuple[Relation, ...] = ()  # the assumptions that a step states in words
     closing: tuple[tuple[str, ...], ...] = ()  # the steps of each limiting case in which the answers are checked
+    observed: tuple[tuple[str, ...], ...] = ()  # the observations that follow the answers of each part
 
     def step(self, key: str) -> Step:
         return next(step for step in self.steps if step.key == key)
@@ -161,10 +162,12 @@ def derivation_of(
     run: Run | None = None,
     groups: Mapping[str, tuple[str, ...]] | None = None,
     closing: Iterable[Iterable[Quantity]] = (),
+    observed: Iterable[Iterable[Quantity]] = (),
 ) -> Derivation:
     """Divide the steps among the parts; `answers` are the keys that each part asks for.
 
-    closing   the quantities of each limiting case; steps on which only limiting cases depend are in no part
+    closing    the quantities of each limiting case; steps on which only limiting cases depend are in no part
+    observed   the observations of each part, which depend on steps of this part and of earlier ones
     """
     shown: dict[str, Step] = {}
     parts = []
@@ -175,12 +178,15 @@ def derivation_of(
     cases = [list(case) for case in closing]
     for key, quantity in with_ancestors(quantity for case in cases for quantity in case).items():
         shown.setdefault(key, quantity.step)
+    seen = [list(part) for part in observed]
+    shown.update((quantity.key, quantity.step) for part in seen for quantity in part)
     checked = tuple(tuple(quantity.key for quantity in case) for case in cases)
     run = run or Run()
     unshown = tuple(dict.fromkeys(q.key for q in run.established if q.key not in shown))
     named = tuple((groups or {}).items())
     steps, assumed, in_words = tuple(shown.values()), tuple(run.assumed), tuple(run.in_words)
-    return Derivation(steps, tuple(parts), unshown, assumed, named, in_words, checked)
+    keys_seen = tuple(tuple(quantity.key for quantity in part) for part in seen)
+    return Derivation(steps, tuple(parts), unshown, assumed, named, in_words, checked, keys_seen)
 
 
 # --- JSON ------------------------------------------------------------------------------------------------------------

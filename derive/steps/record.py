@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import wraps
 from typing import Any, Protocol, TypeVar
 
@@ -104,6 +104,17 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
     try:
         with own_meaning():
             yield run
+    finally:
+        current_run.reset(token)
+
+
+@contextmanager
+def unrecorded() -> Iterator[None]:
+    """Derive steps that only a check needs. The run does not record these steps, but it keeps their assumptions."""
+    run = current_run.get() or Run()
+    token = current_run.set(replace(run, established=[], cases=[], drawings=[], memory=None, call=None))
+    try:
+        yield
     finally:
         current_run.reset(token)
 
@@ -217,6 +228,13 @@ def assumed() -> list[Relation]:
     """Return the assumptions of the page."""
     run = current_run.get()
     return list(run.assumed) if run is not None else []
+
+
+def forget_words() -> None:
+    """State all assumptions after the statement of the problem, because no step states them in words."""
+    run = current_run.get()
+    if run is not None:
+        run.in_words.clear()
 
 
 def assumed_in_words() -> list[Relation]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import chain
 from typing import Any
@@ -10,20 +11,23 @@ from typing import Any
 from sympy import Expr, Integer
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
+from derive.course.parts import BOTH, ENERGY, LAGRANGE
 from derive.course.placement import Placement
-from derive.course.stock import Stock, told_at
+from derive.course.stock import Methods, Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
-from derive.figures import force_diagram, sketch
+from derive.figures import force_diagram, free_body_diagram, sketch
 from derive.mechanics import (
     Coordinate,
     System,
     accelerations,
+    agreement_of_laws,
     angular_velocity,
     conjugate_momentum,
     conserved,
     coordinate,
     effective_potential,
+    energy_equation,
     energy_function,
     energy_function_rate,
     equation_of_motion,
@@ -42,15 +46,24 @@ from derive.mechanics import (
     put_in,
     routhian,
     stability,
+    total_energy,
     weight,
 )
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
-from derive.steps.derivation import returned_quantities
-from derive.steps.record import assume, assumed, current_run
+from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.answering.held_rest import rest_with_forces
+from derive.stock.answering.methods import (
+    ABOUT,
+    by_newton,
+    check_available,
+    check_effect,
+    check_one_law_for_each_key,
+    laws_of,
+)
 from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.answering.sticking import state_static_friction
@@ -58,17 +71,25 @@ from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
+POTENTIAL_ENERGY = "lagrange.potential_energy"  # the rule whose steps state assumptions about springs in words
 SYSTEM = "system"  # the key of the drawing of a system
 
 
 class SystemAnswers(StockAnswers[DescribedSystem]):
     """The quantities of a system."""
 
-    def __init__(self, described: DescribedSystem):
+    def __init__(self, described: DescribedSystem, other: SystemAnswers | None = None):
+        """Make the answers of a system; `other` has the answers of the same system by another method."""
         super().__init__(described)
+        self.other = other
         self.coordinates = {
             name: coordinate(name, kind, positive=positive) for name, kind, positive in described.coordinates
         }
+
+    @property
+    def method(self) -> str:
+        """Return the way to the equations of motion."""
+        return str(self.described.methods.whole or LAGRANGE)
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return name -> answer for the requested names, and draw the system."""
@@ -82,12 +103,33 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             if sliding is not None:
                 with told_at(sliding):
                     check_starts(self.described.results, assumed())
-        answers = super().solve(asked, drawings)
+        answers = self._by_methods(asked, drawings)
+        steps = with_ancestors(returned_quantities(list(answers.values()))).values()
+        if not any(each.step.rule == POTENTIAL_ENERGY for each in steps):
+            forget_words()
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
             self._state_static_friction()
         return answers
+
+    def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
+        """Return name -> answer, each derived by the method of the part that asks for the name; draw the plots."""
+        methods, whole = self.described.methods, self.described.methods.whole
+        groups: dict[Word | None, list[Word]] = {whole: []}
+        for name in asked:
+            groups.setdefault(methods.of(name), []).append(name)
+        found: dict[str, object] = {}
+        for method, names in groups.items():
+            check_available(method, names, self.described.made)
+            if method == whole:
+                answers = super().solve(names, drawings)
+            else:
+                answers = type(self)(replace(self.described, methods=Methods(method)), self).by_name.answers(names)
+            check_effect(method, answers)
+            found |= answers
+        check_one_law_for_each_key(found, methods.stated)
+        return {str(name): found[str(name)] for name in asked}
 
     def _state_static_friction(self) -> None:
         """State the conditions under which static friction suffices, unless steps of the answers derive these
@@ -99,13 +141,16 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body, if parts of the problem derive the constraint forces on the body."""
+        """Draw the forces on each body: before Newton's laws of this body, or else if parts of the problem derive the
+        constraint forces on the body."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
-            if force_diagram(key, self.system, of, at_rest | along) is None:
+            if laws := laws_of(steps, self.system, of):
+                free_body_diagram(key, self.system, of, laws)
+            elif force_diagram(key, self.system, of, at_rest | along) is None:
                 force_diagram(key, self.system, of, at_rest)
 
     def asks(self) -> dict[str, Any]:
@@ -121,6 +166,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def system(self) -> System:
+        if self.other is not None:
+            return self.other.system
         described = self.described
         if described.given is not None:
             message = "this answer needs bodies and forces, but the Lagrangian is given in place of them"
@@ -179,7 +226,23 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def equations_of_motion(self) -> tuple[Quantity, ...]:
+        return self.motions if self.method != BOTH else (*self.motions, *self.by_lagrange, *self.agreements)
+
+    @property
+    def motions(self) -> tuple[Quantity, ...]:
+        """Return one equation of motion for each coordinate, by the method of the problem."""
         return tuple(self.motion(name) for name in self.independent)
+
+    @cached_property
+    def by_lagrange(self) -> tuple[Quantity, ...]:
+        """Return Lagrange's equations, next to Newton's laws."""
+        named = self.independent.items()
+        return tuple(equation_of_motion(self.lagrangian, q, key=f"lagrange_{name}") for name, q in named)
+
+    @cached_property
+    def agreements(self) -> tuple[Quantity, ...]:
+        """Return the steps that show that Lagrange's equations contain Newton's laws."""
+        return tuple(agreement_of_laws(law, self.by_lagrange) for law in self.motions)
 
     @answer
     def momenta(self) -> tuple[Quantity, ...]:
@@ -191,7 +254,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        return energy_function(self.lagrangian)
+        """Return the energy function h of the Lagrangian; without a Lagrangian, the energy T + U if it is constant."""
+        return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer
     def energy_function_rate(self) -> Quantity:
@@ -229,7 +293,12 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
         forces = [each.force for each in self.system.constraints]
-        return rest_with_forces(self.equations_of_motion, self.independent, forces)
+        if self.method in ABOUT:
+            balances = [
+                by_newton(self.system, q, f"balance_{name}", at_rest=True) for name, q in self.coordinates.items()
+            ]
+            return rest_with_forces(balances, self.coordinates, forces)
+        return rest_with_forces(self.motions, self.independent, forces)
 
     @answer
     def stability(self) -> tuple[Quantity, ...]:
@@ -275,17 +344,22 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def accelerations(self) -> Any:
-        return accelerations(*self.equations_of_motion)
+        return accelerations(*self.motions)
 
     @answer
     def multipliers(self) -> Any:
-        return multipliers(*self.equations_of_motion)
+        return multipliers(*self.motions)
 
     # -- one answer for each coordinate or force --------------------------------------------------------------------
 
     @answer_for_each("motion_{}", lambda self: self.coordinates)
     def motion(self, name: str) -> Quantity:
-        return equation_of_motion(self.lagrangian, self.coordinates[name], key=f"motion_{name}")
+        q, key = self.coordinates[name], f"motion_{name}"
+        if self.method in ABOUT:
+            return by_newton(self.system, q, key, ABOUT[self.method])
+        if self.method == ENERGY:
+            return energy_equation(self.energy_function, self.system, q, key)
+        return equation_of_motion(self.lagrangian, q, key=key)
 
     @answer_for_each("momentum_{}", lambda self: self.coordinates)
     def momentum(self, name: str) -> Quantity:
@@ -355,6 +429,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
         """Return the coordinates that remain in the Lagrangian after the conditions of rolling eliminated some."""
+        if self.method != LAGRANGE:
+            return {name: q for name, q in self.coordinates.items() if q.symbol in self.system.coordinates}
         moving = self.lagrangian.coordinates
         return {name: q for name, q in self.coordinates.items() if q.symbol in moving}
 
@@ -412,7 +488,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return found or None
 
     def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None, key: str = "linearised") -> tuple[Quantity, ...]:
-        motions = self.equations_of_motion
+        motions = self.motions
         if self.reduced is not self.lagrangian:
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)

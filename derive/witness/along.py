@@ -20,6 +20,8 @@ OF_MOTION = frozenset(
         "lagrange.constraint_force",
         "lagrange.constraint_rate",
         "lagrange.multiplier",
+        "newton.second_law",
+        "newton.torque_law",
         "hamilton.rate_by_momenta",
     ]
 )

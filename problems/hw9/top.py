@@ -1,6 +1,8 @@
 """A spinning top: at which rates it precesses steadily, and how fast it must spin to be stable when upright."""
 
-from derive.figures import sketch
+from sympy import pi
+
+from derive.figures import plot, sketch
 from derive.given import *
 from derive.mechanics import *
 
@@ -37,6 +39,8 @@ def solve(
     p_phi, p_psi = conserved(L, phi), conserved(L, psi)
     upright = put_in(p_phi, S, {theta: 0}, key="upright_momentum")  # phi is cyclic: p_phi = I_z S at every tilt
     V = put_in(effective_potential(L, p_phi, p_psi), upright, S, key="tilt_potential")
+    letters = {each.symbol: each.value for each in top.values}
+    plot("well", V, theta.symbol, (-pi / 3, pi / 3), shown=V.value.subs(letters))
     sleeping = put_in(stable_where(stability(V, {theta: 0}, spin)), *top.values, key="sleeping_spin")
 
     return slow, fast, condition, sleeping

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Integer, diff
+from sympy import Add, Expr, Integer, Rational, diff
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit, rate
+from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.steps.claims import parallel, value_of_role
 from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
@@ -44,3 +46,67 @@ def impulse_of_its_condition(facts: Judged, letter: Any) -> bool:
     power, left = diff(value_of_role(facts, "power"), letter), explicit(facts.result).left
     rates = power.free_symbols | left.free_symbols
     return parallel({v: diff(power, v) for v in rates}, {v: diff(left, v) for v in rates})
+
+
+Vector = tuple[Expr, ...]
+
+
+def has_impulse(wanted: bool) -> Predicate:
+    """Return a predicate: whether the impulses along the direction of the law add up to more than zero."""
+    return lambda facts: wanted != is_zero(Add(*facts.inputs["impulses"]))
+
+
+def about_a_fixed_axis(struck: bool) -> Predicate:
+    """Return a predicate: whether the point of the law is fixed, and whether impulses have a torque about it. A law
+    with a constant angular momentum contains all bodies of the system."""
+
+    def is_so(facts: Judged) -> bool:
+        fixed = not any(explicit(c).has(*facts.inputs["moving"]) for c in facts.inputs["about"])
+        whole = struck or len(facts.inputs["bodies"]) == facts.inputs["count"]
+        return fixed and whole and bool(has_impulse(struck)(facts))
+
+    return is_so
+
+
+def about_the_centre(facts: Judged) -> bool:
+    """Whether the law has one body, and its point is the centre of mass of this body."""
+    ((_, place, _, _),) = facts.inputs["bodies"]
+    return all(is_zero(a - b) for a, b in zip(place, facts.inputs["about"], strict=True))
+
+
+def coordinate_of_the_body(facts: Judged, q: Any) -> bool:
+    """Whether the coordinate moves or rotates the body of the law."""
+    values = [*facts.inputs.get("place", ()), facts.inputs.get("angle", Integer(0)), *facts.inputs.get("centre", ())]
+    return any(not is_zero(diff(value, q)) for value in values)
+
+
+def mass_of_the_body(facts: Judged, mass: Any) -> bool:
+    return is_zero(mass - facts.inputs["weight"])
+
+
+def _there(facts: Judged, value: Expr) -> Expr:
+    return explicit(value).subs(dict(facts.inputs["at"]), simultaneous=True)
+
+
+def _velocity(facts: Judged, place: Vector) -> Vector:
+    return tuple(by_functions_of_time(c, list(facts.inputs["moving"])) for c in place)
+
+
+def momentum_of_the_body(facts: Judged, outcome: str) -> bool:
+    """Whether the left side is the component of the momentum of the body just after the impact."""
+    pairs = zip(_velocity(facts, facts.inputs["place"]), facts.inputs["way"], strict=True)
+    momentum = facts.inputs["weight"] * Add(*(v * e for v, e in pairs))
+    return bool(equal(explicit(facts.result).left, _there(facts, momentum)))
+
+
+def angular_momentum_of_the_bodies(facts: Judged, outcome: str) -> bool:
+    """Whether the left side is the angular momentum of all particles of the bodies about the point just after the
+    impact, in the sense in which the coordinate rotates its body."""
+    whole: Expr = Integer(0)
+    for mass, place, spread, angle in facts.inputs["bodies"]:
+        (x, y), (u, v) = (a - b for a, b in zip(place, facts.inputs["about"], strict=True)), _velocity(facts, place)
+        whole += mass * (x * v - y * u) + spread * by_functions_of_time(angle, list(facts.inputs["moving"]))
+    whole, left = _there(facts, whole), explicit(facts.result).left
+    turn = diff(facts.inputs["angle"], facts.inputs["coordinate"])
+    there = {s: Rational(3 + i, 7) for i, s in enumerate(sorted(turn.free_symbols, key=str))}
+    return bool(equal(left, whole if turn.xreplace(there) > 0 else -whole))

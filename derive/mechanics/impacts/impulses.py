@@ -5,10 +5,10 @@ Finite forces do not contribute. The rates in the results are the rates just aft
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sympy import Add, Expr, Integer, diff
+from sympy import Add, Expr, Integer, Symbol, diff, linsolve
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, explicit, rate, scalar
@@ -218,6 +218,7 @@ def work_of_impulses(
     """
     found = {q.symbol: explicit(q.value) for q in after}
     rates = {rate(q): found[rate(q)] for q in impact.moving}
+    found |= _impulses(impact, rates, [each.letter for each in impact.meetings if each.letter not in found])
     before = tidied(impact.earlier(impact.system.matter.kinetic_energy()))
 
     def by_impulses(work: Expr) -> tuple[Expr, Expr]:
@@ -238,6 +239,20 @@ def work_of_impulses(
         parents=list(after),
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _impulses(impact: Impact, rates: Mapping[Symbol, Expr], wanted: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Return the unknown impulses that the rates just after the impact determine, by the momenta of the mass points."""
+    if not wanted:
+        return {}
+    matter, power = impact.system.matter, impact.power()
+    left = []
+    for q in impact.moving:
+        along = matter.momentum_along(q)
+        changed = impact.read_again(along).xreplace(dict(rates)) - impact.read_again(along, rates=True)
+        left.append(changed - diff(power, rate(q)))
+    (solution,) = linsolve(left, *wanted)
+    return dict(zip(wanted, solution, strict=True))
 
 
 def _gain(value: Expr) -> str:

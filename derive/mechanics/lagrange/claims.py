@@ -338,7 +338,7 @@ def speed_of_particle(facts: Judged) -> bool:
 
 
 def speed_of_centre(facts: Judged) -> bool:
-    return _has_speed(facts, [placed.centre.components for placed in facts.subject.body.bodies if not placed.is_held])
+    return _has_speed(facts, [placed.centre.components for placed in facts.subject.body.bodies])
 
 
 def magnetic_term_alone(facts: Judged) -> bool:

@@ -24,11 +24,12 @@ from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
 from derive.solving.divisors import told_of_divisors
 from derive.steps.claims import lasts, says_what_it_divides_by, vanishes
-from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
@@ -173,6 +174,12 @@ def _not_all_negative(left: Expr) -> Expr:
     return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
 
 
+def _told(of: Constraint) -> Relation:
+    """Return a constraint without a minus sign in front: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
+    is_negative = of.right == 0 and of.left.could_extract_minus_sign()
+    return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
+
+
 CONSTRAINT_RATE = Rule(
     "lagrange.constraint_rate",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
@@ -218,9 +225,10 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "in_coordinates",
-        phrase_data=PhraseData(formulas={"constraint": (each.relation, Relation(each.residual, "=", ZERO))}),
+        phrase_data=PhraseData(formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))}),
         key=key or f"constraint_{each.force.name}",
-        parents=[of],
+        facts=[described] if (described := description_behind(of)) is not None else [],
+        scope=Scope(coordinates=of.coordinates),
     )
 
 

@@ -56,6 +56,11 @@ class Struck(Witness):
         return impact.testimony(self.impact, quantity)
 
 
+def description_behind(quantity: Quantity) -> Described | None:
+    """The description of the system to which a quantity belongs, or None."""
+    return next((known for each in quantity.ancestors() if (known := each.fact(Described)) is not None), None)
+
+
 def letter_of_momentum(q: Symbol) -> Symbol:
     return scalar(f"p_{q.name}")
 

@@ -17,7 +17,7 @@ from derive.algebra.amplitudes import inverse_of
 from derive.algebra.derivatives import derivative
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.described import Described
+from derive.mechanics.model.described import description_behind
 from derive.steps.step import Quantity
 
 
@@ -27,7 +27,7 @@ def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
     The coordinates must allow every displacement of this particle. The result is None if they do not, if there are
     bodies or several particles, or if the condition is on rates.
     """
-    described = next((known for q in lagrangian.ancestors() if (known := q.fact(Described)) is not None), None)
+    described = description_behind(lagrangian)
     description = described.description if described is not None else None
     if description is None or description.bodies or len(description.particles) != 1 or kept.in_rates:
         return None

@@ -23,7 +23,7 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.model.dalembert import Load, Matter
-from derive.mechanics.model.described import Described
+from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.surfaces import Plane, Surface, dot
 from derive.mechanics.motion import claims, leaving
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
@@ -85,7 +85,7 @@ class Departure:
     @property
     def gravity(self) -> Expr:
         """The acceleration of free fall in the description; 0 if the system has no weight."""
-        known = next((fact for each in self.lagrangian.ancestors() if (fact := each.fact(Described))), None)
+        known = description_behind(self.lagrangian)
         return ZERO if known is None or known.description.gravity is None else known.description.gravity
 
     @property

@@ -77,6 +77,7 @@ def contract(solution: Solution) -> str:
             for steps in answered
             for step in steps
         },
+        "observations": [list(keys) for keys in derivation.observed],
         "limits": [list(keys) for keys in derivation.closing],
         "limits_say": said.blocks(document.limits.blocks) if document.limits else [],
         "note": said.text(document.note),

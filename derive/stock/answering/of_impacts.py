@@ -6,16 +6,23 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, Protocol
 
+from derive.algebra.expressions import explicit
+from derive.course.parts import ANGULAR_MOMENTUM, NEWTON
 from derive.mechanics import (
     Coordinate,
     Impact,
     System,
+    angular_momentum_law,
     energy_after,
     meeting_condition,
     momentum_jump,
+    momentum_law,
+    put_in,
     rates_after,
+    solved_for,
     work_of_impulses,
 )
+from derive.mechanics.newton.alone import body_of
 from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, answer, answer_for_each
 from derive.stock.keys.deferred import told_at_part
@@ -27,6 +34,8 @@ class OfSystem(Protocol):
 
     coordinates: Mapping[str, Coordinate]
 
+    @property
+    def method(self) -> str: ...
     @property
     def system(self) -> System: ...
     @property
@@ -54,6 +63,11 @@ class ImpactAnswers(Answers[DescribedImpact]):
     def moving(self) -> list[str]:
         return [name for name, q in self.of.coordinates.items() if q.symbol in self.impact.moving]
 
+    @property
+    def by_momentum(self) -> bool:
+        """Return whether the laws of momentum and of angular momentum replace the integrated equations of Lagrange."""
+        return self.of.method in (NEWTON, ANGULAR_MOMENTUM)
+
     @answer
     def jumps(self) -> tuple[Quantity, ...]:
         return tuple(self.jump(name) for name in self.moving)
@@ -76,12 +90,25 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @cached_property
     def after(self) -> tuple[Quantity, ...]:
-        """Return all rates just after the impact, and the impulses of its collisions."""
-        return rates_after(self.impact, self.jumps, self.meetings)
+        """Return all rates just after the impact, and the impulses of its collisions.
+
+        If the laws of angular momentum without unknown impulses suffice for the rates, only the rates are returned.
+        """
+        letters = {meeting.letter for meeting in self.impact.meetings}
+        without = [law for law in self.jumps if not explicit(law.value).free_symbols & letters]
+        if not self.by_momentum or len(without) + len(self.meetings) != len(self.moving):
+            return rates_after(self.impact, self.jumps, self.meetings)
+        rates = [self.of.coordinates[name].rate for name in self.moving]
+        keys = [f"{name}_dot_after" for name in self.moving]
+        return solved_for([*without, *self.meetings], *rates, keys=keys)
 
     @answer_for_each("jump_{}", lambda self: self.moving)
     def jump(self, name: str) -> Quantity:
-        return momentum_jump(self.impact, self.of.kinetic_energy, self.of.coordinates[name])
+        q = self.of.coordinates[name]
+        if not self.by_momentum:
+            return momentum_jump(self.impact, self.of.kinetic_energy, q)
+        rotates = body_of(self.of.system, q.symbol).turn(q.symbol) != 0
+        return angular_momentum_law(self.impact, q) if rotates else momentum_law(self.impact, q)
 
     @answer_for_each("{}_dot_after", lambda self: self.moving)
     def rate_after(self, name: str) -> Quantity:
@@ -89,4 +116,11 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @answer_for_each("{}", lambda self: [meeting.letter.name for meeting in self.impact.meetings])
     def impulse(self, letter: str) -> Quantity:
-        return next(q for q in self.after if q.key == letter)
+        solved = next((q for q in self.after if q.key == letter), None)
+        if solved is not None:
+            return solved
+        symbol = next(each.letter for each in self.impact.meetings if each.letter.name == letter)
+        law = next(each for each in self.jumps if explicit(each.value).has(symbol))
+        known = [q for q in self.after if explicit(law.value).has(q.symbol)]
+        (found,) = solved_for(put_in(law, *known, key=f"{law.key}_after"), symbol, keys=[letter])
+        return found

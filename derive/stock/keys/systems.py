@@ -181,6 +181,7 @@ class DescribedSystem(Described):
     given         a Lagrangian that replaces all bodies, and its kind
     """
 
+    has_methods = True
     coordinates: tuple[tuple[str, str, bool], ...] = ()
     particles: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)

@@ -48,7 +48,7 @@ def test_each_limit_is_a_step_that_the_page_tells_at_its_end(tmp_path: Path) -> 
     roots = (sqrt(g / l), sqrt(g * m / (M * l)), sqrt(2 * g / l))
     assert all(equal(*pair) for pair in zip(values, roots, strict=True))
     text = page(tmp_path)
-    assert "Limiting cases" in text
+    assert "Special and limiting cases" in text
     assert "as for a pendulum of length l." in text and "For m = M, ω_0 becomes" in text
 
 

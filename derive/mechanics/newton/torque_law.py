@@ -1,0 +1,188 @@
+"""Sum of the torques on one body in a plane: about its centre of mass, a fixed axis or a point of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sympy import Expr, Integer, Symbol
+
+from derive.algebra.collect import by_accelerations
+from derive.algebra.expressions import Factors, Relation, Terms, explicit
+from derive.algebra.tidy import tidied
+from derive.errors import Complaint, Rejected
+from derive.mechanics.kinematics.coordinates import Coordinate
+from derive.mechanics.model.rigid import inertia_of, is_about_the_point
+from derive.mechanics.model.system import System
+from derive.mechanics.newton import claims
+from derive.mechanics.newton.alone import (
+    ZERO,
+    Alone,
+    Vector,
+    arm,
+    body_of,
+    changes_alone,
+    dot,
+    is_free,
+    is_same,
+    rotated,
+    sense_of,
+    sum_of,
+)
+from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
+from derive.mechanics.newton.second_law import OUTCOMES, at_rest_in, data_of, outcome_of, scope_of
+from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.rule import ROUTE, Rule
+from derive.steps.step import Quantity, compared_with
+
+__all__ = ["torque_law"]
+
+CONTACT = "contact"
+
+
+@dataclass(frozen=True)
+class About:
+    """A point about which torques are taken.
+
+    word   "axis" (fixed), "centre_of_mass", "contact", or "point" (of several unknown forces, at rest)
+    place  its place
+    """
+
+    word: str
+    place: Vector
+
+
+TORQUE_LAW = Rule(
+    "newton.torque_law",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7",
+    outcomes=OUTCOMES,
+    evidence={"lagrange": ROUTE},
+    statements=[claims.rate_of_angular_momentum, claims.point_of_the_torques],
+    named={
+        "mass": claims.mass_of_the_body,
+        "coordinate": claims.coordinate_of_the_law,
+        "acting": claims.force_at_the_point,
+    },
+)
+
+
+def torque_law(
+    system: System, q: Coordinate, key: str | None = None, about: str = "", at_rest: bool = False
+) -> Quantity:
+    """Sum of the torques on the body that rotates with a coordinate, I alpha = sum of tau, in the sense in which the
+    coordinate increases.
+
+    system   particles and bodies in a plane, and the forces on them
+    q        a coordinate that rotates one body
+    about    "contact" for a point of contact, about which the angular momentum also has the term of the centre of mass;
+             by default the fixed axis of the body, or else its centre of mass
+    at_rest  whether the system is at rest, so that the torques add up to zero; they are then taken about the point at
+             which most of the unknown forces act
+    Second route: Lagrange's equations, for the rotation of this body alone.
+    Outcomes: as `second_law`.
+    Errors: the system moves in space; no body can rotate alone; a force without a letter has a torque.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7.
+    """
+    body = body_of(system, q.symbol)
+    turn = body.turn(q.symbol)
+    if turn == 0:
+        message = f"`torque_law`: the coordinate {q.symbol.name} rotates no body"
+        raise Rejected(Complaint("wrong-argument", message, help="use `second_law`"))
+    point, sense = _point(body, about, at_rest), sense_of(turn)
+    torques = _sum_of_torques([sense * force.torque(point.place) for force in body.forces], at_rest)
+    inertia = None if at_rest else inertia_of(body.part)
+    turning = by_accelerations(tidied(sense * body.angular_acceleration), body.moving)
+    carried = by_accelerations(tidied(sense * _moment_of_the_centre(body, point)), body.moving)
+
+    def law(*moment: Expr) -> Relation:
+        terms = [*(Factors(each, turning) for each in moment), *([carried] if moment and carried != 0 else [])]
+        return Relation(Terms(*terms) if len(terms) > 1 else terms[0] if terms else ZERO, "=", torques)
+
+    of = lagrangian_behind(system)
+    changes = changes_alone(body, tuple(sense * c for c in rotated(body, point.place)), sense)
+    return establish(
+        TORQUE_LAW,
+        None,
+        law,
+        {} if inertia is None else {"inertia": inertia},
+        lines=Lines(result=False, arranged=explicit),
+        routes={"lagrange": compared_with(lambda: at_rest_in(virtual_work(of, changes), system, at_rest))},
+        outcome=outcome_of(body, at_rest),
+        phrase_data=PhraseData(
+            words={"where": point.word, "term": "with_centre" if carried != 0 else "alone"},
+            named={"coordinate": q.symbol, "mass": body.mass} | _acting_at(body, point),
+            outcome_data={
+                **data_of(body),
+                "about": point.place,
+                "angle": body.angle,
+                "spread": body.spread,
+                "forces": tuple((f.at, f.letter) for f in body.forces if f.at is not None),
+            },
+        ),
+        key=key or f"motion_{q.symbol.name}",
+        facts=facts_of_motion(system, q, changes),
+        scope=scope_of(system),
+    )
+
+
+def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
+    """The sum of the torques; if it is zero, all signs change where all would be negative."""
+    found = sum_of(terms)
+    negative = all(term.could_extract_minus_sign() for term in explicit(found).as_ordered_terms())
+    return sum_of([-term for term in terms]) if at_rest and negative else found
+
+
+def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
+    """The symbols of the unknown forces that act at the point of the torques at rest; a sentence names two of them."""
+    if point.word != "point":
+        return {}
+    here = [f.letter for f in body.forces if f.at is not None and f.letter is not None and is_same(f.at, point.place)]
+    return {f"acting_{i}": letter for i, letter in enumerate(here[:2], 1)}
+
+
+def _point(body: Alone, about: str, at_rest: bool) -> About:
+    """Return the point about which the body can rotate alone.
+
+    Forces without a letter, which keep the body on the path that the coordinates describe, then have no torque.
+    """
+    choices = _points_at_rest(body) if at_rest else _points_of_contact(body) if about == CONTACT else []
+    if body.axis is not None:
+        choices.append(About("axis", body.axis))
+    choices.append(About("centre_of_mass", body.centre))
+    for each in choices:
+        if is_free(body, rotated(body, each.place), Integer(1)):
+            return each
+    message = "a force that has no letter has a torque about the centre of mass"
+    help_line = "give the friction a letter, `friction: {rolling: F}`; or use `method: angular_momentum`"
+    raise Rejected(Complaint("method", message, help=help_line))
+
+
+def _points_at_rest(body: Alone) -> list[About]:
+    """The points at which unknown forces act, first the point with the most of them."""
+    touched = [force.at for force in body.forces if force.at is not None and force.letter is not None]
+    return [About("point", at) for at in sorted(dict.fromkeys(touched), key=lambda place: -touched.count(place))]
+
+
+def _points_of_contact(body: Alone) -> list[About]:
+    """The points of contact whose friction has a letter, and the point of the body that is always at rest."""
+    touched = [each.place for each in _points_at_rest(body)]
+    resting = _resting_point(body)
+    return [About(CONTACT, place) for place in (*touched, *([resting] if resting is not None else []))]
+
+
+def _resting_point(body: Alone) -> Vector | None:
+    """The point of a body with one coordinate that is at rest in every motion; None without such a point."""
+    moving = [q for q in body.moving if body.moves_with(q)]
+    if len(moving) != 1 or body.turn(moving[0]) == 0:
+        return None
+    (dx, dy), turn, (x, y) = body.shift(moving[0]), body.turn(moving[0]), body.centre
+    return tidied(x - dy / turn), tidied(y + dx / turn)
+
+
+def _moment_of_the_centre(body: Alone, point: About) -> Expr:
+    """The term M r x a of the rate of change of the angular momentum, counterclockwise; zero if the moment of inertia
+    is about the point itself."""
+    if point.word == "axis" and is_about_the_point(body.part):
+        return ZERO
+    x, y = arm(body.centre, point.place)
+    return body.mass * dot((-y, x), body.acceleration_of_centre)

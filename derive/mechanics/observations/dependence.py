@@ -1,0 +1,584 @@
+"""Observations about symbols: what an answer does not depend on, where it vanishes, and where solutions branch off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from sympy import Abs, Add, Expr, Integer, MatrixBase, Mul, Symbol, acos, asin, atan, cos, factor_list, pi, sin, tan
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.expressions import Amount, Relation, explicit, rate
+from derive.algebra.rounding import rounded_form
+from derive.algebra.tidy import tidied
+from derive.mechanics.lagrange.facts import Energies, ForceOf
+from derive.mechanics.observations import claims
+from derive.mechanics.observations.view import (
+    OF_ANY_SUBJECT,
+    ONE_LINE,
+    Observed,
+    View,
+    numbered,
+    simple,
+    symbols_behind,
+)
+from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
+from derive.solving.relations import solved_for_letter
+from derive.steps.establish import PhraseData, establish
+from derive.steps.rule import CHECK, Rule
+from derive.steps.signs import sign_for_all
+from derive.steps.step import Quantity, is_zero
+
+INVERSE = {cos: acos, sin: asin, tan: atan}
+SOLVED = ("answers.roots", "answers.put_in", "answers.solved_for")
+FREQUENCIES = ("vibrations.frequency", "vibrations.period")
+SIZES = ("mass", "length", "acceleration", "spring constant")  # symbols of a system, not of its motion
+CHOSEN = ("angle", "time", "speed", "angular speed")  # symbols of a motion, which may be results of other parts
+DEGREE = pi / 180
+
+INDEPENDENT = Rule(
+    "observations.independent",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1",
+    outcomes={
+        "generic": claims.names_a_letter,
+        "angle": claims.names_a_letter,
+        "weight": claims.only_shifts_the_equilibrium,
+    },
+    evidence={"other_value": CHECK},
+    named={"letter": claims.is_free_of},
+)
+
+
+def independent(view: View) -> Observed:
+    """Given symbols that occur in the equations behind an answer, but not in the answer."""
+    for of in reversed(view.answers):
+        solved = isinstance(of.value, Relation)
+        value = of.value.right if solved else of.value
+        if not isinstance(value, Expr) or not of.exact or is_zero(value) or not _may_be_free(view, of):
+            continue
+        behind = [q for q in of.ancestors() if q.key != of.key and (isinstance(q.value, Relation) or q in of.parents)]
+        others = symbols_behind(behind) - explicit(value).free_symbols - _unknowns(of)
+        gone = [s for s in view.in_order(others if solved else others - _scales(view)) if view.letters[s] not in CHOSEN]
+        if of.step.rule in FREQUENCIES:
+            yield from _weight(view, of, gone, behind)
+        elif 0 < len(gone) < 4 and (not solved or any(view.letters[s] == "length" for s in gone)):
+            yield _free_of(of, value, gone, behind)
+
+
+def _may_be_free(view: View, of: Quantity) -> bool:
+    """Whether it is worth saying on which symbols an answer does not depend.
+
+    A special case has no other values of the symbols that were replaced. An answer with an angular momentum may depend
+    on every symbol that is in this momentum.
+    """
+    kept = {*view.of_kind("angular momentum")} & explicit(of.value).free_symbols
+    if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or kept:
+        return False
+    if isinstance(of.value, Relation):
+        return isinstance(of.value.left, cos | sin | tan) and bool(explicit(of.value.right).free_symbols)
+    kinds = {of.step.kind, *(view.letters.get(letter) for letter in _unknowns(of))}
+    return of.step.rule in FREQUENCIES or of.step.rule in SOLVED and bool(kinds & {"speed", "length", "angular speed"})
+
+
+def _unknowns(of: Quantity) -> set[Any]:
+    """Return the symbols that were solved for."""
+    return set(getattr(dict(of.step.roles).get("unknown"), "free_symbols", ()))
+
+
+def _scales(view: View) -> set[Symbol]:
+    """Return the symbols that are factors of a Lagrangian of the page: no motion depends on them."""
+    wholes = [explicit(q.value) for q in view.shown if q.fact(Energies) is not None]
+    return {s for s in view.letters for whole in wholes if s in whole.free_symbols and not tidied(whole / s).has(s)}
+
+
+def _free_of(of: Quantity, value: Expr, gone: Sequence[Symbol], behind: Sequence[Quantity]) -> Quantity:
+    solved = isinstance(of.value, Relation)
+    return establish(
+        INDEPENDENT,
+        None,
+        lambda *_: explicit(value),
+        {"of": of},
+        routes={"other_value": lambda found: (found.xreplace({s: 2 * s for s in gone}), explicit(value))},
+        outcome="angle" if solved else "generic",
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named=numbered("letter", gone),
+            points_to=numbered("equation", behind),
+            words={"seen": "equation" if solved and of.value.operator == "=" else "condition"},
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_independent",
+    )
+
+
+def _weight(view: View, of: Quantity, gone: Sequence[Symbol], behind: Sequence[Quantity]) -> Iterator[Quantity]:
+    """Yield the statement that gravity shifts the equilibrium and does not change the frequency."""
+    rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.value, Expr)]
+    for g in (g for g in view.gravity if g in gone and rests and g in explicit(rests[0].value).free_symbols):
+        equations = [q for q in behind if q is not rests[0] and isinstance(q.value, Relation)]
+        yield _only_shifted(of, g, rests[0], equations)
+
+
+def _only_shifted(of: Quantity, g: Symbol, rest: Quantity, equations: Sequence[Quantity]) -> Quantity:
+    return establish(
+        INDEPENDENT,
+        None,
+        lambda *_: explicit(of.value),
+        {"of": of, "g": g},
+        routes={"other_value": lambda found: (found.xreplace({g: 2 * g}), explicit(of.value))},
+        outcome="weight",
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"letter_1": g}, points_to={"rest": rest, **numbered("equation", equations)}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_independent",
+    )
+
+
+ANGLE = Rule(
+    "observations.angle",
+    source="none needed: arithmetic",
+    outcomes={"generic": claims.names_a_letter},
+    evidence={"put_back": CHECK},
+    named={"angle": claims.is_pure_angle, "size": claims.is_rounded, "letter": claims.is_free_of},
+)
+
+
+def angle(view: View) -> Observed:
+    """An angle that is a pure number, in degrees, and the sizes of the system on which it does not depend."""
+    for of in view.answers:
+        told = of.value if isinstance(of.value, Relation) else Relation(of.symbol, "=", of.value)
+        is_number = isinstance(told.right, Expr) and not explicit(told.right).free_symbols
+        if told.operator != "=" or type(told.left) not in INVERSE or not is_number:
+            continue
+        if isinstance(told.left.args[0], Symbol):
+            size = INVERSE[type(told.left)](explicit(told.right))
+            if not any(q.step.kind == "angle" and is_zero(q.value - size) for q in view.page):
+                yield from _angle(view, of, told, size)
+
+
+def _angle(view: View, of: Quantity, told: Relation, size: Expr) -> Observed:
+    behind = [each for each in of.ancestors() if each.key != of.key and isinstance(each.value, Relation)]
+    behind += [each for each in of.parents if each not in behind]
+    gone = [s for s in view.in_order(symbols_behind(behind)) if view.letters[s] in SIZES][:4]
+    if gone:
+        yield _angle_for_all(of, told, size, gone, behind)
+
+
+def _angle_for_all(
+    of: Quantity, told: Relation, size: Expr, gone: Sequence[Symbol], behind: Sequence[Quantity]
+) -> Quantity:
+    q = told.left.args[0]
+    return establish(
+        ANGLE,
+        None,
+        lambda *_: size,
+        {"of": of},
+        routes={"put_back": lambda found: (told.left.xreplace({q: found}), told.right)},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={"angle": size, "size": _in_degrees(size), **numbered("letter", gone)},
+            points_to=numbered("equation", behind),
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_in_degrees",
+    )
+
+
+def _in_degrees(size: Expr) -> Amount:
+    """Return an angle in degrees, to one decimal."""
+    degrees = size / DEGREE
+    return Amount(rounded_form(degrees, 4 if abs(degrees) >= 100 else 3), "degree", DEGREE)
+
+
+ZERO_OF = Rule(
+    "observations.zero_of",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1",
+    outcomes={
+        "changes": claims.vanishes_there(True),
+        "touches": claims.vanishes_there(False),
+        "changes_at_angle": claims.vanishes_there(True),
+        "touches_at_angle": claims.vanishes_there(False),
+    },
+    evidence={"put_in": CHECK},
+    named={"place": claims.is_the_result, "size": claims.is_rounded},
+)
+
+
+def zero_of(view: View) -> Observed:
+    """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes."""
+    for of in view.values("acceleration", "force", "torque"):
+        for base, power in _factors(explicit(of.value)):
+            place = _zero_in(view, base)
+            if place is not None and not _is_told(view, place):
+                yield _zero(of, place, "changes" if power % 2 else "touches")
+
+
+def _factors(value: Expr) -> list[tuple[Expr, int]]:
+    """Return the sums that are factors of a value, with their powers; the value vanishes where one of them vanishes."""
+    found: list[tuple[Expr, int]] = []
+    for factor in Mul.make_args(tidied(value).as_numer_denom()[0]):
+        base, power = factor.as_base_exp()
+        inner, times = (base.args[0], Integer(2)) if isinstance(base, Abs) else (base, power)
+        try:
+            factors = factor_list(inner)[1] if times.is_Integer else []
+        except PolynomialError:
+            factors = []
+        found += [(each, int(times) * n) for each, n in factors if each.is_Add]
+    return found
+
+
+def _zero_in(view: View, base: Expr) -> Relation | None:
+    """Return the value of a mass, a length or an angle for which a factor vanishes."""
+    for letter in [s for s in view.in_order(base.free_symbols) if view.letters[s] in ("mass", "length")]:
+        found = solved_for_letter(base, letter)
+        if found is not None and simple(found, 4) and sign_for_all(found) == 1:
+            return Relation(letter, "=", found)
+    c = Symbol("c")
+    for cosine in sorted(base.atoms(cos), key=str):
+        found = solved_for_letter(tidied(base.subs(cosine, c)), c)
+        if found is not None and found.is_number and abs(found) < 1 and isinstance(cosine.args[0], Symbol):
+            return Relation(cosine.args[0], "=", acos(found))
+    return None
+
+
+def _is_told(view: View, place: Relation) -> bool:
+    """Whether an answer of the page states this value already."""
+    solved = [q.value for q in view.page if isinstance(q.value, Relation) and isinstance(q.value.left, Symbol | cos)]
+    solved += [Relation(q.symbol, "=", q.value) for q in view.page if isinstance(q.symbol, cos)]
+    return any(is_zero(explicit(told.residual).xreplace({place.left: place.right})) for told in solved)
+
+
+def _zero(of: Quantity, place: Relation, outcome: str) -> Quantity:
+    at_angle = isinstance(place.right, acos)
+    return establish(
+        ZERO_OF,
+        None,
+        lambda *_: place,
+        {"of": of},
+        routes={"put_in": lambda found: (explicit(of.value).xreplace({found.left: explicit(found.right)}), Integer(0))},
+        outcome=f"{outcome}_at_angle" if at_angle else outcome,
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={"place": place, **({"size": _in_degrees(place.right)} if at_angle else {})},
+            outcome_data={"angle": place.right} if at_angle else {},
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_zero",
+    )
+
+
+BRANCHES = Rule(
+    "observations.branches",
+    source="Taylor, *Classical Mechanics*, section 7.6; Strogatz, *Nonlinear Dynamics and Chaos*, section 3.5",
+    outcomes={"generic": claims.branches_off},
+    evidence={"both_vanish": CHECK},
+    named={"border": claims.is_the_result},
+)
+
+
+def branches(view: View) -> Observed:
+    """Angular velocity at which an equilibrium loses its stability and two others branch off from it."""
+    rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.symbol, Symbol)]
+    for of in (q for q in view.answers if q.fact(StableWhere) is not None):
+        here = _at(rests, of.needed(StableWhere).place)
+        for branch in (q for q in rests if isinstance(explicit(q.value), acos)):
+            other, beside = _at(rests, -branch.value), _shape_at(view, branch.value)
+            border = _border(view, of, explicit(branch.value).args[0])
+            if here is not None and is_zero(here.value) and other is not None and beside and border is not None:
+                yield _branching(of, {"here": here, "branch": branch, "other": other, "beside": beside}, border)
+
+
+def _at(rests: Sequence[Quantity], place: Expr) -> Quantity | None:
+    return next((q for q in rests if is_zero(q.value - place)), None)
+
+
+def _shape_at(view: View, place: Expr) -> Quantity | None:
+    """Return the curvature of the potential energy at an equilibrium."""
+    return next((q for q in view.shown if (shape := q.fact(Shape)) and is_zero(shape.place - place)), None)
+
+
+def _border(view: View, of: Quantity, cosine: Expr) -> Relation | None:
+    """Return the value of an angular velocity for which both the curvature and 1 - cos(theta) vanish."""
+    for letter in view.of_kind("angular speed"):
+        found = solved_for_letter(cosine - 1, letter)
+        if found is not None and is_zero(tidied(explicit(of.value).xreplace({letter: found}))):
+            return Relation(letter, "=", found)
+    return None
+
+
+def _branching(of: Quantity, steps: dict[str, Quantity], border: Relation) -> Quantity:
+    curvature, cosine = explicit(of.value), explicit(steps["branch"].value).args[0]
+
+    def both_vanish(found: Relation) -> tuple[Any, Any]:
+        there = {found.left: explicit(found.right)}
+        return (curvature.xreplace(there) + (cosine.xreplace(there) - 1) * Symbol("u"), Integer(0))
+
+    return establish(
+        BRANCHES,
+        None,
+        lambda *_: border,
+        {"of": of},
+        routes={"both_vanish": both_vanish},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(
+            named={"border": border},
+            points_to=steps,
+            outcome_data={"cosine": cosine},
+        ),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_branches",
+    )
+
+
+RESONANCE = Rule(
+    "observations.resonance",
+    source="Taylor, *Classical Mechanics*, sections 5.5 and 5.6",
+    outcomes={"generic": claims.grows_without_bound_there},
+    evidence={"denominator": CHECK},
+    named={"place": claims.is_the_result},
+)
+
+
+def resonance(view: View) -> Observed:
+    """Driving frequency at which the amplitude without damping grows without bound: that of the free oscillation."""
+    for of in view.answers:
+        if (of.step.rule, of.step.outcome) == ("vibrations.steady_amplitude", "undamped"):
+            below, square = tidied(of.value).as_numer_denom()[1], _free_frequency(of)
+            inner = next((each.args[0] for each in below.atoms(Abs)), below)
+            for letter in [s for s in view.of_kind("angular speed") if s in inner.free_symbols]:
+                found = solved_for_letter(inner, letter)
+                if found is not None and square is not None:
+                    yield _resonance(of, inner, Relation(letter, "=", found), square)
+
+
+def _free_frequency(of: Quantity) -> Expr | None:
+    """Return the squared frequency of the free oscillation, from the coefficients of the equation of motion."""
+    for each in (q for q in of.ancestors() if isinstance(q.value, Relation) and len(q.coordinates) == 1):
+        (q,), residual = each.coordinates, explicit(each.value.residual)
+        inertia, stiffness = residual.diff(rate(q, 2)), residual.diff(q)
+        if inertia != 0 and not stiffness.has(q):
+            return tidied(stiffness / inertia)
+    return None
+
+
+def _resonance(of: Quantity, inner: Expr, place: Relation, square: Expr) -> Quantity:
+    return establish(
+        RESONANCE,
+        None,
+        lambda *_: place,
+        {"of": of},
+        routes={"denominator": lambda found: (inner.xreplace({found.left: found.right}), Integer(0))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"place": place}, outcome_data={"square": square}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_resonance",
+    )
+
+
+ANYWHERE = Rule(
+    "observations.anywhere",
+    source="Morin, *Introduction to Classical Mechanics*, section 6.2",
+    outcomes={"generic": claims.holds_everywhere},
+    evidence={"put_in": CHECK},
+    named={"place": claims.is_the_result},
+)
+
+
+def anywhere(view: View) -> Observed:
+    """Value of an angular velocity for which every position is an equilibrium."""
+    for of in view.shown:
+        if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
+            continue
+        residual = explicit(of.value.residual)
+        for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
+            for base, _ in _factors(residual):
+                found = solved_for_letter(base, letter)
+                if found is not None and not found.free_symbols & set(of.coordinates):
+                    yield _anywhere(of, Relation(letter, "=", found))
+
+
+def _anywhere(of: Quantity, place: Relation) -> Quantity:
+    residual = explicit(of.value.residual)
+    return establish(
+        ANYWHERE,
+        None,
+        lambda *_: place,
+        {"of": of},
+        routes={"put_in": lambda found: (residual.xreplace({found.left: explicit(found.right)}), Integer(0))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"place": place}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_anywhere",
+    )
+
+
+ONE_SIGN = Rule(
+    "observations.one_sign",
+    source="none needed: signs of factors",
+    outcomes={"generic": claims.has_one_sign},
+    evidence={"factors": CHECK},
+)
+
+
+def one_sign(view: View) -> Observed:
+    """Normal force whose sign does not depend on the position, although its size does."""
+    for of in view.values("force"):
+        value = tidied(of.value)
+        moving = [q for q in of.coordinates if q in value.free_symbols]
+        if len(moving) == 1 and sign_for_all(value) is None and _is_normal_force(of):
+            factors = [f for f in Mul.make_args(value) if moving[0] in f.free_symbols]
+            if all(sign_for_all(f) == 1 for f in factors):
+                yield _one_sign(of, moving[0], value, Mul(*factors))
+
+
+def _is_normal_force(of: Quantity) -> bool:
+    """Whether the answer is the force of a surface, or such a force with other results substituted."""
+    facts = [q.fact(ForceOf) for q in of.ancestors() if q.symbol == of.symbol]
+    return any(fact is not None and fact.constraint.enforcer == "surface" for fact in facts)
+
+
+def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:
+    return establish(
+        ONE_SIGN,
+        None,
+        lambda *_: value / positive,
+        {"of": of, "q": q},
+        routes={"factors": lambda found: (found * positive, value)},
+        lines=ONE_LINE,
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_one_sign",
+    )
+
+
+BALANCED = Rule(
+    "observations.balanced",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 8",
+    outcomes={"generic": claims.balances},
+    evidence={"put_in": CHECK},
+    named={"place": claims.is_an_angle},
+)
+
+
+def balanced(view: View) -> Observed:
+    """Angles from 0 to 90 degrees for which no torque of the bearings is needed."""
+    for of in view.answers:
+        entries = [each for each in explicit(of.value) if each != 0] if isinstance(of.value, MatrixBase) else []
+        if of.step.kind == "torque" and len(entries) == 1:
+            for letter in [s for s in view.of_kind("angle") if s in entries[0].free_symbols]:
+                found = [end for end in (Integer(0), pi / 2) if is_zero(entries[0].xreplace({letter: end}))]
+                if len(found) == 2:
+                    yield _balanced(of, entries[0], letter, found)
+
+
+def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) -> Quantity:
+    return establish(
+        BALANCED,
+        None,
+        lambda *_: entry,
+        {"of": of, "angle": letter},
+        routes={"put_in": lambda e: (Add(*(e.xreplace({letter: each}) ** 2 for each in found)), Integer(0))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named=numbered("place", [Relation(letter, "=", each) for each in found])),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_balanced",
+    )
+
+
+AT_ONCE = Rule(
+    "observations.at_once",
+    source="Morin, *Introduction to Classical Mechanics*, chapter 5",
+    outcomes={"generic": claims.is_zero_there},
+    evidence={"put_in": CHECK},
+    named={"place": claims.is_the_result},
+)
+
+
+def at_once(view: View) -> Observed:
+    """Speed for which a contact that is lost at some angle is lost at the angle zero, where the motion begins."""
+    for of in (q for q in view.answers if q.step.rule == "motion.leaves_contact" and isinstance(q.value, Relation)):
+        told = of.value
+        if told.operator == "=" and isinstance(told.left, cos) and isinstance(told.left.args[0], Symbol):
+            for letter in [s for s in view.of_kind("speed") if s in explicit(told.right).free_symbols]:
+                found = solved_for_letter(explicit(told.right) - 1, letter)
+                if found is not None and sign_for_all(found) == 1 and found.is_real:
+                    yield _at_once(of, Relation(letter, "=", found))
+
+
+def _at_once(of: Quantity, place: Relation) -> Quantity:
+    return establish(
+        AT_ONCE,
+        None,
+        lambda *_: place,
+        {"of": of},
+        routes={"put_in": lambda found: (explicit(of.value.right).xreplace({found.left: found.right}), Integer(1))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"place": place}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_at_once",
+    )
+
+
+BELOW = Rule(
+    "observations.below",
+    source="Morin, *Introduction to Classical Mechanics*, section 1.1",
+    outcomes={"generic": claims.stays_below_and_approaches},
+    evidence={"difference": CHECK},
+)
+
+
+def below(view: View) -> Observed:
+    """Frequency of oscillation that is always below a given angular velocity, and approaches it if this is large."""
+    for of in view.values("angular speed"):
+        value = explicit(of.value)
+        for letter in [s for s in view.of_kind("angular speed") if s in value.free_symbols]:
+            apart = tidied(letter**2 - value**2)
+            if of.step.rule == "vibrations.frequency" and sign_for_all(apart) == 1:
+                if tidied(apart / letter**2).xreplace({letter: 1 / letter}).subs(letter, 0) == 0:
+                    yield _below(of, letter, apart)
+
+
+def _below(of: Quantity, letter: Symbol, apart: Expr) -> Quantity:
+    return establish(
+        BELOW,
+        None,
+        lambda *_: apart,
+        {"of": of, "letter": letter},
+        routes={"difference": lambda found: (found + explicit(of.value) ** 2, letter**2)},
+        lines=ONE_LINE,
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_below",
+    )
+
+
+FLAT = Rule(
+    "observations.flat",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7",
+    outcomes={"generic": claims.is_sum_of_the_others},
+    evidence={"sum": CHECK},
+    named={"sum": claims.adds_the_moments},
+)
+
+
+def flat(view: View) -> Observed:
+    """Principal moments of a flat body: the moment about the normal is the sum of the two others."""
+    for of in (q for q in view.answers if q.step.kind == "moment of inertia" and isinstance(q.symbol, MatrixBase)):
+        names, values = list(of.symbol), [explicit(each) for each in of.value]
+        for i in range(len(values) if len(values) == 3 and len(set(values)) == 3 else 0):
+            j, k = sorted({0, 1, 2} - {i})
+            if is_zero(values[i] - values[j] - values[k]):
+                yield _flat(of, Relation(Add(names[j], names[k]), "=", names[i]))
+
+
+def _flat(of: Quantity, told: Relation) -> Quantity:
+    values = dict(zip(of.symbol, explicit(of.value), strict=True))
+    return establish(
+        FLAT,
+        None,
+        lambda *_: told,
+        {"of": of},
+        routes={"sum": lambda found: (found.left.xreplace(values), found.right.xreplace(values))},
+        lines=ONE_LINE,
+        phrase_data=PhraseData(named={"sum": told}),
+        scope=OF_ANY_SUBJECT,
+        key=f"{of.key}_flat",
+    )

@@ -1,0 +1,79 @@
+"""The part of a page that an observation is about, and what the steps of all observations have in common.
+
+An observation is a step without lines of its own. Its rule has the predicate, and its sentence names the answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sympy import Expr, Symbol
+
+from derive.algebra.expressions import Relation, explicit, is_matrix
+from derive.mechanics.lagrange.facts import Energies
+from derive.steps.establish import Lines, Scope
+from derive.steps.step import Quantity
+from derive.steps.subject import EVERYTHING
+
+Observed = Iterator[Quantity]  # the steps that state the observations of one kind
+ONE_LINE = Lines(put_in=None, result=False, arranged=explicit)
+OF_ANY_SUBJECT = Scope(differ=EVERYTHING)
+
+
+@dataclass(frozen=True)
+class View:
+    """The part of a page that an observation is about.
+
+    answers   the answers of the part
+    shown     all steps of the page up to the end of this part
+    page      all steps of the page
+    letters   the given symbols of the problem, with their kinds
+    """
+
+    answers: tuple[Quantity, ...]
+    shown: tuple[Quantity, ...]
+    page: tuple[Quantity, ...]
+    letters: Mapping[Symbol, str]
+
+    def of_kind(self, kind: str) -> list[Symbol]:
+        """Return the given symbols of a kind."""
+        return [letter for letter, own in self.letters.items() if own == kind]
+
+    def in_order(self, symbols: Collection[Any]) -> list[Symbol]:
+        """Return those of the symbols that are given, in the order of the problem."""
+        return [letter for letter in self.letters if letter in symbols]
+
+    def values(self, *kinds: str) -> Iterator[Quantity]:
+        """Yield the exact answers of these kinds (by default, of every kind) whose value is one expression."""
+        for each in self.answers:
+            is_number = isinstance(each.value, Expr) and not is_matrix(each.value) and each.symbol is not None
+            if is_number and each.exact and (not kinds or each.step.kind in kinds):
+                yield each
+
+    @property
+    def gravity(self) -> list[Symbol]:
+        """Return the given accelerations that do not describe a motion: they are not in a kinetic energy."""
+        kinetic = [energies.kinetic for q in self.shown if (energies := q.fact(Energies)) is not None]
+        moving = {s for q in kinetic for s in explicit(q.value).free_symbols}
+        return [g for g in self.of_kind("acceleration") if g not in moving]
+
+
+def simple(value: Expr, most: int = 8) -> bool:
+    """Whether a value is short enough for a sentence."""
+    return int(explicit(value).count_ops()) <= most
+
+
+def numbered(role: str, values: Iterable[Any]) -> dict[str, Any]:
+    """Return role_1, role_2, ... with these values."""
+    return {f"{role}_{i}": value for i, value in enumerate(values, 1)}
+
+
+def symbols_behind(steps: Iterable[Quantity]) -> set[Any]:
+    """Return the symbols in the values of these steps, and in the values that these steps substitute."""
+    found: set[Any] = set()
+    for q in steps:
+        substituted = [told for role, told in q.step.roles if role.startswith("value_") and isinstance(told, Relation)]
+        found |= {s for value in (q.value, *substituted) for s in explicit(value).free_symbols}
+    return found

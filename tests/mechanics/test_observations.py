@@ -1,0 +1,217 @@
+"""Observations: each is found on a page, and the predicate of each refuses false variants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye
+
+import derive.steps.establish as establishing
+from derive.algebra.expressions import Amount, Relation, explicit
+from derive.algebra.rounding import Rounded
+from derive.building.solution import derived
+from derive.course.problem import deriving, load_problem
+from derive.mechanics.observations.chosen import MOST, OBSERVATIONS
+from derive.steps.record import Run
+from derive.steps.rule import RULES, Judged, Rule
+from tests.courses import ROOT
+
+FOUND = [  # problem, part, rule, outcome
+    ("library/kepler", 3, "orbit", "one"),
+    ("library/oscillator_2d", 2, "orbit", "two"),
+    ("library/table_with_hole", 3, "orbit", "letters"),
+    ("library/cycloid", 2, "exact", "generic"),
+    ("library/rod_pendulum", 2, "pendulum", "length"),
+    ("library/spring_pendulum", 3, "pendulum", "named"),
+    ("library/elevator", 3, "pendulum", "field"),
+    ("library/turning_hoop", 2, "branches", "generic"),
+    ("library/turning_parabola", 1, "anywhere", "generic"),
+    ("library/parabolic_hill", 2, "one_sign", "generic"),
+    ("library/leaning_rod", 1, "balanced", "generic"),
+    ("library/race", 1, "order", "generic"),
+    ("library/two_bodies", 2, "reduced", "generic"),
+    ("hw9/euler", 0, "polhode", "generic"),
+    ("library/ball_on_turntable", 1, "circling", "generic"),
+    ("library/off_a_sphere", 3, "angle", "generic"),
+    ("library/pushed_off_sphere", 2, "at_once", "generic"),
+    ("library/hoop_oscillations", 2, "below", "generic"),
+    ("library/penning_trap", 1, "pair", "generic"),
+    ("library/simple_pendulum", 3, "longer", "generic"),
+    ("library/driven_support", 4, "resonance", "generic"),
+    ("library/coupled_pendulums", 2, "unaffected", "spring"),
+    ("library/triatomic_molecule", 2, "unaffected", "mass"),
+    ("library/yoyo", 1, "familiar", "fall"),
+    ("library/disc_incline", 1, "familiar", "incline"),
+    ("library/sliding_to_rolling", 2, "independent", "generic"),
+    ("library/ladder", 3, "independent", "angle"),
+    ("library/hanging_mass", 2, "independent", "weight"),
+    ("library/struck_rods", 0, "multiple", "generic"),
+    ("library/hooke_3d", 1, "one_frequency", "generic"),
+    ("library/double_pendulum", 3, "modes", "irrational"),
+    ("library/hinge_force", 2, "zero_of", "changes_at_angle"),
+    ("library/atwood", 1, "zero_of", "changes"),
+    ("library/plate_on_diagonal", 2, "zero_of", "touches"),
+    ("library/triangular_plate", 2, "flat", "generic"),
+]
+
+
+@cache
+def observed(problem_id: str) -> tuple[list[list[Any]], dict[tuple[str, str], tuple[Rule, Judged, dict[str, Any]]]]:
+    """Return the observations of each part, and what the predicates of each of them judged."""
+    judged: dict[tuple[str, str], tuple[Rule, Judged, dict[str, Any]]] = {}
+    check = establishing._check_outcome
+    named = establishing._check_named
+
+    def of_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
+        check(key, rule, outcome, facts, may_be_zero)
+        judged[rule.name, outcome] = (rule, facts, {})
+
+    def of_names(key: str, rule: Rule, facts: Judged, told: Any) -> None:
+        named(key, rule, facts, told)
+        last = next(reversed(judged))
+        judged[last] = (rule, facts, dict(told))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(establishing, "_check_outcome", of_outcome)
+        patch.setattr(establishing, "_check_named", of_names)
+        derivation, *_ = derived(load_problem(ROOT, problem_id))
+    return [[derivation.step(key) for key in keys] for keys in derivation.observed], judged
+
+
+@pytest.mark.parametrize(("problem_id", "part", "name", "outcome"), FOUND)
+def test_a_page_states_this_observation(problem_id: str, part: int, name: str, outcome: str) -> None:
+    parts, _ = observed(problem_id)
+    assert (f"observations.{name}", outcome) in [(step.rule, step.outcome) for step in parts[part]]
+    assert sum(map(len, parts)) <= MOST
+
+
+def spoiled(value: Any) -> Iterator[Any]:
+    """Yield false variants of an object that a sentence names."""
+    if isinstance(value, Relation):
+        changed = explicit(value.right) * Rational(11, 10) if explicit(value.right) != 0 else Integer(1)
+        yield Relation(value.left, "=", changed)
+    elif isinstance(value, Amount):
+        yield Amount(value.args[0] + 1, "degree", value.args[2])
+    elif isinstance(value, Rounded):
+        yield Rounded(value.args[0] + 1, value.args[1])
+    elif isinstance(value, Symbol):
+        yield Symbol("elsewhere", positive=True)
+    elif isinstance(value, Expr):
+        yield value * Rational(11, 10)
+
+
+JUDGED_BY_NAMES = {
+    "independent",
+    "angle",
+    "longer",
+    "flat",
+    "polhode",
+}  # the outcome only requires that the names exist
+
+
+@pytest.mark.parametrize(("problem_id", "part", "name", "outcome"), FOUND)
+def test_false_variants_of_an_observation_are_refused(problem_id: str, part: int, name: str, outcome: str) -> None:
+    rule, facts, told = observed(problem_id)[1][f"observations.{name}", outcome]
+    with deriving(load_problem(ROOT, problem_id), Run()):
+        _check_refused(rule, facts, told, name, outcome)
+
+
+def _check_refused(rule: Rule, facts: Judged, told: dict[str, Any], name: str, outcome: str) -> None:
+    assert rule.verdict(outcome, facts)
+    refused = 0
+    for role, value in told.items():
+        for wrong in spoiled(value):
+            changed = replace(facts, inputs={**facts.inputs, role: wrong})
+            wrongly = rule.wrongly_named(changed, {**told, role: wrong})
+            assert wrongly is not None or not rule.verdict(outcome, changed), (role, wrong)
+            refused += 1
+    for wrong in (
+        spoiled(facts.result) if outcome != "field" and name not in {*JUDGED_BY_NAMES, *WITHOUT_RESULT} else ()
+    ):
+        assert not rule.verdict(outcome, replace(facts, result=wrong)), wrong
+        refused += 1
+    for wrong in SEEDED.get(name, lambda facts: [])(facts):
+        assert not rule.verdict(outcome, wrong)
+        refused += 1
+    assert refused
+
+
+WITHOUT_RESULT = {"exact", "one_frequency", "unaffected", "one_sign", "balanced", "pair", "below"}
+
+
+def _with(facts: Judged, **inputs: Any) -> Judged:
+    return replace(facts, inputs={**facts.inputs, **inputs})
+
+
+def _other(facts: Judged, role: str, **changes: Any) -> Judged:
+    """Return facts in which the quantity of a role has another value or step."""
+    old = facts.quantities[role]
+    known = {"value": old.value, "step": old.step, "symbol": old.symbol, "coordinates": old.coordinates}
+    return replace(facts, quantities={**facts.quantities, role: SimpleNamespace(**{**known, **changes})})
+
+
+def _uneven(facts: Judged) -> Judged:
+    mass, stiffness = facts.inputs["system"]
+    return _with(facts, system=(mass, stiffness + ImmutableDenseMatrix.diag(stiffness[0, 0], 0, 0)))
+
+
+def _first(facts: Judged) -> ImmutableDenseMatrix:
+    """A further displacement of the first coordinate, which changes the length of each spring at it."""
+    size = len(facts.quantities["shape"].value)
+    return ImmutableDenseMatrix([Integer(n == 0) for n in range(size)])
+
+
+def _one_sided(facts: Judged) -> Judged:
+    """A force that changes its sign along the curve, as for a hill that becomes steeper."""
+    of, q = facts.quantities["of"], facts.inputs["q"]
+    b = next(s for s in of.value.free_symbols if str(s) == "b")
+    return _other(facts, "of", value=explicit(of.value) * (q - b))
+
+
+def _growing(facts: Judged) -> Judged:
+    """Equations whose roots have the other sign, so that the two rates are growth rates."""
+    mass, stiffness = facts.inputs["system"]
+    return _with(facts, system=(mass, -stiffness))
+
+
+SEEDED: dict[str, Any] = {
+    "modes": lambda facts: [_growing(facts)],
+    "exact": lambda facts: [
+        _with(facts, energy=facts.inputs["energy"] + facts.inputs["energy"] ** 2 / 7),  # an anharmonic force
+        _with(facts, square=facts.inputs["square"] * 2),
+    ],
+    "one_frequency": lambda facts: [_uneven(facts)],
+    "unaffected": lambda facts: [
+        _other(
+            facts, "shape", value=ImmutableDenseMatrix([1, *[Integer(-2)] * (len(facts.quantities["shape"].value) - 1)])
+        )
+    ],
+    "one_sign": lambda facts: [_one_sided(facts)],
+    "balanced": lambda facts: [_with(facts, place_3=Relation(facts.inputs["angle"], "=", Integer(1)))],
+    "pair": lambda facts: [_with(facts, product=Relation(facts.inputs["product"].left, "=", Integer(1)))],
+    "below": lambda facts: [_with(facts, letter=Symbol("v", positive=True))],
+    "flat": lambda facts: [_other(facts, "of", value=eye(3))],
+    "order": lambda facts: [
+        replace(
+            facts,
+            quantities={**facts.quantities, "case_1": facts.quantities["case_2"], "case_2": facts.quantities["case_1"]},
+        )
+    ],
+}
+
+
+def test_every_kind_of_observation_is_on_some_page() -> None:
+    names = {name for _, _, name, _ in FOUND}
+    assert {rule.rpartition(".")[2] for rule in RULES if rule.startswith("observations.")} == names
+    assert {kind.found.__name__ for kind in OBSERVATIONS} == names
+
+
+@pytest.mark.parametrize("problem_id", ["library/steady_precession", "library/two_balls", "library/pendulum_canonical"])
+def test_a_page_without_a_true_and_useful_observation_has_none(problem_id: str) -> None:
+    """A rate in terms of a conserved spin, a special case, and a simple pendulum."""
+    assert not any(observed(problem_id)[0])
