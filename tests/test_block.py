@@ -70,9 +70,9 @@ def test_the_angle_is_rounded_once_and_in_degrees(block: Rendered) -> None:
     assert r"\approx 21.64{}^\circ" in block.latex or r"21.64\mathrm{{}^\circ}" in block.latex
 
 
-def test_symbolic_answers_have_no_number_but_their_coefficient_is_shown(block: Rendered) -> None:
+def test_symbolic_answers_have_no_number_and_roots_are_not_rounded(block: Rendered) -> None:
     assert numbers(block)["magnitude"] is None
-    assert "0.2315 M a² ω²" in block.texts["text"]
+    assert "√42/28 M a² ω²" in block.texts["text"] and "0.2315" not in block.texts["text"]
 
 
 def test_all_six_integrals_are_written_out(block: Rendered) -> None:
@@ -256,11 +256,11 @@ def test_show_full_opens_one_step_only(tmp_path: Path) -> None:
 
 
 def test_text_is_text_for_tex(tmp_path: Path) -> None:
-    hostile = r"50% of_ # & \input{/etc/passwd} \write18{ls} ~ ^ $x$ { block"
+    hostile = r"50% of_ # & \input{/etc/passwd} \write18{ls} ~ ^ \$x\$ { block"
     solution = solved(tmp_path, {"A uniform block": hostile})
     assert r"\input{/etc" not in solution.latex
     assert r"\write18" not in solution.latex
-    assert hostile in " ".join(solution.texts["text"].split())
+    assert hostile.replace(r"\$", "$") in " ".join(solution.texts["text"].split())
 
 
 def test_a_step_without_an_answer_is_warned_of(tmp_path: Path) -> None:

@@ -54,9 +54,7 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        own: set[Any] = getattr(
-            symbol, "free_symbols", set()
-        )  # omega_0 if the result is omega_0^2
+        own: set[Any] = getattr(symbol, "free_symbols", set())  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)
         self._known = {**{each.symbol: each for each in others}, **self._constants}

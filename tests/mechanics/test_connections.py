@@ -101,7 +101,7 @@ def test_a_normal_of_a_curve_that_is_not_a_unit_vector_is_refused(
     monkeypatch.setattr(Curve, "normal", long)
     assert "not a unit vector" in refused(tmp_path, trial_called("bowl-none"))
     monkeypatch.setattr(contacts, "_check", lambda touch: None)
-    assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("bowl-none"))
+    assert "its sentence has a wrong `multiplier_1`" in refused(tmp_path, trial_called("bowl-none"))
 
 
 def test_a_multiplier_of_a_curve_that_is_called_its_force_is_refused(

@@ -80,7 +80,7 @@ def test_a_row_has_every_value_of_its_step_each_with_its_left_side() -> None:
 
 
 def test_each_rule_has_words_for_a_rubric_and_no_words_are_left_over() -> None:
-    own = {rule.name for *_, rule in records()}
+    own = {rule.name for *_, rule in records() if not rule.name.startswith("observations.")}  # they have no points
     assert set(phrases(ROOT / "templates").tasks) == own
 
 

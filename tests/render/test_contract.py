@@ -65,6 +65,7 @@ def test_the_contract_has_the_keys_that_others_rely_on(tmp_path: Path) -> None:
         "parts",
         "assumed",
         "answers",
+        "observations",
         "limits",
         "limits_say",
         "note",

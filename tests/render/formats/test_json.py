@@ -26,7 +26,7 @@ from tests.test_transcripts import PAGES
 
 # page -> at least so many pairs, and what there must be among them; none is left out
 PAIRS: dict[str, tuple[int, set[str]]] = {
-    "block": (80, {"equal", "left side", "rounded"}),
+    "block": (75, {"equal", "left side", "rounded"}),
     "cone": (70, {"equal", "relation"}),
     "euler": (30, {"equal", "left side", "relation", "motion"}),
     "slab": (36, {"equal", "left side", "relation", "series"}),
