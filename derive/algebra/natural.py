@@ -81,7 +81,9 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
     best, least = None, _cost(value)
     for some in _some_of(near):
         chosen = {name: near[name] for name in some}
-        for known in _eliminations(chosen, kept):
+        # a formula itself, such as a reduced mass, may also be replaced
+        whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
+        for known in (whole, *_eliminations(chosen, kept)):
             form = _with(value, known, chosen)
             cost = _cost(form.value)
             if cost < least and _is_natural(form.value, chosen):
@@ -173,7 +175,7 @@ def _solved_together(choice: Sequence[tuple[Symbol, Expr]]) -> dict[Symbol, Expr
     return None if any(known.free_symbols & gone for known in found.values()) else found
 
 
-def _with(value: Any, known: Mapping[Symbol, Expr], quantities: Mapping[Symbol, Expr]) -> Shortened:
+def _with(value: Any, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr]) -> Shortened:
     with within(_ranges(quantities)):
         if isinstance(value, Relation):
             return _relation(value, known, tuple(quantities))
@@ -193,7 +195,7 @@ def compared(left: Expr, mark: str, right: Expr) -> Relation:
     return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
 
 
-def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol, ...]) -> Shortened:
+def _relation(value: Relation, known: Mapping[Expr, Expr], used: tuple[Symbol, ...]) -> Shortened:
     """Rewrite both sides, term by term; divide an equation with zero on the right by the positive symbols that all
     terms on the left have in common."""
     left, right = (Add(*(_written(term, known) for term in Add.make_args(side))) for side in (value.left, value.right))
@@ -208,15 +210,16 @@ def _relation(value: Relation, known: Mapping[Symbol, Expr], used: tuple[Symbol,
     return Shortened(Relation(divided, "=", Integer(0)), used, tuple(f for f in front if not f.is_Rational))
 
 
-def _written(value: Expr, known: Mapping[Symbol, Expr]) -> Expr:
+def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     """Substitute, and bring to lowest terms what is under a root or in a function.
 
     A sum is written term by term, unless this gives more terms. Any other value has its tidy form, or its own form if
     that is shorter.
     """
-    if not value.free_symbols & known.keys():
+    put_in = value.subs(known)
+    if put_in == value:
         return value
-    kept = value.subs(known).replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
+    kept = put_in.replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
     kept = kept.replace(lambda part: isinstance(part, Function), lambda part: part.func(*map(tidied, part.args)))
     by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
     if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
