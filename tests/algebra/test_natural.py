@@ -28,7 +28,7 @@ ROOT = sqrt(4 * k * m - b**2)
             {r_0: (J**2 / (M * m * g)) ** Rational(1, 3)},
             sqrt(3 * M * g / ((M + m) * r_0)),
         ),
-        (m * M * g / (m + M) ** 2, {beta: m * M / (m + M)}, beta * g / (m + M)),
+        (m * M * g / (m + M), {beta: m * M / (m + M)}, beta * g),
         (sqrt(Omega**2 - g**2 / (Omega**2 * R**2)), {theta_0: acos(g / (Omega**2 * R))}, Omega * sin(theta_0)),
         (
             x_0 * exp(-b * TIME / (2 * m)) * (cos(ROOT * TIME / (2 * m)) + b / ROOT * sin(ROOT * TIME / (2 * m))),
