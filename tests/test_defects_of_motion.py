@@ -165,7 +165,7 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "f07_multiplier_called_force": (("whose length is 2l", "give the multiplier"), ("give the force of",)),
     "f16_nutation_timeout": (("The momentum p_ψ keeps its initial value C w",), ()),
     "f17_rod_points_up": (
-        ("No generalized force other than that of the potential energy acts along q",),
+        ("No force outside L acts along q",),
         ("No such force",),
     ),
     "f18_zero_mode_no_restoring_force": (("no restoring force of first order, and higher orders decide",), ()),
