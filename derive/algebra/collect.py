@@ -14,6 +14,8 @@ from derive.algebra.length import length
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 
+LONGEST_PRODUCT = 60  # number of signs up to which a sum is tested for being a product
+
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Collect the terms by accelerations and by squares and products of rates; each of these has one coefficient."""
@@ -262,8 +264,11 @@ def _has_fractions_inside(value: Expr) -> bool:
 
 
 def _shorter_as_product(value: Expr) -> Expr:
-    """Return the value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2."""
-    return min((value, factored(value)), key=length)
+    """Return the value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
+
+    A long value is left unchanged: SymPy may need minutes to find that it is not a product.
+    """
+    return value if length(value) > LONGEST_PRODUCT else min((value, factored(value)), key=length)
 
 
 def spread(value: Expr) -> Expr:
