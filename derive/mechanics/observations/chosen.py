@@ -19,7 +19,6 @@ from derive.mechanics.observations.comparisons import (
 from derive.mechanics.observations.dependence import (
     angle,
     anywhere,
-    at_once,
     balanced,
     below,
     branches,
@@ -63,7 +62,6 @@ OBSERVATIONS = (
     Observation("polhode", polhode),
     Observation("circling", circling),
     Observation("angle", angle),
-    Observation("at_once", at_once),
     Observation("below", below),
     Observation("pendulum", pendulum),
     Observation("pair", pair),

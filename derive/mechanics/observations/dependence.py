@@ -484,40 +484,6 @@ def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) 
     )
 
 
-AT_ONCE = Rule(
-    "observations.at_once",
-    source="Morin, *Introduction to Classical Mechanics*, chapter 5",
-    outcomes={"generic": claims.is_zero_there},
-    evidence={"put_in": CHECK},
-    named={"place": claims.is_the_result},
-)
-
-
-def at_once(view: View) -> Observed:
-    """Speed for which a contact that is lost at some angle is lost at the angle zero, where the motion begins."""
-    for of in (q for q in view.answers if q.step.rule == "motion.leaves_contact" and isinstance(q.value, Relation)):
-        told = of.value
-        if told.operator == "=" and isinstance(told.left, cos) and isinstance(told.left.args[0], Symbol):
-            for letter in [s for s in view.of_kind("speed") if s in explicit(told.right).free_symbols]:
-                found = solved_for_letter(explicit(told.right) - 1, letter)
-                if found is not None and sign_for_all(found) == 1 and found.is_real:
-                    yield _at_once(of, Relation(letter, "=", found))
-
-
-def _at_once(of: Quantity, place: Relation) -> Quantity:
-    return establish(
-        AT_ONCE,
-        None,
-        lambda *_: place,
-        {"of": of},
-        routes={"put_in": lambda found: (explicit(of.value.right).xreplace({found.left: found.right}), Integer(1))},
-        lines=ONE_LINE,
-        phrase_data=PhraseData(named={"place": place}),
-        scope=OF_ANY_SUBJECT,
-        key=f"{of.key}_at_once",
-    )
-
-
 BELOW = Rule(
     "observations.below",
     source="Morin, *Introduction to Classical Mechanics*, section 1.1",
