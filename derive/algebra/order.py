@@ -105,8 +105,8 @@ def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
     """A symbol in which the difference is linear, its value, and a new amount: with this value, the difference equals
-    the amount. A positive symbol is chosen only if its value is positive. All three results are None without such a
-    symbol."""
+    the amount. A positive symbol is chosen only if its value is positive. If there is no such symbol, the result is
+    (None, None, None)."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

@@ -15,8 +15,6 @@ from derive.course.expression import Declared, read_expression
 from derive.course.yaml_tree import Formula, Word
 from derive.errors import Faults, rejected
 
-NO_QUANTITIES = "none"  # `define: none`: results keep the letters of the problem
-
 
 @dataclass(frozen=True)
 class Defined(Declared):

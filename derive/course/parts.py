@@ -101,13 +101,13 @@ KEY_OF_STEP = {"type": ["string", "boolean"], "pattern": f"^{_STEP_KEY.pattern}$
 
 def _observations(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | None:
     items = node.items if isinstance(node, Sequence) else (node,)
-    if not items or any(not isinstance(item, Scalar) or item.empty for item in items):
+    if not items or any(not isinstance(item, Scalar) or not _STEP_KEY.fullmatch(item.text) for item in items):
         wrong_type(faults, f"`{name}`", "`none`, or one or more kinds of observations", node)
         return None
     return tuple(item.word for item in items if isinstance(item, Scalar))
 
 
-OBSERVATIONS = Reader(one_or_more({"type": "string", "pattern": r"\S"}), _observations)
+OBSERVATIONS = Reader(one_or_more(KEY_OF_STEP), _observations)
 OBSERVATIONS_MEANING = "the kinds of observations after the answers, such as `pendulum`, or `none`; by default chosen"
 
 

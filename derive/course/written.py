@@ -103,7 +103,7 @@ SYMBOLS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
 _FORMULAS = mapping_of(FORMULA, "a mapping such as `{omega_0: sqrt(k/m)}`, or `none`")
-NO_QUANTITIES = "none"  # `define: none`
+NO_QUANTITIES = "none"  # `define: none`: results keep the letters of the problem
 
 
 @dataclass(frozen=True)
