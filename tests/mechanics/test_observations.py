@@ -186,7 +186,10 @@ SEEDED: dict[str, Any] = {
         _with(facts, energy=facts.inputs["energy"] + facts.inputs["energy"] ** 2 / 7),  # an anharmonic force
         _with(facts, square=facts.inputs["square"] * 2),
     ],
-    "one_frequency": lambda facts: [_uneven(facts)],
+    "one_frequency": lambda facts: [
+        _uneven(facts),
+        _with(facts, motions=[facts.inputs["motions"][0] + facts.inputs["moving"][0] ** 3, *facts.inputs["motions"]]),
+    ],
     "unaffected": lambda facts: [
         _other(
             facts, "shape", value=ImmutableDenseMatrix([1, *[Integer(-2)] * (len(facts.quantities["shape"].value) - 1)])
@@ -216,6 +219,29 @@ def test_every_kind_of_observation_is_on_some_page() -> None:
 def test_a_page_without_a_true_and_useful_observation_has_none(problem_id: str) -> None:
     """A rate in terms of a conserved spin, a special case, and a simple pendulum."""
     assert not any(observed(problem_id)[0])
+
+
+NAIL = """\
+title: A bead at a nail
+solve: system
+symbols: {m: mass, k: spring constant, b: length}
+given:
+  coordinates: {x: length, y: length}
+  particles: {bead: {mass: m, at: [x, y]}}
+  potential: k*(x**2 + y**2)/2 + k*x**4/b**2
+statement: A bead of mass <<m>>.
+parts:
+  - ask: Find the frequency.
+    answer: [equations_of_motion, frequency]
+"""
+
+
+@pytest.mark.parametrize(("force", "said"), [("", True), (" + k*x**4/b**2", False)])
+def test_only_orbits_of_an_exactly_linear_motion_are_ellipses(tmp_path: Path, force: str, said: bool) -> None:
+    """A force of third order leaves the small oscillations as they are, but changes each orbit."""
+    text = edited(NAIL, (" + k*x**4/b**2", force))
+    page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
+    assert ("every orbit is a closed ellipse" in page) is said
 
 
 MACHINE = """\

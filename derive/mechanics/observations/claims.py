@@ -207,7 +207,11 @@ def is_ratio_of(above: str, below: str) -> Naming:
 
 
 def all_frequencies_are_equal(facts: Judged) -> bool:
-    """Whether the equations have only one frequency: M^-1 K is a multiple of the unit matrix at all trial points."""
+    """Whether the equations of motion are linear without any approximation and have only one frequency.
+
+    M^-1 K is then a multiple of the unit matrix at all trial points, and the second derivatives of the equations with
+    respect to coordinates, rates and accelerations vanish.
+    """
     linear, of = facts.inputs["system"], facts.quantities["of"]
     mass, stiffness = linear
     size = mass.shape[0]
@@ -222,7 +226,10 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
             for j in range(size)
         )
 
-    return size > 1 and for_each_form(of, is_so, *mass, *stiffness)
+    moving = [rate(q, n) if n else q for q in facts.inputs["moving"] for n in (0, 1, 2)]
+    curved = [residual.diff(a).diff(b) for residual in facts.inputs["motions"] for a in moving for b in moving]
+    is_linear = everywhere(numbers(curved), lambda point: all(value_at(each, point) == 0 for each in curved))
+    return size > 1 and is_linear and for_each_form(of, is_so, *mass, *stiffness)
 
 
 def isochronous(facts: Judged) -> bool:

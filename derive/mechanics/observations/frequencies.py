@@ -12,6 +12,7 @@ from sympy import Add, Expr, Integer, Pow, Symbol, cos, expand, pi, powsimp, sin
 from derive.algebra.expressions import TIME, Amount, Factors, Ratio, Relation, Terms, explicit, rate
 from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
+from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.observations import claims
 from derive.mechanics.observations.comparisons import linear_equations
@@ -262,12 +263,14 @@ def one_frequency(view: View) -> Observed:
         explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))
     )
     for of in view.values("angular speed") if of_particle else ():
-        linear = linear_equations(of)
-        if of.step.outcome == "oscillating_repeated" and linear is not None:
-            yield _one_frequency(of, linear)
+        steps = [q for q in of.ancestors() if q.fact(Linear) is not None]
+        if steps and of.step.outcome == "oscillating_repeated" and all("as_it_is" in dict(q.step.roles) for q in steps):
+            yield _one_frequency(of, steps[0])
 
 
-def _one_frequency(of: Quantity, linear: Linear) -> Quantity:
+def _one_frequency(of: Quantity, step: Quantity) -> Quantity:
+    linear = step.needed(Linear)
+    motions = [q for q in step.parents if q.fact(OfCoordinate) is not None]
     return establish(
         ONE_FREQUENCY,
         None,
@@ -275,7 +278,13 @@ def _one_frequency(of: Quantity, linear: Linear) -> Quantity:
         {"of": of},
         routes={"squares": lambda found: (linear.stiffness, found * linear.mass)},
         lines=ONE_LINE,
-        phrase_data=PhraseData(outcome_data={"system": (linear.mass, linear.stiffness)}),
+        phrase_data=PhraseData(
+            outcome_data={
+                "system": (linear.mass, linear.stiffness),
+                "moving": [q.needed(OfCoordinate).coordinate.symbol for q in motions],
+                "motions": [explicit(q.value).residual for q in motions],
+            }
+        ),
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_of_all",
     )
