@@ -17,7 +17,9 @@ from derive.mechanics.impacts import momentum_laws
 from derive.mechanics.newton import alone, second_law, torque_law
 from derive.mechanics.newton import energy as by_energy
 from derive.mechanics.newton.alone import Alone, Force
+from derive.mechanics.newton.claims import same_equation
 from derive.mechanics.newton.directions import Direction
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from tests.mechanics.test_connections import value_at
 from tests.newton_euler.random_systems import Trial, key_of, on_a_curve, on_a_surface, problem, with_strings
@@ -290,6 +292,27 @@ def test_both_methods_are_shown_to_agree(text: str, tmp_path: Path) -> None:
     )
 
 
+BLOCK = """\
+title: A block on an incline
+solve: system
+method: both
+symbols: {m: mass, g: acceleration, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {s: length}
+  particles: {block: {mass: m, at: [s*cos(alpha), -s*sin(alpha)]}}
+  gravity: g
+statement: A block of mass <<m>> slides down an incline at the angle <<alpha>>. It has moved through <<s>>.
+parts:
+  - ask: Find the equation of motion.
+    answer: equations_of_motion
+"""
+
+
+def test_laws_that_differ_by_a_constant_factor_agree(tmp_path: Path) -> None:
+    """m s_ddot = m g sin(alpha) by Newton's law, and s_ddot - g sin(alpha) = 0 by Lagrange's equation."""
+    assert solved(tmp_path, BLOCK)["agreement_s"].step.outcome == "again"
+
+
 # --- wrong laws are refused ------------------------------------------------------------------------------------------
 
 
@@ -394,6 +417,16 @@ def test_an_agreement_with_another_law_is_refused(tmp_path: Path, monkeypatch: p
 
     monkeypatch.setattr(agreement_of_laws, "Relation", lambda left, mark, right: Relation(left + m, mark, right))
     assert "disagrees" in refused(tmp_path, edited(ATWOOD, ("method: newton", "method: both")))
+
+
+@pytest.mark.parametrize("wrong", [3 * g, g * scalar("x"), g + scalar("x_dot")])
+def test_another_equation_is_not_the_law(tmp_path: Path, wrong: Any) -> None:
+    agreement = solved(tmp_path, BLOCK)["agreement_s"]
+    quantities = {q.key: q for q in agreement.parents}
+    law = next(q for q in quantities.values() if q.step.rule == "newton.second_law")
+    other = Relation(agreement.value.left.xreplace({g: wrong}), "=", agreement.value.right)
+    assert same_equation(Judged(agreement.value, {}, {"newton": law}))
+    assert not same_equation(Judged(other, {}, {"newton": law}))
 
 
 # --- wrong questions -------------------------------------------------------------------------------------------------

@@ -32,7 +32,8 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
 
     newton    the law from `second_law` or `torque_law`
     lagrange  Lagrange's equations, one for each coordinate
-    Second route: the sum of Lagrange's equations, which come from T and U, is the law, which comes from forces.
+    Second route: the sum of Lagrange's equations, which come from T and U, is the law, which comes from forces. The
+    result, which may be one of Lagrange's equations, is compared with the law.
     Outcomes: again.
     Errors: the equation of a coordinate is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
@@ -48,9 +49,9 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
 
     shown = (used["lagrange_1"] if len(used) == 1 else newton).step.chain[-1].expr
 
-    def by_virtual_work(found: Relation) -> tuple[Relation, Relation]:
+    def by_virtual_work(_: Relation) -> tuple[Relation, Relation]:
         residuals = (explicit(by_coordinate[s].value).residual * change for s, change in changes.items())
-        return found, Relation(Add(*residuals), "=", Integer(0))
+        return newton.value, Relation(Add(*residuals), "=", Integer(0))
 
     return establish(
         AGREEMENT_OF_LAWS,

@@ -10,7 +10,6 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import depends_on_time, explicit, rate
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.steps.claims import both as both
-from derive.steps.claims import parallel
 from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
 
@@ -183,10 +182,16 @@ def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
 
 
 def same_equation(facts: Judged) -> bool:
-    """Whether the law of the one body and the result have the same forces, and the result has the accelerations of the
-    law up to a common factor."""
+    """Whether the law of the one body and the result are the same equation, up to a factor without rates.
+
+    Both are linear in the same symbol, an acceleration if there is one, and give it the same value.
+    """
     law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
-    letters = law.free_symbols | found.free_symbols
-    accelerations = [s for s in letters if s.name.endswith("_ddot")]
-    slopes = [{s: diff(each, s) for s in accelerations} for each in (found, law)]
-    return found.free_symbols == law.free_symbols and (not accelerations or parallel(*slopes))
+    rates = {rate(q, n) for each in facts.quantities.values() for q in each.coordinates for n in (1, 2)}
+    letters = sorted(law.free_symbols & found.free_symbols, key=lambda s: (not s.name.endswith("_ddot"), s.name))
+    for letter in letters:
+        slopes = [diff(each, letter) for each in (law, found)]
+        if not any(is_zero(slope) or slope.has(letter) for slope in slopes):
+            factor = slopes[1] / slopes[0]
+            return is_zero(found - factor * law) and not factor.free_symbols & rates
+    return False
