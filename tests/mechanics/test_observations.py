@@ -13,7 +13,7 @@ import pytest
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye
 
 import derive.steps.establish as establishing
-from derive.algebra.expressions import Amount, Relation, explicit
+from derive.algebra.expressions import Amount, Relation, explicit, rate
 from derive.algebra.rounding import Rounded
 from derive.building.solution import derived, rendered
 from derive.course.problem import deriving, load_problem
@@ -266,3 +266,61 @@ def test_a_value_that_the_assumptions_exclude_is_not_stated(tmp_path: Path, rela
     text = edited(MACHINE, ("assume: [m_1 < m_2]", f"assume: [{relation}]"), ("at: [1, x - l]", "at: [l, x - l]"))
     page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
     assert ("vanishes for m_1 = m_2 and changes its sign there" in page) is said
+
+
+HELIX = """\
+title: A charge in a magnetic field
+solve: system
+symbols: {m: mass, q: charge, B: magnetic field}
+given:
+  coordinates: {x: length, y: length, z: length}
+  particles: {ion: {mass: m, at: [x, y, z]}}
+  charges: {charge: q, at: [x, y, z], magnetic: [0, 0, B]}
+statement: An ion of mass <<m>> and charge <<q>> moves in the field <<B>>.
+parts:
+  - ask: Find the accelerations.
+    answer: accelerations
+"""
+
+
+@pytest.mark.parametrize("flat", [False, True])
+def test_a_charge_that_may_move_along_the_field_does_not_describe_a_circle(tmp_path: Path, flat: bool) -> None:
+    """The path is a helix; in a plane perpendicular to the field it is a circle."""
+    plane = [
+        ("y: length, z: length", "y: length"),
+        ("mass: m, at: [x, y, z]", "mass: m, at: [x, y, 0]"),
+        ("charge: q, at: [x, y, z]", "charge: q, at: [x, y, 0]"),
+    ]
+    text = edited(HELIX, *plane) if flat else HELIX
+    page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
+    assert ("circle" in page) is flat, page
+
+
+def _case(facts: Judged, **changes: Any) -> Judged:
+    """Return facts of an order in which one value of the first case has changed."""
+    step = facts.quantities["case_1"].step
+    return _other(facts, "case_1", step=SimpleNamespace(rule=step.rule, roles=(*step.roles, *changes.items())))
+
+
+def test_the_first_body_to_arrive_is_stated_only_for_one_symbol_that_does_not_change_the_path() -> None:
+    """With a second value, or a length as the symbol, the cases may differ in the distance."""
+    rule, facts, _ = observed("library/race")[1]["observations.order", "generic"]
+    with deriving(load_problem(ROOT, "library/race"), Run()):
+        assert rule.verdict("generic", facts)
+        assert not rule.verdict("generic", _case(facts, value_2=Relation(Symbol("l"), "=", Integer(2))))
+        assert not rule.verdict("generic", _with(facts, kind="length"))
+
+
+def test_a_force_with_a_rate_has_no_known_sign() -> None:
+    rule, facts, _ = observed("library/parabolic_hill")[1]["observations.one_sign", "generic"]
+    of = facts.quantities["of"]
+    assert rule.verdict("generic", facts)
+    assert not rule.verdict("generic", _other(facts, "of", value=explicit(of.value) + rate(facts.inputs["q"]) ** 2))
+
+
+def test_a_period_that_becomes_longer_is_not_stated_with_a_negative_percentage() -> None:
+    rule, facts, told = observed("library/simple_pendulum")[1]["observations.longer", "generic"]
+    name, percent = next((role, value) for role, value in told.items() if isinstance(value, Rounded))
+    assert rule.wrongly_named(facts, told) is None
+    for wrong in (-percent.args[0], percent.args[0] + Rational(1, 10), Integer(0)):
+        assert rule.wrongly_named(facts, {**told, name: Rounded(wrong, percent.args[1])}) is not None

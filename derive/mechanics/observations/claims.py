@@ -9,9 +9,26 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Integer, MatrixBase, Poly, Rational, Symbol, cos, expand, minimal_polynomial, nan, pi, sin, sqrt
+from sympy import (
+    Expr,
+    Integer,
+    MatrixBase,
+    Poly,
+    Rational,
+    Symbol,
+    cos,
+    expand,
+    floor,
+    log,
+    minimal_polynomial,
+    nan,
+    pi,
+    sin,
+    sqrt,
+)
 
-from derive.algebra.expressions import Amount, Relation, bound, explicit, rate
+from derive.algebra.expressions import TIME, Amount, Relation, bound, depends_on_time, explicit, rate
+from derive.algebra.rounding import Rounded
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.algebra.swing import half_swing
 from derive.steps.known_numbers import with_numbers
@@ -59,9 +76,6 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
                 yield None
 
     return all(verdict is not False for verdict in verdicts())
-
-
-# --- frequencies ---
 
 
 # --- frequencies ---
@@ -434,9 +448,19 @@ def are_in_order(facts: Judged) -> bool:
 
 def first_to_arrive(facts: Judged) -> bool:
     """Whether the accelerations are in order and constant, so that of two bodies released together from rest the one
-    with the greater acceleration arrives first."""
-    moving = {s for q in facts.quantities.values() for each in q.coordinates for s in (each, rate(each))}
-    return are_in_order(facts) and not any(explicit(q.value).free_symbols & moving for q in facts.quantities.values())
+    with the greater acceleration arrives first.
+
+    The cases differ in the value of one symbol, a mass or a moment of inertia, so that the paths are the same.
+    """
+    cases = [q for role, q in facts.quantities.items() if role.startswith("case_")]
+    told = [[value for role, value in q.step.roles if role.startswith("value_")] for q in cases]
+    if any(len(each) != 1 for each in told):
+        return False
+    letters = {each[0].left for each in told}
+    differ = len({each[0].right for each in told}) == len(cases)
+    constant = all(_is_constant(explicit(q.value), q) for q in cases)
+    same_path = facts.inputs["kind"] in ("mass", "moment of inertia")
+    return len(letters) == 1 and differ and constant and same_path and are_in_order(facts)
 
 
 def is_case_of_the_first(facts: Judged, told: Any) -> bool:
@@ -517,9 +541,12 @@ def stays_at_rest(facts: Judged) -> bool:
 def circles(facts: Judged) -> bool:
     """Whether the acceleration is the velocity turned by a right angle, multiplied by a constant rate.
 
-    The squared speed then does not change, and the direction of the velocity turns at the constant rate.
+    The squared speed then does not change, and the direction of the velocity turns at the constant rate. A constraint
+    fixes each other distance: without it, the path may be a helix.
     """
     rate_, (u, v) = facts.result, facts.inputs["rates"]
+    if not _is_constant(rate_, facts.quantities["of"]) or not _others_are_fixed(facts.quantities["of"], u, v):
+        return False
     along, across = (explicit(facts.quantities[role].value) for role in ("of", "other"))
 
     def is_so(point: Point) -> bool:
@@ -530,6 +557,20 @@ def circles(facts: Judged) -> bool:
         )
 
     return everywhere(numbers([along, across, rate_, u, v]), is_so)
+
+
+def _is_constant(value: Expr, of: Quantity) -> bool:
+    """Whether a value contains neither the time, nor a coordinate, nor a rate."""
+    moving = {s for q in of.coordinates for s in (q, rate(q), rate(q, 2))}
+    return not depends_on_time(value) and not explicit(value).free_symbols & {TIME, *moving}
+
+
+def _others_are_fixed(of: Quantity, *rates: Symbol) -> bool:
+    """Whether the derived constraints give z_ddot = 0 for each distance z whose rate is not one of these."""
+    others = [q for q, kind in of.coordinates.items() if kind == "length" and rate(q) not in rates]
+    constraints = [each for each in of.ancestors() if each.step.rule == "lagrange.constraint_rate"] if others else []
+    fixed = {s for each in constraints if len(found := explicit(each.value).residual.free_symbols) == 1 for s in found}
+    return all(rate(q, 2) in fixed for q in others)
 
 
 def is_reduced_mass(facts: Judged) -> bool:
@@ -617,6 +658,8 @@ def has_one_sign(facts: Judged) -> bool:
     """Whether the sign of the force is the same for all values of the coordinate, but not for all given values."""
     of, q = explicit(facts.quantities["of"].value), facts.inputs["q"]
     seen = set()
+    if not _is_constant(of.xreplace({q: Integer(1)}), facts.quantities["of"]):
+        return False  # a rate changes along the motion
 
     def is_so(point: Point) -> bool:
         found = {value_at(of, {**point, q: point[q] * k}) > 0 for k in (Rational(1, 50), -3, 1, 40)}
@@ -691,9 +734,15 @@ def longer_by(facts: Judged, told: Expr) -> bool:
 
     def is_so(point: Point) -> bool:
         percent = 100 * (time(point, facts.inputs["amplitude"].right.doit()) / time(point, Rational(1, 10**3)) - 1)
-        return bool(abs(percent - told.args[0]) < Rational(1, 20))
+        return bool(0 < told.args[0] < 5 and abs(percent - told.args[0]) <= _half_unit(told))
 
     return everywhere(trial_points(letters, tried=3), is_so)
+
+
+def _half_unit(number: Rounded) -> Rational:
+    """Return half a unit of the last shown place: 1/20 for 1.7."""
+    value, figures = number.args
+    return Rational(10) ** (floor(log(abs(value), 10)) - figures + 1) / 2
 
 
 def stays_below_and_approaches(facts: Judged) -> bool:

@@ -81,9 +81,17 @@ def order(view: View) -> Observed:
     ]
     for symbol in dict.fromkeys(q.symbol for q in cases):
         own = [q for q in cases if q.symbol == symbol]
+        kind = _kind_of_the_letter(view, own)
         ratios = [tidied(explicit(q.value) / explicit(own[0].value)) for q in own]
-        if len(own) > 1 and all(r.is_Rational and r > 0 for r in ratios) and len(set(ratios)) == len(own):
-            yield _in_order([q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])])
+        if kind and len(own) > 1 and all(r.is_Rational and r > 0 for r in ratios) and len(set(ratios)) == len(own):
+            yield _in_order([q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])], kind)
+
+
+def _kind_of_the_letter(view: View, cases: Sequence[Quantity]) -> str:
+    """Return the kind of the only symbol whose value distinguishes the cases; "" if there are several such symbols."""
+    told = [value for q in cases for role, value in q.step.roles if role.startswith("value_")]
+    letters = {each.left for each in told}
+    return view.letters.get(letters.pop(), "") if len(letters) == 1 and len(told) == len(cases) else ""
 
 
 def _is_constant(q: Quantity) -> bool:
@@ -92,7 +100,7 @@ def _is_constant(q: Quantity) -> bool:
     return not is_zero(q.value) and not explicit(q.value).free_symbols & moving
 
 
-def _in_order(falling: Sequence[Quantity]) -> Quantity:
+def _in_order(falling: Sequence[Quantity], kind: str) -> Quantity:
     most, least = (explicit(q.value) for q in (falling[0], falling[-1]))
     return establish(
         ORDER,
@@ -104,6 +112,7 @@ def _in_order(falling: Sequence[Quantity]) -> Quantity:
         phrase_data=PhraseData(
             points_to=numbered("case", falling),
             named={"most": _case(falling[0]), "least": _case(falling[-1])},
+            outcome_data={"kind": kind},
         ),
         scope=OF_ANY_SUBJECT,
         key=f"{falling[0].key}_greatest",
