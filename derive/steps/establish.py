@@ -42,7 +42,7 @@ from derive.steps.chain import (
 )
 from derive.steps.natural import NamesValue, NaturalQuantities, Proposal
 from derive.steps.record import coordinates_in
-from derive.steps.rule import GENERIC, ZERO, Doubt, Judged, Rule, wrongly_handed_on
+from derive.steps.rule import GENERIC, TRIALS, ZERO, Doubt, Judged, Rule, wrongly_handed_on
 from derive.steps.signs import undecided
 from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
 from derive.steps.subject import NOTHING, Subject, united, with_name
@@ -202,7 +202,9 @@ def establish(
     evidence += rests
     evidence += evidence_of_routes(key, rule, result, routes or {})
     _check_words(key, words)
-    if not routes:
+    if TRIALS in rule.evidence:
+        evidence.append(Evidence(TRIALS, rule.evidence[TRIALS], Grade.SAMPLED, "the outcome at trial numbers"))
+    elif not routes:
         evidence.append(_unsupported(key, rule))
     subject = scope.around(together, result)
     chosen = outcome(result) if callable(outcome) else outcome

@@ -21,6 +21,7 @@ CENTRE_OF_MASS = "centre_of_mass"  # the word for the point "centre" of a body t
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
+TRIALS = "trials"  # the claim of a rule whose statement only its predicate tests, at trial numbers
 
 
 @dataclass(frozen=True)
@@ -109,7 +110,8 @@ class Rule:
     outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
                 it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
-                error of algebra. A rule without evidence is a definition
+                error of algebra. The claim TRIALS has no function: its evidence is the predicate of the outcome, which
+                tests the statement at trial numbers. A rule without evidence is a definition
     statements  predicates for the roles, points and formulas that occur only in the sentence; they must be true for
                 every outcome
     named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges

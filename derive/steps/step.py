@@ -20,7 +20,7 @@ from derive.algebra.normal_form import vanishes
 from derive.errors import Complaint, Rejected, Unverified
 from derive.steps.level import ON_ITS_OWN, Display
 from derive.steps.level import Level as Level  # modules that make forms import `Level` from here
-from derive.steps.rule import Theorem
+from derive.steps.rule import TRIALS, Theorem
 from derive.steps.subject import NOTHING, Subject
 
 NUMBERS = ("value", "rounded")  # reasons of the last forms of a chain: the number in a unit, exact or rounded
@@ -99,11 +99,12 @@ class Step:
     @property
     def grade(self) -> Grade:
         """Return the less certain of two grades: the grade of the least certain line, and the grade of the most certain
-        route. All lines must hold, but one route is enough."""
-        lines = [e.grade for e in self.evidence if e.compared is Compared.LINES]
-        routes = [e.grade for e in self.evidence if e.compared is not Compared.LINES]
+        route. All lines must hold, but one route is enough. A statement that was only tested at trial numbers must hold
+        too."""
+        needed = [e for e in self.evidence if e.compared is Compared.LINES or e.claim == TRIALS]
+        routes = [e.grade for e in self.evidence if e not in needed]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
-        return min([*lines, *surest], key=LEAST_SURE_FIRST.index)
+        return min([*(e.grade for e in needed), *surest], key=LEAST_SURE_FIRST.index)
 
 
 class Fact:

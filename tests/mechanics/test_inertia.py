@@ -7,10 +7,13 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import Matrix, Rational, diag, eye, symbols, zeros
+from sympy import Expr, Matrix, Rational, diag, eye, symbols, zeros
 
 from derive.errors import Rejected
-from derive.mechanics import Cuboid, centre_of_mass, inertia_tensor, moved_from_centre, moved_to
+from derive.mechanics import Cuboid, Rod, centre_of_mass, inertia_tensor, moved_from_centre, moved_to
+from derive.mechanics.rotation.claims import is_standard_moment
+from derive.steps.rule import Judged
+from derive.steps.subject import Subject
 from tests.mechanics.block import M, a, b, c, known_block, outcomes, values
 
 GENERAL = {"sides": (a, b, c), "axis": "z"}
@@ -154,3 +157,20 @@ def test_a_tensor_that_is_already_about_the_centre_is_not_moved() -> None:
 def test_an_unknown_point_is_refused() -> None:
     with pytest.raises(Rejected, match='a cuboid has no point "top"'):
         inertia_tensor(Cuboid((a, b, c), M), about="top")
+
+
+@pytest.mark.parametrize(
+    ("words", "point", "axis", "moment", "quoted"),
+    [
+        ("rod_about_its_centre", "centre", "x", M * a**2 / 12, True),
+        ("rod_about_its_end", "end", "y", M * a**2 / 3, True),
+        ("rod_about_its_centre", "end", "x", M * a**2 / 12, False),
+        ("rod_about_its_centre", "centre", "z", M * a**2 / 12, False),
+    ],
+)
+def test_a_moment_of_a_table_is_quoted_only_for_its_point_and_its_axis(
+    words: str, point: str, axis: str, moment: Expr, quoted: bool
+) -> None:
+    rod = Rod(mass=M, length=a)
+    subject = Subject(body=rod, mass=M, point=rod.point(point), axis=axis)
+    assert is_standard_moment(Judged(moment, subject=subject, words={"standard": words})) is quoted

@@ -13,6 +13,7 @@ import pytest
 from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye
 
 import derive.steps.establish as establishing
+from derive.algebra.equality import Grade
 from derive.algebra.expressions import Amount, Relation, explicit, rate
 from derive.algebra.rounding import Rounded
 from derive.building.solution import derived, rendered
@@ -97,7 +98,8 @@ def spoiled(value: Any) -> Iterator[Any]:
         changed = explicit(value.right) * Rational(11, 10) if explicit(value.right) != 0 else Integer(1)
         yield Relation(value.left, "=", changed)
     elif isinstance(value, Amount):
-        yield Amount(value.args[0] + 1, "degree", value.args[2])
+        number, figures = value.args[0].args
+        yield Amount(Rounded(number + Rational(1, 10), figures), "degree", value.args[2])
     elif isinstance(value, Rounded):
         yield Rounded(value.args[0] + 1, value.args[1])
     elif isinstance(value, Symbol):
@@ -178,6 +180,17 @@ def _growing(facts: Judged) -> Judged:
     """Equations whose roots have the other sign, so that the two rates are growth rates."""
     mass, stiffness = facts.inputs["system"]
     return _with(facts, system=(mass, -stiffness))
+
+
+@pytest.mark.parametrize(
+    ("problem_id", "name", "grade"),
+    [("library/parabolic_hill", "one_sign", Grade.SAMPLED), ("library/struck_rods", "multiple", Grade.PROVED)],
+)
+def test_a_statement_that_only_its_predicate_tests_is_not_called_proved(
+    problem_id: str, name: str, grade: Grade
+) -> None:
+    steps = [step for part in observed(problem_id)[0] for step in part if step.rule == f"observations.{name}"]
+    assert [step.grade for step in steps] == [grade]
 
 
 SEEDED: dict[str, Any] = {

@@ -18,8 +18,6 @@ from sympy import (
     Symbol,
     cos,
     expand,
-    floor,
-    log,
     minimal_polynomial,
     nan,
     pi,
@@ -28,7 +26,7 @@ from sympy import (
 )
 
 from derive.algebra.expressions import TIME, Amount, Relation, bound, depends_on_time, explicit, rate
-from derive.algebra.rounding import Rounded
+from derive.algebra.rounding import half_a_unit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.algebra.swing import half_swing
 from derive.steps.known_numbers import with_numbers
@@ -362,8 +360,9 @@ def is_pure_angle(facts: Judged, angle: Expr) -> bool:
 
 def is_rounded(facts: Judged, told: Amount) -> bool:
     """Whether the number of degrees differs from the angle by less than half a unit of the last place."""
-    number = value_at(told.args[0].args[0], {})
-    return bool(abs(value_at(facts.inputs["angle"], {}) * 180 / pi - number).evalf(30) < Rational(1, 20))
+    rounded = told.args[0]
+    number = value_at(rounded.args[0], {})
+    return bool(abs(value_at(facts.inputs["angle"], {}) * 180 / pi - number).evalf(30) <= half_a_unit(rounded))
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
@@ -734,15 +733,9 @@ def longer_by(facts: Judged, told: Expr) -> bool:
 
     def is_so(point: Point) -> bool:
         percent = 100 * (time(point, facts.inputs["amplitude"].right.doit()) / time(point, Rational(1, 10**3)) - 1)
-        return bool(0 < told.args[0] < 5 and abs(percent - told.args[0]) <= _half_unit(told))
+        return bool(0 < told.args[0] < 5 and abs(percent - told.args[0]) <= half_a_unit(told))
 
     return everywhere(trial_points(letters, tried=3), is_so)
-
-
-def _half_unit(number: Rounded) -> Rational:
-    """Return half a unit of the last shown place: 1/20 for 1.7."""
-    value, figures = number.args
-    return Rational(10) ** (floor(log(abs(value), 10)) - figures + 1) / 2
 
 
 def stays_below_and_approaches(facts: Judged) -> bool:

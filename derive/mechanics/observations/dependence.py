@@ -25,7 +25,7 @@ from derive.mechanics.observations.view import (
 from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData, establish
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, TRIALS, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
@@ -271,7 +271,7 @@ BRANCHES = Rule(
     "observations.branches",
     source="Taylor, *Classical Mechanics*, section 7.6; Strogatz, *Nonlinear Dynamics and Chaos*, section 3.5",
     outcomes={"generic": claims.branches_off},
-    evidence={"both_vanish": CHECK},
+    evidence={"both_vanish": CHECK, TRIALS: CHECK},
     named={"border": claims.is_the_result},
 )
 
@@ -416,7 +416,7 @@ ONE_SIGN = Rule(
     "observations.one_sign",
     source="none needed: signs of factors",
     outcomes={"generic": claims.has_one_sign},
-    evidence={"factors": CHECK},
+    evidence={TRIALS: CHECK},
 )
 
 
@@ -443,7 +443,6 @@ def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:
         None,
         lambda *_: value / positive,
         {"of": of, "q": q},
-        routes={"factors": lambda found: (found * positive, value)},
         lines=ONE_LINE,
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_one_sign",
@@ -454,7 +453,7 @@ BALANCED = Rule(
     "observations.balanced",
     source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 8",
     outcomes={"generic": claims.balances},
-    evidence={"put_in": CHECK},
+    evidence={"put_in": CHECK, TRIALS: CHECK},
     named={"place": claims.is_an_angle},
 )
 
@@ -488,7 +487,7 @@ BELOW = Rule(
     "observations.below",
     source="Morin, *Introduction to Classical Mechanics*, section 1.1",
     outcomes={"generic": claims.stays_below_and_approaches},
-    evidence={"difference": CHECK},
+    evidence={TRIALS: CHECK},
 )
 
 
@@ -509,7 +508,6 @@ def _below(of: Quantity, letter: Symbol, apart: Expr) -> Quantity:
         None,
         lambda *_: apart,
         {"of": of, "letter": letter},
-        routes={"difference": lambda found: (found + explicit(of.value) ** 2, letter**2)},
         lines=ONE_LINE,
         scope=OF_ANY_SUBJECT,
         key=f"{of.key}_below",

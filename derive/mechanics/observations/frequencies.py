@@ -23,7 +23,7 @@ from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData, establish
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter
-from derive.steps.rule import CHECK, Rule
+from derive.steps.rule import CHECK, TRIALS, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
@@ -412,7 +412,7 @@ LONGER = Rule(
     "observations.longer",
     source="Taylor, *Classical Mechanics*, problem 4.38",
     outcomes={"generic": claims.has_an_amplitude},
-    evidence={"series": CHECK},
+    evidence={TRIALS: CHECK},
     named={"percent": claims.longer_by, "amplitude": claims.is_the_amplitude},
 )
 THIRTY_DEGREES = Amount(Integer(30), "degree", pi / 180)
@@ -432,13 +432,11 @@ def longer(view: View) -> Observed:
 def _longer(of: Quantity, letter: Symbol, part: Expr, whole: WholeSwing) -> Quantity:
     there = {letter: explicit(THIRTY_DEGREES)}
     excess = 100 * (part.xreplace(there) - 1)
-    least = explicit(of.value).xreplace({letter: Integer(0)})
     return establish(
         LONGER,
         None,
         lambda *_: excess,
         {"letter": letter},
-        routes={"series": lambda found: ((1 + found / 100) * least, explicit(of.value).xreplace(there))},
         lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"percent": rounded_form(excess, 2), "amplitude": Relation(letter, "=", THIRTY_DEGREES)},

@@ -28,17 +28,18 @@ from derive.steps.claims import both, lasts, letters_in, negated, never_vanishes
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
 
-# the moments of uniform bodies in tables: words -> a function of the sizes, in the order of the shape's lengths
-_TABLE: Mapping[str, Callable[..., Expr]] = {
-    "rod_about_its_end": lambda length: length**2 / 3,
-    "rod_about_its_centre": lambda length: length**2 / 12,
-    "disc_about_its_axis": lambda radius: radius**2 / 2,
-    "hoop_about_its_axis": lambda radius: radius**2,
-    "cylinder_about_its_axis": lambda radius, height: radius**2 / 2,
-    "cylindrical_shell_about_its_axis": lambda radius, height: radius**2,
-    "ball_about_a_diameter": lambda radius: 2 * radius**2 / 5,
-    "spherical_shell_about_a_diameter": lambda radius: 2 * radius**2 / 3,
-    "plate_about_its_normal": lambda sides: (sides[0] ** 2 + sides[1] ** 2) / 12,
+# moments of uniform bodies in tables: words -> the point, the axes, and a function of the sizes, in the order of the
+# shape's lengths
+_TABLE: Mapping[str, tuple[str, str, Callable[..., Expr]]] = {
+    "rod_about_its_end": ("end", "xy", lambda length: length**2 / 3),
+    "rod_about_its_centre": ("centre", "xy", lambda length: length**2 / 12),
+    "disc_about_its_axis": ("centre", "z", lambda radius: radius**2 / 2),
+    "hoop_about_its_axis": ("centre", "z", lambda radius: radius**2),
+    "cylinder_about_its_axis": ("centre", "z", lambda radius, height: radius**2 / 2),
+    "cylindrical_shell_about_its_axis": ("centre", "z", lambda radius, height: radius**2),
+    "ball_about_a_diameter": ("centre", "xyz", lambda radius: 2 * radius**2 / 5),
+    "spherical_shell_about_a_diameter": ("centre", "xyz", lambda radius: 2 * radius**2 / 3),
+    "plate_about_its_normal": ("centre", "z", lambda sides: (sides[0] ** 2 + sides[1] ** 2) / 12),
 }
 
 
@@ -50,7 +51,9 @@ def is_standard_moment(facts: Judged) -> bool:
     body, words = facts.subject.body, facts.words.get("standard", "")
     if words not in _TABLE or not words.startswith(f"{body.id}_about_"):
         return False
-    return is_zero(explicit(facts.result) - body.mass * _TABLE[words](*body.measures.values()))
+    point, axes, moment = _TABLE[words]
+    is_there = facts.subject.point.name == point and facts.subject.axis in axes
+    return is_there and is_zero(explicit(facts.result) - body.mass * moment(*body.measures.values()))
 
 
 def is_away_from_the_centre(facts: Judged) -> bool:
