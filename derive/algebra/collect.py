@@ -275,7 +275,8 @@ def spread(value: Expr) -> Expr:
     """Move a numerical denominator into a sum if this leaves a term without a denominator: I + M a^2/4, not
     (4 I + M a^2)/4.
 
-    The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler.
+    The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler; so is the fraction
+    (2 M + m) l/(2 (M + m)), whose numerator would have a fraction in it.
     """
     return _spread(tidied(value))
 
@@ -283,7 +284,7 @@ def spread(value: Expr) -> Expr:
 def _spread(value: Expr) -> Expr:
     number, letters = value.as_coeff_Mul()
     sums = [f for f in Mul.make_args(letters) if f.is_Add]
-    if number.q == 1 or len(sums) != 1:
+    if number.q == 1 or len(sums) != 1 or letters.as_numer_denom()[1].has(Add):
         return value
     terms = [term * Rational(1, number.q) for term in sums[0].args]
     if all(term.as_coeff_Mul()[0].q > 1 for term in terms):

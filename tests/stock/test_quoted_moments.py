@@ -35,7 +35,9 @@ def test_an_author_can_ask_for_the_integral(tmp_path: Path) -> None:
 
 
 def test_a_wrong_entry_of_the_table_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(claims._TABLE, "disc_about_its_axis", lambda radius: radius**2)  # that of a hoop
+    monkeypatch.setitem(
+        claims._TABLE, "disc_about_its_axis", ("centre", "z", lambda radius: radius**2)
+    )  # that of a hoop
     with pytest.raises(DeriveError, match="could not be confirmed"):
         solved(tmp_path, DISC)
 
@@ -47,3 +49,22 @@ def test_each_standard_moment_is_in_the_table() -> None:
 def test_the_key_has_an_effect_only_on_a_standard_shape(tmp_path: Path) -> None:
     text = edited(CONE, ("shape: cone", "derive: true, shape: cone"))
     assert any("`derive` has no effect" in each.message for each in complaints(tmp_path, text))
+
+
+PARTS = (ROOT / "problems" / "library" / "bodies" / "clock_pendulum.yaml").read_text(encoding="utf-8")
+
+
+def test_the_moments_of_parts_are_quoted_too_unless_the_author_asks_for_the_integral(tmp_path: Path) -> None:
+    text = page(tmp_path, PARTS)
+    assert "The moment of inertia of a uniform rod about its centre is" in text and "∫" not in text
+    one = page(tmp_path / "one", edited(PARTS, ("shape: disc, radius", "derive: true, shape: disc, radius")))
+    assert "λ" not in one and "where σ_disc = M/(π R²)" in one
+
+
+def test_the_key_has_an_effect_only_on_a_standard_part(tmp_path: Path) -> None:
+    text = edited(PARTS, ("{shape: disc, radius: R,", "{shape: cone, radius: R, height: R, derive: true,"))
+    assert any("`derive` has no effect" in each.message for each in complaints(tmp_path, text))
+
+
+def test_a_fraction_has_no_fraction_in_its_numerator(tmp_path: Path) -> None:
+    assert "(M + m/2)" not in page(tmp_path, PARTS)

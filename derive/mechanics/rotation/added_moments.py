@@ -13,7 +13,7 @@ from derive.mechanics.bodies.equimomental import counted_from
 from derive.mechanics.bodies.parts import PlacedPart
 from derive.mechanics.bodies.regions import Point
 from derive.mechanics.rotation import claims
-from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen
+from derive.mechanics.rotation.inertia import moment_of_inertia, moment_seen, quoted
 from derive.mechanics.theorems import PERPENDICULAR_AXES
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
@@ -109,7 +109,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
     if body.filling == "length" and axis == "z" and _all_on_axis(body):
         return _by_shape(body, axis, symbol, key, "none", lambda: Integer(0), {}, turn)
     if not (body.is_round and body.filling == "area" and axis != "z" and _is_flat(body)):
-        if axis == called:
+        if axis == called and not quoted(body, "centre", axis):
             return moment_of_inertia(body, axis, symbol=symbol, key=key)
         return moment_seen(body, axis, "centre", symbol, key, {"seen": "part", **_of_whole(called)}, turn)
     axial = _own_moment(body, "z", letter, turn)

@@ -189,7 +189,7 @@ def moment_seen(
     region = body.within(point, None)
     weight = entry_weight(region, (i, i))
     integral = over_mass(body, region, weight)
-    standard = _standard(body, about, axis) if seen["seen"] == "across_plane" else {}
+    standard = quoted(body, about, axis) if seen["seen"] in ("across_plane", "part") else {}
     return establish(
         MOMENT_OF_INERTIA,
         scalar(symbol),
@@ -211,7 +211,7 @@ def moment_seen(
     )
 
 
-def _standard(body: Body, about: str, axis: str) -> dict[str, str]:
+def quoted(body: Body, about: str, axis: str) -> dict[str, str]:
     """Return the words for a body and an axis whose moment is quoted; empty if the moment is integrated."""
     for (shape, point, axes), words in STANDARD.items():
         if (shape, point) == (body.id, about) and axis in axes and not body.is_integrated:

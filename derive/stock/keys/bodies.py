@@ -20,6 +20,7 @@ from derive.errors import Faults, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import Composite, PointMass, Sheet, Solid, Triangle, Wedge, Wire, minus
 from derive.mechanics.bodies.body import DENSITIES, Body
 from derive.mechanics.bodies.parts import PlacedPart
+from derive.mechanics.rotation.inertia import QUOTED_SHAPES
 
 SEVERAL = "a list of lengths"
 CENTRE_OF_MASS = "centre of mass"
@@ -57,6 +58,10 @@ def shapes() -> dict[str, type[Body]]:
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
     return {body.id: body for body in bodies}
+
+
+def _shape_name(written: str) -> str:
+    return written.strip().replace("-", "_").replace(" ", "_")
 
 
 def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
@@ -102,7 +107,24 @@ class ShapeKeys(Record):
 
 
 @dataclass(frozen=True)
-class PartKeys(ShapeKeys):
+class QuotedKeys(ShapeKeys):
+    """The keys of a body whose moment of inertia may be quoted."""
+
+    is_integrated: bool = key(
+        "whether the page integrates a standard moment of inertia, such as that of a disc, in place of quoting it",
+        YES_OR_NO,
+        called="derive",
+    )
+
+    def check_integrated(self, faults: Faults) -> None:
+        """Reject `derive` for a body whose moment of inertia is never quoted."""
+        if self.is_integrated and (self.shape is None or _shape_name(self.shape) not in QUOTED_SHAPES):
+            message = "`derive` has no effect: the moment of inertia of this body is always integrated"
+            faults.error("unused-key", message, self.places["derive"], help="leave it out")
+
+
+@dataclass(frozen=True)
+class PartKeys(QuotedKeys):
     """The keys of a part of a body."""
 
     at: tuple[Tree, ...] = key("the position of its centre of mass, or of its point `of`", PLACE)
@@ -232,12 +254,16 @@ class Bodies:
 
     def _part(self, name: Word, written: PartKeys, whole_mass: Expr | None, has_others: bool) -> Body | PlacedPart:
         _one_of_three(written, {"shape", "position"}, "a part")
+        faults = Faults()
+        written.check_integrated(faults)
+        faults.stop()
         if whole_mass is not None and written.mass is not None:
             message = f"the mass of the whole is given and divided among its parts, so `{name}` has no `mass`"
             rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole")
         body = self._alone(written, whole_mass)
         with told_at(name.place):
             part: Any = body if isinstance(body, PointMass) else body.named(str(name))
+            part = part.integrated() if written.is_integrated else part
         if written.at:
             of = _point_of(body, written.of) if written.of else "centre"
             place = self.place(written.at, str(name))
@@ -259,7 +285,7 @@ class Bodies:
 
     def _shape(self, written: ShapeKeys, whole_mass: Expr | None) -> Body:
         assert written.shape is not None
-        name = written.shape.strip().replace("-", "_").replace(" ", "_")
+        name = _shape_name(written.shape)
         shape = shapes().get(name)
         if shape is None:
             meant = OTHER_NAMES.get(name)

@@ -12,7 +12,6 @@ from derive.algebra.tidy import tidied
 from derive.course.schema import (
     SCALAR,
     TEXT,
-    YES_OR_NO,
     Record,
     as_written,
     key,
@@ -27,9 +26,8 @@ from derive.errors import Faults, rejected
 from derive.mechanics import RigidBody
 from derive.mechanics.kinematics.places import Axes, Location, angle_of
 from derive.mechanics.model.surfaces import dot, unit
-from derive.mechanics.rotation.inertia import QUOTED_SHAPES
 from derive.steps.step import is_zero
-from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody
+from derive.stock.keys.bodies import CENTRE_OF_MASS, Bodies, BodyKeys, DescribedBody, QuotedKeys
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.parts import direction_of
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace
@@ -49,7 +47,7 @@ class RimKeys(Record):
 
 
 @dataclass(frozen=True)
-class MovingBodyKeys(BodyKeys):
+class MovingBodyKeys(BodyKeys, QuotedKeys):
     """The keys of one entry of `bodies:`."""
 
     moments: Tree | None = key(
@@ -80,11 +78,6 @@ class MovingBodyKeys(BodyKeys):
     along: tuple[Tree, ...] = key(
         "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
         COMPONENTS,
-    )
-    is_integrated: bool = key(
-        "whether the page integrates a standard moment of inertia, such as that of a disc, in place of quoting it",
-        YES_OR_NO,
-        called="derive",
     )
     across: str | None = key(
         "in a plane, the axis of the body that is perpendicular to the plane", one_of(("x", "y", "z"))
@@ -131,9 +124,7 @@ class MovingBodyKeys(BodyKeys):
             if name in self.values_at and "moments" not in self.values_at:
                 message = f"`{name}` has no effect on a body without `moments`"
                 faults.error("unused-key", message, self.places[name], help=f"the shape determines {what}")
-        if self.is_integrated and self.shape is not None and self.shape.strip() not in QUOTED_SHAPES:
-            message = f"`derive` has no effect: the moment of inertia of `{self.shape}` is always integrated"
-            faults.error("unused-key", message, self.places["derive"], help="leave it out")
+        self.check_integrated(faults)
         faults.stop()
 
     def _check_one(self, what: str, *names: str) -> None:
