@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from sympy import Expr, Symbol
 
@@ -11,7 +12,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers.substitution import NONE, check_values_used, put_in
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Values, in_results
-from derive.mechanics.lagrange.facts import KeptMomentum
+from derive.mechanics.lagrange.facts import ForceOf, KeptMomentum
 from derive.mechanics.motion.slipping import slips
 from derive.mechanics.motion.static_friction import static_friction
 from derive.solving.unknowns import with_unknown
@@ -41,11 +42,17 @@ def _in_results(
     return checked(slips)(held, pushed, letter, key=key)
 
 
+def _state(force: Quantity) -> Any:
+    """Return the equations of motion that give a force, or the rule and the inputs of any other step."""
+    fact = force.fact(ForceOf)
+    return fact.problem if fact is not None else (force.step.rule, force.step.inputs)
+
+
 def _beside(friction: Quantity, letter: Symbol) -> Quantity:
-    """Return the normal force that was derived together with the friction, by the same rule from the same inputs."""
-    rule, inputs = friction.step.rule, friction.step.inputs
+    """Return the normal force that was derived together with the friction."""
+    state = _state(friction)
     for each in established():
-        if each.symbol == letter and (each.step.rule, each.step.inputs) == (rule, inputs):
+        if each.symbol == letter and _state(each) == state:
             return each
     message = f"`slips`: `{friction.key}` is a friction in one state, but the normal force in this state is unknown"
     help_line = f"give `slips: {friction.symbol}` with the `results` and `values` of the state"

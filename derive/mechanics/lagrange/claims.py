@@ -21,7 +21,7 @@ from sympy import (
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Partial, Relation, bound, explicit, rate
-from derive.algebra.samples import letters_of
+from derive.algebra.samples import letters_of, value_at
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
@@ -33,7 +33,7 @@ from derive.steps.claims import lasts, letters_in, negated, parallel, value_of_r
 from derive.steps.record import assumed, assumed_in_words, coordinates_in
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import Quantity, is_zero
-from derive.steps.trial_numbers import Point, everywhere, sign_found, trial_points
+from derive.steps.trial_numbers import Point, as_rational, assumptions_about, everywhere, sign_found, trial_points
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
@@ -372,6 +372,58 @@ acceleration_with_constraints: Predicate = both(lasts, _is_constrained)
 
 
 acceleration_without_constraints: Predicate = both(lasts, negated(_is_constrained))
+
+
+def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
+    """Whether the equations that the sentence names, if it names any, give the result together with earlier unknowns.
+
+    At trial numbers, these equations are linear in the unknowns. They are solved for the first of them, without the
+    formula of the step.
+    """
+    equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
+    if not equations:
+        return True
+    earlier = {s: explicit(q.value) for s, q in facts.inputs["earlier"].items()}
+    present = {s for q in equations for s in explicit(q.value).free_symbols} - earlier.keys()
+    unknowns = [facts.symbol, *(u for u in facts.inputs["unknowns"] if u in present and u != facts.symbol)]
+    rows = [explicit(q.value.residual).xreplace(earlier) for q in equations]
+    rows = [explicit(row.xreplace(dict(facts.inputs["on_constraints"]))) for row in rows]
+    letters = {s for row in [*rows, explicit(facts.result)] for s in letters_of(row)} - {*unknowns}
+    zero = dict.fromkeys(unknowns, Integer(0))
+
+    def gives(point: Point) -> bool:
+        at_zero = [value_at(row, {**point, **zero}) for row in rows]
+        slopes = [
+            [value_at(row, {**point, **zero, u: Integer(1)}) - rest for u in unknowns]
+            for row, rest in zip(rows, at_zero, strict=True)
+        ]
+        try:
+            found = Matrix(slopes).gauss_jordan_solve(-Matrix(at_zero))[0][0]
+        except ValueError:
+            return False
+        number = value_at(explicit(facts.result), point)
+        if found.free_symbols:
+            return False  # too few equations
+        apart = as_rational(found - number)
+        return bool(abs(apart) <= (abs(found) + abs(number)) / 10**12)
+
+    return everywhere(trial_points(letters, *assumptions_about(letters), tried=4), gives)
+
+
+def eliminated(facts: Judged) -> bool:
+    """Whether the sentence names equations and an unknown that is eliminated."""
+    return "equation_1" in facts.quantities and "eliminated_1" in facts.inputs
+
+
+def isolated(facts: Judged) -> bool:
+    """Whether the sentence names equations, but no unknown that is eliminated."""
+    return "equation_1" in facts.quantities and "eliminated_1" not in facts.inputs
+
+
+def is_in_these_equations(facts: Judged, symbol: Symbol) -> bool:
+    """Whether an unknown that the sentence calls eliminated occurs in at least two of its equations."""
+    equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
+    return len([q for q in equations if explicit(q.value).has(symbol)]) > 1
 
 
 multiplier_generic: Predicate = both(lasts, negated(is_stretched))

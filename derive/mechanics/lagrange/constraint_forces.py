@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -28,7 +28,8 @@ from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
 from derive.solving.divisors import told_of_divisors
-from derive.steps.claims import lasts, says_what_it_divides_by, vanishes
+from derive.solving.elimination import Isolated, isolated_in_order
+from derive.steps.claims import both, lasts, says_what_it_divides_by, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
@@ -40,6 +41,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
+MOST_NAMED = 6  # greatest number of equations that a sentence names
 
 
 @dataclass(frozen=True)
@@ -138,8 +140,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)
-    rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
-    return tuple(_acceleration(problem, q, rates) for q in problem.moving)
+    return _steps(problem, [rate(q, 2) for q in problem.moving])
 
 
 def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
@@ -164,8 +165,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
                 help=Spelled("add `constraint(f, force=...)`", "write it under `constraints`"),
             )
         )
-    rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
-    return tuple(_multiplier(problem, each, rates) for each in problem.constraints)
+    return _steps(problem, [each.force for each in problem.constraints])
 
 
 def _not_all_negative(left: Expr) -> Expr:
@@ -232,40 +232,115 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     )
 
 
+def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
+    """Return the steps of these unknowns, in the order of `isolated_in_order`; each step uses the earlier ones."""
+    rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
+    forces = {each.force: each for each in problem.constraints}
+    order, every = _isolated(problem), [*problem.used, *rates]
+    steps: dict[Symbol, Quantity] = {}
+
+    def step(symbol: Symbol) -> Quantity:
+        if symbol not in steps:
+            isolation = None
+            if symbol in order and len(order[symbol].equations) <= MOST_NAMED:
+                earlier = {str(u): step(u) for u in order[symbol].earlier}
+                isolation = _Isolation(order[symbol], [every[i] for i in order[symbol].equations], earlier, problem)
+            if symbol in forces:
+                steps[symbol] = _multiplier(forces[symbol], problem, rates, isolation)
+            else:
+                steps[symbol] = _acceleration(symbol, problem, rates, isolation)
+        return steps[symbol]
+
+    return tuple(step(symbol) for symbol in wanted)
+
+
+@dataclass(frozen=True)
+class _Isolation:
+    """The steps behind `Isolated`: the equations, and the earlier unknowns by name."""
+
+    found: Isolated
+    equations: Sequence[Quantity]
+    earlier: Mapping[str, Quantity]
+    problem: _Problem
+
+    @property
+    def outcome(self) -> str:
+        return "eliminated" if self.found.eliminated else "isolated"
+
+    @property
+    def inputs(self) -> Mapping[str, Quantity]:
+        return self.earlier if self.found.value is not None else {}
+
+    def law(self, value: Expr) -> Callable[..., Expr]:
+        """Return the unknown as a function of the earlier unknowns, or the value if there is no such formula."""
+        formula = self.found.value
+        if formula is None:
+            return lambda *_: value
+        return lambda *values: formula.xreplace(dict(zip(self.found.earlier, values, strict=True)))
+
+    @property
+    def pointed(self) -> dict[str, Quantity]:
+        return {f"equation_{i}": each for i, each in enumerate(self.equations, 1)}
+
+    @property
+    def named(self) -> dict[str, Symbol]:
+        return {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
+
+    @property
+    def outcome_data(self) -> dict[str, Any]:
+        earlier = {q.symbol: q for q in self.earlier.values()}
+        return {"earlier": earlier, "unknowns": self.problem.unknowns, "on_constraints": self.problem.known}
+
+
+@lru_cache(maxsize=16)
+def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
+    rows = [row.xreplace(problem.known) for row in problem.residuals]
+    return isolated_in_order(rows, problem.unknowns)
+
+
 ACCELERATION = Rule(
     "lagrange.acceleration",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     outcomes={
         "generic": claims.acceleration_with_constraints,
         "unconstrained": claims.acceleration_without_constraints,
+        "isolated": both(lasts, claims.isolated),
+        "eliminated": both(lasts, claims.eliminated),
         "zero": vanishes,
     },
     evidence={"virtual_work": ROUTE, "constraint": CHECK},
-    statements=[claims.a_second_rate, says_what_it_divides_by],
+    statements=[claims.a_second_rate, claims.follows_from_these_equations, says_what_it_divides_by],
+    named={"eliminated": claims.is_in_these_equations},
 )
 
 
-def _acceleration(problem: _Problem, q: Symbol, rates: Sequence[Quantity]) -> Quantity:
+def _acceleration(
+    symbol: Symbol, problem: _Problem, rates: Sequence[Quantity], isolation: _Isolation | None
+) -> Quantity:
     found = _solution(problem)
+    q = next(q for q in problem.moving if rate(q, 2) == symbol)
     coordinate = Coordinate(q, problem.lagrangian.coordinates[q])
+    together = "generic" if problem.constraints else "unconstrained"
     return establish(
         ACCELERATION,
-        rate(q, 2),
-        lambda: found[rate(q, 2)],
-        {},
-        lines=Lines(put_in=None, arranged=lambda value: value),
+        symbol,
+        isolation.law(found[symbol]) if isolation else lambda: found[symbol],
+        isolation.inputs if isolation else {},
+        lines=Lines(put_in=None, arranged=lambda _: _gathered(problem, found[symbol])),
         routes={
             "virtual_work": lambda value: _virtual_work(problem, {**found, rate(q, 2): value}),
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
         },
-        outcome=lambda value: "zero" if value == 0 else "generic" if problem.constraints else "unconstrained",
+        outcome=lambda value: "zero" if value == 0 else isolation.outcome if isolation else together,
         phrase_data=PhraseData(
-            formulas=told_of_divisors([found[rate(p, 2)] for p in problem.moving]),
-            points_to={"lagrangian": problem.lagrangian},
+            formulas=told_of_divisors([found[rate(p, 2)] for p in problem.solved]),
+            points_to={"lagrangian": problem.lagrangian, **(isolation.pointed if isolation else {})},
+            named=isolation.named if isolation else {},
+            outcome_data=isolation.outcome_data if isolation else {},
         ),
         key=f"acceleration_{q.name}",
         kind=_kind_of_acceleration(coordinate.kind),
-        parents=[*problem.equations, *rates],
+        parents=[*problem.used, *rates, *(isolation.earlier.values() if isolation else ())],
         facts=[OfCoordinate(coordinate)],
     )
 
@@ -277,14 +352,19 @@ MULTIPLIER = Rule(
         "generic": claims.multiplier_generic,
         "negative": claims.multiplier_negative,
         "multiplier": claims.multiplier_multiplier,
+        "isolated": both(claims.multiplier_generic, claims.isolated),
+        "eliminated": both(claims.multiplier_generic, claims.eliminated),
         "zero": vanishes,
     },
     evidence={"virtual_work": ROUTE},
-    statements=[says_what_it_divides_by],
+    statements=[claims.follows_from_these_equations, says_what_it_divides_by],
+    named={"eliminated": claims.is_in_these_equations},
 )
 
 
-def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) -> Quantity:
+def _multiplier(
+    each: Constraint, problem: _Problem, rates: Sequence[Quantity], isolation: _Isolation | None
+) -> Quantity:
     found = _solution(problem)
     length = gradient_length(each, problem.lagrangian)
     is_force = length is None or is_zero(length - 1)
@@ -294,17 +374,28 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
     return establish(
         MULTIPLIER,
         each.force,
-        lambda: _gathered(problem, found[each.force]),
-        {},
-        lines=Lines(put_in=None, arranged=lambda value: value),
+        isolation.law(found[each.force]) if isolation else lambda: found[each.force],
+        isolation.inputs if isolation else {},
+        lines=Lines(put_in=None, arranged=lambda _: _gathered(problem, found[each.force])),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: (
-            "zero" if value == 0 else "negative" if sense else "generic" if is_force else "multiplier"
+            "zero"
+            if value == 0
+            else "negative"
+            if sense
+            else "multiplier"
+            if not is_force
+            else isolation.outcome
+            if isolation
+            else "generic"
         ),
         phrase_data=PhraseData(
             words={"sense": sense} if sense else {},
             formulas={**told_of_divisors([found[each.force]]), **shown},
+            points_to=isolation.pointed if isolation else {},
+            named=isolation.named if isolation else {},
             outcome_data={
+                **(isolation.outcome_data if isolation else {}),
                 "condition": each.residual,
                 "positive": each.acting[0].direction if sense else (),
                 "gradient": each.gradient,
@@ -313,7 +404,7 @@ def _multiplier(problem: _Problem, each: Constraint, rates: Sequence[Quantity]) 
         ),
         key=each.force.name,
         kind=each.kind_of_force,
-        parents=[*problem.used, *rates],
+        parents=[*problem.used, *rates, *(isolation.earlier.values() if isolation else ())],
         facts=[ForceOf(each, problem)],
     )
 

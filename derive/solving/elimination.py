@@ -1,0 +1,89 @@
+"""The order in which a person solves linear equations: one equation for one unknown, where there is such an equation.
+
+Example: of M x'' = mu N, M y'' = N - M g and y'' = 0, the last two equations give N, and the first one then gives x''.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.length import length
+from derive.algebra.tidy import tidied
+from derive.steps.signs import sign_for_all
+
+ZERO = Integer(0)
+MOST = 5  # greatest number of equations that are solved together
+LONGEST = 20  # length up to which an unknown is written in terms of earlier unknowns
+
+
+@dataclass(frozen=True)
+class Isolated:
+    """The equations that give an unknown once the earlier unknowns are known.
+
+    equations   the indices of these equations
+    eliminated  the other unknowns of these equations
+    earlier     earlier unknowns in these equations
+    value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
+    """
+
+    equations: tuple[int, ...]
+    eliminated: tuple[Symbol, ...] = ()
+    earlier: tuple[Symbol, ...] = ()
+    value: Expr | None = None
+
+
+def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Isolated]:
+    """Return the unknowns that a few of the equations give, in the order in which they are found.
+
+    residuals   the equations, linear in the unknowns: residual = 0
+    unknowns    in the order of preference
+
+    An unknown that no such set of equations gives, without a division by a value that might vanish, is left out.
+    """
+    slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
+    found: dict[Symbol, Isolated] = {}
+    vanishing: dict[Symbol, int] = {}  # unknown -> the equation which says that it is zero
+    while True:
+        known = {*found, *vanishing}
+        several = _fewest(slopes, known, unknowns)
+        if not several:
+            return found
+        new = [u for u in unknowns if u not in known and any(u in slopes[i] for i in several)]
+        lead = new[0]
+        named = tuple(sorted({*several, *(n for u, n in vanishing.items() if any(u in slopes[i] for i in several))}))
+        earlier = tuple(u for u in found if any(u in slopes[i] for i in several))
+        if len(new) > 1:
+            found[lead] = Isolated(named, tuple(new[1:]), earlier)
+            continue
+        row = residuals[several[0]].xreplace(dict.fromkeys(vanishing, ZERO))
+        value = tidied(-row.xreplace({lead: ZERO}) / slopes[several[0]][lead])
+        if value == 0:
+            vanishing[lead] = several[0]
+        else:
+            found[lead] = Isolated(named, (), earlier, value if length(value) <= LONGEST else None)
+
+
+def _fewest(slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol]) -> tuple[int, ...]:
+    """Return the smallest set of equations with as many new unknowns as equations; empty if there is none.
+
+    Equations with the first of the unknowns come first.
+    """
+    first = {i: [unknowns.index(u) for u in row if u not in known] for i, row in enumerate(slopes)}
+    left = sorted((i for i in first if first[i]), key=lambda i: min(first[i]))
+    for count in range(1, min(len(left), MOST) + 1):
+        for several in combinations(left, count):
+            new = sorted({u for i in several for u in slopes[i]} - known, key=str)
+            if len(new) == count and _is_regular(slopes, several, new):
+                return several
+    return ()
+
+
+def _is_regular(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
+    """Whether the determinant of the equations has a sign for all values of the symbols, so that it does not vanish."""
+    matrix = ImmutableDenseMatrix([[slopes[i].get(u, ZERO) for u in new] for i in several])
+    return sign_for_all(tidied(matrix.det(method="berkowitz"))) in (1, -1)

@@ -1,0 +1,83 @@
+"""The order in which linear equations give their unknowns, and the sentences that name the equations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from sympy import symbols
+
+import derive.steps.establish as establishing
+from derive.building.solution import derived, rendered
+from derive.course.problem import deriving, load_problem
+from derive.mechanics.lagrange.claims import follows_from_these_equations
+from derive.solving.elimination import isolated_in_order
+from derive.steps.record import Run
+from derive.steps.rule import Judged
+from tests.courses import ROOT
+
+x, y, N, S = symbols("x_ddot y_ddot N S", real=True)
+M, m, g, mu = symbols("M m g mu", positive=True)
+
+
+def test_an_equation_with_one_unknown_comes_first_and_the_next_one_uses_it() -> None:
+    """M x'' = mu N, M y'' = N - M g, y'' = 0."""
+    found = isolated_in_order([M * x - mu * N, M * y - N + M * g, y], [x, y, N])
+    assert list(found) == [N, x]
+    assert found[N].equations == (1, 2) and found[N].value == M * g
+    assert found[x].equations == (0,) and found[x].earlier == (N,) and found[x].value == mu * N / M
+
+
+def test_coupled_equations_are_eliminated_for_the_first_unknown() -> None:
+    """An Atwood machine: m x'' = m g - S, M y'' = M g - S, x'' + y'' = 0."""
+    found = isolated_in_order([m * x - m * g + S, M * y - M * g + S, x + y], [x, y, S])
+    assert list(found) == [x, y, S]
+    assert found[x].eliminated == (y, S) and found[x].equations == (0, 1, 2)
+    assert (found[y].equations, found[y].value) == ((2,), -x)
+    assert (found[S].equations, found[S].value) == ((0,), m * (g - x))
+
+
+def test_no_step_divides_by_a_value_that_may_vanish() -> None:
+    """(M - m) x'' = m g gives no acceleration for M = m."""
+    assert isolated_in_order([(M - m) * x - m * g], [x]) == {}
+
+
+def judged(problem_id: str, rule: str) -> list[Judged]:
+    """Return what the predicates of the steps of a rule judged, if their sentences name equations."""
+    found = []
+    check = establishing._check_outcome
+
+    def kept(key: str, own: object, outcome: str, facts: Judged, may_be_zero: bool) -> None:
+        check(key, own, outcome, facts, may_be_zero)  # type: ignore[arg-type]
+        if getattr(own, "name", "") == rule and "equation_1" in facts.quantities:
+            found.append(facts)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(establishing, "_check_outcome", kept)
+        derived(load_problem(ROOT, problem_id))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("problem_id", "rule"),
+    [("library/yoyo", "lagrange.acceleration"), ("library/yoyo", "lagrange.multiplier")],
+)
+def test_equations_that_do_not_give_the_result_are_refused(problem_id: str, rule: str) -> None:
+    every = judged(problem_id, rule)
+    assert every
+    with deriving(load_problem(ROOT, problem_id), Run()):
+        for facts in every:
+            assert follows_from_these_equations(facts, "")
+            assert not follows_from_these_equations(replace(facts, result=2 * facts.result), "")
+            one = next(role for role in facts.quantities if role.startswith("equation_"))
+            fewer = {role: q for role, q in facts.quantities.items() if role != one}
+            if any(role.startswith("equation_") for role in fewer):
+                assert not follows_from_these_equations(replace(facts, quantities=fewer), "")
+
+
+def test_a_page_solves_equation_by_equation(tmp_path: Path) -> None:
+    text = " ".join(rendered(ROOT, "library/sliding_to_rolling", only={"text"}).texts["text"].split())
+    assert "Equations (2) and (5) give" in text and "= 5μ N/(2M a) = 5μ g/(2a)" in text
+    text = " ".join(rendered(ROOT, "library/yoyo", only={"text"}).texts["text"].split())
+    assert "and S from (1), (3) and (4) gives" in text and "S = M (g - " in text
