@@ -76,6 +76,16 @@ def own_meaning() -> Iterator[None]:
         _POSITIVE.reset(token)
 
 
+@contextmanager
+def where_positive(expr: Expr) -> Iterator[None]:
+    """Compare expressions, within the `with` block, only at points at which this expression is positive."""
+    token = _POSITIVE.set((*_POSITIVE.get(), expr))
+    try:
+        yield
+    finally:
+        _POSITIVE.reset(token)
+
+
 def take_as_positive(expr: Expr) -> None:
     """Assume from now on that the expression is positive, such as c^2 - v^2 for a body with the speed v."""
     if expr not in _POSITIVE.get():

@@ -16,7 +16,8 @@ from typing import Any, Protocol, TypeVar
 from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, oo
 
 from derive.algebra.expressions import RATES, TIME, Prescribed, Relation, component_names, explicit, prescribed_in, rate
-from derive.algebra.ranges import own_meaning
+from derive.algebra.order import Contradiction, known_order
+from derive.algebra.ranges import own_meaning, sign_within
 from derive.errors import Complaint, Place, Rejected, Spelled
 from derive.steps.step import Quantity, same_value, value_behind
 
@@ -217,11 +218,26 @@ def given_letters() -> set[str]:
 
 
 def assume(condition: Relation, in_words: bool = False) -> None:
-    """Assume a condition on the symbols. The page states the assumption, unless a step states it (`in_words`)."""
+    """Assume a condition on the symbols. The page states the assumption, unless a step states it (`in_words`). Reject a
+    condition that contradicts an earlier assumption."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
+        _check_agrees(condition, run.assumed)
         run.assumed.append(condition)
         run.in_words.extend([condition] if in_words else [])
+
+
+def _check_agrees(condition: Relation, earlier: Iterable[Relation]) -> None:
+    order = known_order()
+    for each in (*earlier, condition):
+        if each.operator not in ("=", "!="):
+            difference = explicit(each.residual if each.operator[0] == ">" else -each.residual)
+            try:
+                order = order.with_relation(difference, not each.operator.endswith("="), sign_within)
+            except Contradiction:
+                message = f"this result is true only for {condition}, which contradicts the assumptions of the page"
+                help_line = "ask for results that are true under the same conditions"
+                raise Rejected(Complaint("contradiction", message, help=help_line)) from None
 
 
 def assumed() -> list[Relation]:

@@ -87,6 +87,14 @@ def test_the_letter_of_a_coordinate_may_be_given_a_value_in_one_motion() -> None
             establish(made_up(f"test.{key}"), q, lambda value=value: value, {})
 
 
+def test_an_assumption_that_contradicts_an_earlier_one_is_refused() -> None:
+    with recorded():
+        assume(Relation(a, ">", b))
+        assume(Relation(a, ">", 0))
+        with pytest.raises(Rejected, match="a < b, which contradicts the assumptions of the page"):
+            assume(Relation(a, "<", b))
+
+
 def test_an_assumption_is_noted_once_and_nowhere_outside_a_run() -> None:
     condition = Relation(a, "<", b)
     assume(condition)

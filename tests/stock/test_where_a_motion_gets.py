@@ -121,9 +121,133 @@ def test_a_place_on_the_way_has_its_speed(tmp_path: Path) -> None:
     assert str(solved(tmp_path, STONE)["there"].value) == "u**2/2"
 
 
-def test_a_motion_that_need_not_get_far_away_is_assumed_to(tmp_path: Path) -> None:
-    text = rendered(course_with(tmp_path, ESCAPES), "trial/one", only={"text"}).texts["text"]
-    assert "Assume that v² ≥ 2k/(m r_0)." in " ".join(text.split())
+def page(folder: Path, text: str) -> str:
+    return " ".join(rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"].split())
+
+
+def test_a_motion_that_need_not_get_far_away_gets_there_under_a_condition(tmp_path: Path) -> None:
+    text = page(tmp_path, ESCAPES)
+    assert "As r → ∞, which the motion reaches if v² ≥ 2k/(m r_0)," in text
+    assert "Assume" not in text
+
+
+THROWN = edited(
+    STONE,
+    ("start: 0,", "start: h,"),
+    ("u: speed, c: damping constant", "u: speed, h: length, b: length"),
+    (
+        "there: {put_in: speed, values: {y: u**2/(4*g)}}",
+        "v: {square_root: speed}\n    there: {put_in: v, values: {y: 0}}",
+    ),
+    ("<<c>>", "<<h>> <<b>>"),
+)
+
+
+def test_a_rate_has_the_opposite_sign_where_the_motion_comes_after_it_has_turned(tmp_path: Path) -> None:
+    """A stone that is thrown upwards falls at the ground below, and rises at a height above."""
+    assert str(solved(tmp_path, THROWN)["there"].value) == "-sqrt(2*g*h + u**2)"
+    text = page(tmp_path, THROWN)
+    assert "The motion turns back before it comes to y = 0, so there" in text
+    assert "has the opposite sign, *" in text
+    above = page(tmp_path, edited(THROWN, ("{y: 0}", "{y: 3*h}")))
+    assert "For y = 3h, which the motion reaches if u² ≥ 4g h," in above
+    assert "= √(u² - 4g h)" in above
+
+
+def test_a_stone_that_is_thrown_downwards_keeps_its_sign(tmp_path: Path) -> None:
+    down = edited(THROWN, ("start_rate: u", "start_rate: -u"))
+    assert str(solved(tmp_path, down)["there"].value) == "-sqrt(2*g*h + u**2)"
+    never = edited(down, ("{y: 0}", "{y: 2*h}"))
+    code, line, said = refused(tmp_path, edited(never, ("  results:", "  assume: u**2 > 2*g*h\n  results:")))
+    assert (code, line) == ("sign-of-rate", 12)
+    assert "`v` contains y_dot, whose sign at y = 2*h is unknown" in said
+
+
+def test_a_place_on_an_unknown_side_of_the_start_gives_a_rate_no_sign(tmp_path: Path) -> None:
+    unknown = edited(THROWN, ("{y: 0}", "{y: b}"))
+    code, line, said = refused(tmp_path, unknown)
+    assert (code, line) == ("sign-of-rate", 11)
+    assert "whose sign at y = b is unknown" in said
+    below = edited(unknown, ("  results:", "  assume: b < h\n  results:"))
+    assert str(solved(tmp_path, below)["there"].value) == "-sqrt(-2*b*g + 2*g*h + u**2)"
+
+
+def test_a_result_that_contains_a_rate_with_a_wrong_sign_is_refused(tmp_path: Path) -> None:
+    momentum = edited(THROWN, ("there: {put_in: v,", "p: {value: m*v}\n    there: {put_in: p,"))
+    code, line, said = refused(tmp_path, momentum)
+    assert (code, line) == ("sign-of-rate", 12)
+    assert "the motion turns back before y = 0, so `v` has the other sign there" in said
+
+
+ON_SPRING = """\
+title: A mass on a spring
+solve: system
+symbols: {m: mass, k: spring constant, u: speed, w: velocity, b: length}
+given:
+  coordinates: {x: length}
+  particles: {p: {mass: m, at: [x, 0]}}
+  springs: {constant: k, from: [0, 0], to: p}
+  results:
+    speed: {speed: energy_function, for: x, start: 0, start_rate: u}
+    v: {square_root: speed}
+    there: {put_in: v, values: {x: b}}
+statement: A mass <<m>> <<k>> <<u>> <<w>> <<b>>.
+parts:
+  - ask: How fast is it?
+    answer: there
+"""
+
+
+def test_a_mass_on_a_spring_comes_first_to_a_place_ahead_of_its_start(tmp_path: Path) -> None:
+    assert "sqrt" in str(ahead := solved(tmp_path, ON_SPRING)["there"].value) and not ahead.could_extract_minus_sign()
+    behind = solved(tmp_path, edited(ON_SPRING, ("{x: b}", "{x: -b}")))["there"].value
+    assert str(behind) == str(-ahead)
+
+
+def test_a_rate_of_unknown_sign_is_a_magnitude_wherever_the_motion_gets(tmp_path: Path) -> None:
+    """The square is compared only where it is positive: within the amplitude."""
+    found = solved(tmp_path, edited(ON_SPRING, ("start_rate: u", "start_rate: w")))
+    assert str(found["v"].symbol) == "Abs(x_dot)"
+    assert "sqrt" in str(found["there"].value)
+
+
+SWUNG = """\
+title: A pendulum
+solve: system
+symbols: {m: mass, g: acceleration, l: length, u: speed}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+  results:
+    speed: {speed: energy_function, for: theta, start: 0, start_rate: u/l}
+    rate: {square_root: speed}
+    top: {put_in: rate, values: {theta: pi}}
+    stops: {roots: speed, for: cos(theta)}
+statement: A bob <<m>> <<g>> <<l>> <<u>>.
+parts:
+  - {ask: How fast is it at the top?, answer: top}
+  - {ask: Where does it stop?, answer: stops}
+"""
+
+
+def test_the_condition_of_one_result_is_no_assumption_of_the_page(tmp_path: Path) -> None:
+    """The bob gets to the top only if it does not stop below."""
+    text = page(
+        tmp_path, edited(SWUNG, ("How fast is it at the top?", '"How fast?"'), ("Where does it stop?", '"Where?"'))
+    )
+    assert "Assume" not in text
+    assert "For θ = π, which the motion reaches if u² ≥ 4g l," in text
+    assert "vanishes, as long as u² ≤ 4g l, when" in text
+
+
+def test_a_bob_that_may_go_round_has_no_sign_behind_its_start(tmp_path: Path) -> None:
+    behind = edited(SWUNG, ("{theta: pi}", "{theta: -pi/2}"), ("    stops: {roots: speed, for: cos(theta)}\n", ""))
+    behind = edited(behind, ("  - {ask: Where does it stop?, answer: stops}\n", ""), ("the top?", "the top"))
+    code, line, _ = refused(tmp_path, behind)
+    assert (code, line) == ("sign-of-rate", 11)
+    slow = edited(behind, ("  results:", "  assume: u**2 < 4*g*l\n  results:"))
+    assert solved(tmp_path, slow)["top"].value.could_extract_minus_sign()
 
 
 def test_a_motion_that_never_gets_far_away_is_refused(tmp_path: Path) -> None:

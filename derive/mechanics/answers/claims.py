@@ -401,7 +401,8 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the substitution of all stated values in the original gives the result or an equivalent equation.
+    """Whether the substitution of all stated values in the original gives the result or an equivalent equation. For a
+    rate with the opposite sign, `turned_first` judges the sign.
 
     This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
     substituted, and the original contains no rate of a replaced coordinate. Otherwise the substitution is accepted.
@@ -422,7 +423,8 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     there = before.xreplace({**{letter: explicit(at) for letter, at in told.items()}, **rates})
     if isinstance(after, Relation):
         return isinstance(there, Relation) and same_equation(there.residual, after.residual)
-    return bool(equal(there, after))
+    has_turned = any(each.turned for each in facts.inputs["arrivals"])
+    return bool(equal(-there if has_turned else there, after))
 
 
 def small_there(facts: Judged, small: Any) -> bool:

@@ -25,9 +25,10 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.approximate import equation_in_limit
 from derive.mechanics.in_results import Letter, Value, in_results
-from derive.mechanics.motion.facts import ByEnergy
-from derive.mechanics.motion.turning_points import assume_reached
+from derive.mechanics.motion.claims import arrives_as_told
+from derive.mechanics.motion.turning_points import arrivals, common_condition
 from derive.solving.leading import beginnings, entry_by_entry, rest_vanishes, terms_by_arithmetic, to_that_order
+from derive.solving.relations import conditions_told
 from derive.solving.unknowns import letter_of, meaning, unknown_of
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import with_numbers
@@ -55,7 +56,7 @@ LIMITING_CASE = Rule(
         "exact": claims.nothing_left_out,
     },
     evidence={"arithmetic": CHECK, "numbers": CHECK},
-    statements=[claims.goes_where_it_is_said],
+    statements=[claims.goes_where_it_is_said, arrives_as_told],
     named={"place": claims.goes_to, "bound": claims.right_of_a_bound},
 )
 
@@ -110,7 +111,8 @@ def limiting_case(
         raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is not a number"))
     aim = explicit(to.value if isinstance(to, Quantity) else to)
     _check_letter(of, value, x, is_end=aim in (oo, -oo))
-    _check_gets_far(of, x, aim)
+    far = [(x, aim)] if aim in (oo, -oo) else []
+    come = arrivals(of, (), far, lambda f: _added_up(beginnings(of, f, x, aim, None), f, x, aim))
     _check_assumed(x, aim)
     place = aim if aim in (oo, -oo) else tidied(aim * x / goes)
     series = beginnings(of, value, x, place, order)
@@ -147,7 +149,8 @@ def limiting_case(
                 **({"place": aim} if aim not in (oo, -oo) else {}),
                 **({"bound": value} if solved is not None and of.value.operator != "=" else {}),
             },
-            outcome_data={"to": place, "value": value, "x": x},
+            formulas=conditions_told(reached=common_condition(of, come)),
+            outcome_data={"to": place, "value": value, "x": x, "arrivals": come},
         ),
         parents=approximations_among(to),
         scope=Scope(case_of=of) if exact else Scope(approximates=_whole(of, name, Approach(goes, aim))),
@@ -200,15 +203,6 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
     if not is_end and changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
         message = f"`limiting_case`: {x.name} changes in the motion, so it is not always small"
         raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
-
-
-def _check_gets_far(of: Quantity, x: Symbol, aim: Expr) -> None:
-    """Check that the motion reaches infinity, if energy conservation gives the rate of the coordinate that grows."""
-    for each in of.ancestors() if aim in (oo, -oo) else ():
-        known = each.fact(ByEnergy)
-        if known is not None and known.coordinate == x:
-            value = explicit(each.value)
-            assume_reached(of, each, x, aim, _added_up(beginnings(each, value, x, aim, None), value, x, aim))
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:

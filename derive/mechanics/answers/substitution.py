@@ -30,10 +30,11 @@ from derive.mechanics.hamilton.facts import Constant, SeenWith
 from derive.mechanics.in_results import Values, in_results
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
-from derive.mechanics.motion.facts import ByEnergy
-from derive.mechanics.motion.turning_points import assume_reached, condition_to_reach
+from derive.mechanics.motion.claims import arrives_as_told, comes_there, turned_first
+from derive.mechanics.motion.turning_points import arrivals, common_condition
 from derive.solving.defined import check_defined
 from derive.solving.presentation import presented, without_positive
+from derive.solving.relations import conditions_told
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import coordinates_in, named_coordinates
@@ -57,9 +58,11 @@ PUT_IN = Rule(
         "zero": claims.put_in_zero,
         "identity": claims.identity,
         "again": claims.put_in_again,
+        "turned": turned_first,
     },
     evidence={"at_once": CHECK, "found_before": CHECK},
-    named={"value": claims.names_put_in},
+    statements=[arrives_as_told],
+    named={"value": claims.names_put_in, "place": comes_there},
     shown=Shown(names_formula=True),
 )
 
@@ -85,8 +88,10 @@ def put_in(
     is given, as a function of the time or as a constant, its rates are substituted too.
     Check: all letters of the original replaced at once by their final values; if `again` is given, also equality with
     this earlier result.
+    A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
+    back. If the motion reaches the place only under a condition, the sentence states this condition.
     Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
-    the substitution), again.
+    the substitution), again, turned (a rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
@@ -97,13 +102,17 @@ def put_in(
     for quantity in rests:
         value = _all_put(value, _replacements(quantity, of), quantity.key, of, told)
     there = _values(of, given, values, value)
-    _check_reached(of, rests, [*told, *there])
+    moving = coordinates_of(of, *rests)
+    varying = {TIME, *moving, *(rate(q) for q in moving)}
+    come = arrivals(of, rests, [(target, at) for target, at in [*told, *there] if not at.free_symbols & varying])
     for pair in there:
         rates = _of_prescribed(*pair)
         letters = {letter_of(target) for target, _ in (pair, *rates)}
         if letters & value.free_symbols or pair == there[0]:  # skip removed letters
             value = _all_put(value, [*rates, pair], str(pair[0]), of, told)
-    result = arranged(value, list(coordinates_of(of, *rests)))
+    turned = [each for each in come if each.turned and not is_zero(value)]
+    value = -value if turned else value
+    result = arranged(value, list(moving))
     _check_holds(of, result)
     name = _name(of, symbol)
     return establish(
@@ -118,16 +127,21 @@ def put_in(
             means={} if name is None or isinstance(name, Symbol | MatrixSymbol) else meaning(name, result),
         ),
         routes={
-            "at_once": lambda found: (found, _at_once(explicit(of.value), told)),
+            "at_once": lambda found: (-found if turned else found, _at_once(explicit(of.value), told)),
             **({"found_before": compared_with(lambda: again.value)} if again is not None else {}),
         },
-        outcome="again" if again is not None else _outcome(result, rests),
+        outcome="again" if again is not None else "turned" if turned else _outcome(result, rests),
         key=key or _key_for(of, rests, there),
         kind=of.step.kind,
         phrase_data=PhraseData(
-            named={f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
+            formulas=conditions_told(reached=common_condition(of, come)),
+            named={
+                **{f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
+                **({"place": Relation(turned[0].unknown, "=", turned[0].place)} if turned else {}),
+            },
             outcome_data={
                 "replaced": [letter_of(target) for target, _ in told],
+                "arrivals": come,
                 **({"found": again.value} if again is not None else {}),
             },
             points_to={"found": again} if again is not None else {},
@@ -384,26 +398,6 @@ def _energy_by_terms(value: Expr) -> Expr | None:
 
 def _is_identity(result: Any) -> bool:
     return isinstance(result, Relation) and result.operator == "=" and is_zero(result.residual)
-
-
-def _check_reached(of: Quantity, rests: Sequence[Quantity], told: Sequence[Replacement]) -> None:
-    """Assume that the motion reaches a substituted position. A position that was derived from the motion needs no
-    assumption. Reject a position if the motion turns back before it."""
-    for speed in {id(a): a for quantity in (of, *rests) for a in quantity.ancestors() if a.fact(ByEnergy)}.values():
-        found = any(each.rests_on(speed) for each in rests)
-        for target, place in told:
-            if _is_place_of(target, place, speed, coordinates_of(of, *rests)):
-                (condition_to_reach if found else assume_reached)(of, speed, target, place)
-
-
-def _is_place_of(target: Expr, place: Expr, speed: Quantity, moving: Mapping[Symbol, str]) -> bool:
-    """Whether a constant is substituted for the coordinate of this motion, or for a function of this coordinate."""
-    known = speed.fact(ByEnergy)
-    return (
-        known is not None
-        and target.free_symbols == {known.coordinate}
-        and not place.free_symbols & {TIME, *moving, *(rate(q) for q in moving)}
-    )
 
 
 def _check_holds(of: Quantity, result: Any) -> None:

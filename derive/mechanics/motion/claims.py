@@ -15,17 +15,18 @@ from sympy import (
     atan,
     cos,
     diff,
+    oo,
     sin,
     sqrt,
     tan,
 )
 
-from derive.algebra.expressions import TIME, depends_on_time, explicit, rate
+from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
 from derive.algebra.samples import letters_of
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Load
-from derive.mechanics.motion.facts import ByEnergy, InFlight, Steady
+from derive.mechanics.motion.facts import Arrival, ByEnergy, InFlight, SignedRate, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
 from derive.steps.rule import Judged, Predicate, handed_on_by
@@ -63,6 +64,85 @@ def moves_off(wanted: int | None) -> Predicate:
         return (sign == wanted if wanted else sign not in (1, -1)) and not result.could_extract_minus_sign()
 
     return is_so
+
+
+FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number for infinity, and a small change of a coordinate
+AHEAD = [
+    *(Rational(n, 8) for n in range(1, 57)),
+    *(Rational(10) ** n for n in range(1, 20)),
+]  # distances from the start
+
+
+def has_sense(facts: Judged, fact: SignedRate) -> bool:
+    """Whether the result is the root with the sign of the stated sense."""
+    return facts.symbol == rate(fact.coordinate) and _is_negative(facts.result) == (fact.sense == -1)
+
+
+def _is_negative(root: Expr) -> bool:
+    return bool(root.could_extract_minus_sign())
+
+
+def arrives_as_told(facts: Judged, outcome: str) -> bool:
+    """Whether, numerically, the motion reaches each place just under the stated condition, and the place lies ahead of
+    the start if the result keeps the sign that a rate has at the start."""
+    return all(
+        (come.is_found or _is_reached_just_where(come, facts.inputs.get("reached")))
+        and (not come.sense or _side(come) == ({-1} if come.turned else {1}))
+        for come in facts.inputs["arrivals"]
+    )
+
+
+def turned_first(facts: Judged) -> bool:
+    """Whether, numerically, the motion turns back before it comes to the place, and the sign of the result is opposite
+    to the sign of the rate at the start."""
+    (come,) = facts.inputs["arrivals"]
+    q, squared, start = come.begun.coordinate, with_numbers(come.squared), with_numbers(come.begun.start)
+
+    def turns(point: Point) -> bool | None:
+        begin = real_at(start, point)
+        if begin is None:
+            return None
+        ahead = [begin + come.sense * far for far in AHEAD] + [begin / far for far in AHEAD if q.is_nonnegative]
+        return any(sign_at(squared, {**point, q: here}) == -1 for here in ahead if not q.is_nonnegative or here > 0)
+
+    return come.turned and _is_negative(facts.result) == (come.sense == 1) and everywhere(_trials_of(come), turns)
+
+
+def comes_there(facts: Judged, place: Relation) -> bool:
+    """Whether the sentence names the place to which the motion comes after it has turned back."""
+    (come,) = facts.inputs["arrivals"]
+    return come.turned and place.operator == "=" and place.sides == (come.unknown, come.place)
+
+
+def _finite(place: Expr) -> Expr:
+    return with_numbers({oo: FAR, -oo: -FAR}.get(place, place))
+
+
+def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
+    value = with_numbers(come.squared).subs(*_letter_at(come.unknown, _finite(come.place)))
+    letters = letters_of(value)
+
+    def is_reached(point: Point) -> bool | None:
+        sign = sign_at(value, point)
+        return None if sign is None else sign >= 0
+
+    conditions = [] if told is None else [with_numbers(told)]
+    return told == come.reached and just_where(conditions, is_reached, letters, *assumptions_about(letters))
+
+
+def _trials_of(come: Arrival) -> list[Point]:
+    """Trial numbers with which the motion reaches the place."""
+    values = (come.squared, come.begun.start, _finite(come.place))
+    letters = set[Any]().union(*(letters_of(with_numbers(each)) for each in values)) - {come.begun.coordinate}
+    reached = [] if come.reached is None else [with_numbers(come.reached)]
+    return trial_points(letters, *reached, *assumptions_about(letters))
+
+
+def _side(come: Arrival) -> set[int | None]:
+    """The sides of the start on which the place lies at trial numbers: 1 ahead, -1 behind; without the start itself."""
+    q, start = come.begun.coordinate, with_numbers(come.begun.start)
+    here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
+    return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
 
 
 def coordinate_of_rate(facts: Judged, q: Any) -> bool:
@@ -417,6 +497,7 @@ steady_motion_generic: Predicate = negated(steady_motion_always)
 
 
 handed_on_by(ByEnergy, by_energy)
+handed_on_by(SignedRate, has_sense)
 handed_on_by(Steady, steady)
 
 

@@ -22,6 +22,7 @@ from derive.algebra.expressions import (
     rate,
     scalar,
 )
+from derive.algebra.ranges import where_positive
 from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import SwingTime, half_swing, quarter_swing
 from derive.algebra.tidy import tidied
@@ -31,7 +32,7 @@ from derive.mechanics.in_results import Ask, Value, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.motion import claims
-from derive.mechanics.motion.facts import ByEnergy
+from derive.mechanics.motion.facts import ByEnergy, SignedRate
 from derive.solving.presentation import presented
 from derive.solving.unknowns import residual_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, Scope, establish
@@ -230,24 +231,26 @@ def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
     known = squared.needed(ByEnergy)
     q, value = known.coordinate, explicit(squared.value)
     at_start = known.acceleration.subs({q: known.start, rate(q): ZERO}) if known.start_rate == 0 else known.start_rate
-    sign = sign_known(tidied(at_start))
-    outcome = {1: "grows", -1: "falls"}.get(sign or 0, "size")
-    return establish(
-        RATE_BY_ENERGY,
-        Abs(rate(q)) if outcome == "size" else rate(q),
-        lambda square: -Root(square) if outcome == "falls" else Root(square),
-        {"squared": squared},
-        lines=Lines(
-            law=Level.FULL,
-            put_in=None,
-            arranged=lambda found: presented(explicit(found)),
-            means={rate(q): sqrt(value)},
-        ),
-        routes={"squared": lambda found: (found**2, value)},
-        outcome=outcome,
-        phrase_data=PhraseData(named={"q": q}, outcome_data={"known": known}),
-        key=key,
-    )
+    sense = sign_known(tidied(at_start))
+    outcome = {1: "grows", -1: "falls"}.get(sense or 0, "size")
+    with where_positive(value):  # the motion does not reach places where the square would be negative
+        return establish(
+            RATE_BY_ENERGY,
+            Abs(rate(q)) if outcome == "size" else rate(q),
+            lambda square: -Root(square) if outcome == "falls" else Root(square),
+            {"squared": squared},
+            lines=Lines(
+                law=Level.FULL,
+                put_in=None,
+                arranged=lambda found: presented(explicit(found)),
+                means={rate(q): sqrt(value)},
+            ),
+            routes={"squared": lambda found: (found**2, value)},
+            outcome=outcome,
+            phrase_data=PhraseData(named={"q": q}, outcome_data={"known": known}),
+            facts=[SignedRate(q, sense)] if sense else [],
+            key=key,
+        )
 
 
 PERIOD_BY_ENERGY = Rule(

@@ -42,6 +42,40 @@ class ByEnergy(Fact):
 
 
 @dataclass(frozen=True)
+class SignedRate(Fact):
+    """The sense of a motion from its start, 1 if the coordinate increases, otherwise -1. The rate has this sign until
+    the motion turns back."""
+
+    missing = "is not the rate of a coordinate from conservation of energy"
+    coordinate: Symbol
+    sense: int
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """How a motion of one coordinate comes to a place for the first time.
+
+    begun      the start of the motion
+    squared    the squared rate of the coordinate by conservation of energy, f(q)
+    unknown    the coordinate, or a function of the coordinate such as cos(q)
+    place      the value of `unknown` at the place, which may be infinite
+    reached    the condition under which the motion reaches the place; None if the motion always reaches it
+    is_found   whether the place was derived from this motion; then `reached` is None
+    sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0
+    turned     whether the motion turns back before it comes to the place, so that the rate has the opposite sign there
+    """
+
+    begun: ByEnergy
+    squared: Expr
+    unknown: Expr
+    place: Expr
+    reached: Relation | None
+    is_found: bool
+    sense: int = 0
+    turned: bool = False
+
+
+@dataclass(frozen=True)
 class Orbit:
     """The circle of a particle before its flight, and whether the particle flies inside it."""
 

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from itertools import islice
 
-from sympy import Dummy, Expr, Integer, Rational, oo
+from sympy import Dummy, Expr, Integer, Rational, cos, diff, oo, pi, sin
 
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.motion.facts import ByEnergy
+from derive.mechanics.motion.facts import Arrival, ByEnergy, SignedRate
 from derive.solving.relations import positive
 from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
 from derive.steps.known_numbers import with_numbers
-from derive.steps.record import assume, assumed
+from derive.steps.record import assumed
 from derive.steps.signs import sign_known
-from derive.steps.step import Quantity
+from derive.steps.step import Quantity, is_zero
 
+QUARTERS = [n * pi / 2 for n in range(-4, 5)]
 TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # PARTS of a distance
 
 
@@ -52,11 +55,106 @@ def condition_to_reach(
     return positive(there) if sign_known(there) is None else None
 
 
-def assume_reached(of: Quantity, speed: Quantity, unknown: Expr, place: Expr, there: Expr | None = None) -> None:
-    """Assume that the motion reaches a place; the page states under which condition this is true."""
+def arrivals(
+    of: Quantity,
+    others: Sequence[Quantity],
+    places: Iterable[tuple[Expr, Expr]],
+    limit: Callable[[Expr], Expr] | None = None,
+) -> list[Arrival]:
+    """Return how motions come to the places at which a result is evaluated.
+
+    of, others   the result, and other results that are substituted in it
+    places       the coordinate or a function of it, and its constant value at the place
+    limit        returns the limit of f at the place, as for `condition_to_reach`
+    A place that one of the others finds from this motion needs no condition: the step of this place states it.
+    Errors: the motion does not reach the place; or the result contains a rate with its sign at the start, and this sign
+    is wrong or unknown at the place.
+    """
+    return [
+        _arrival(of, others, speed, unknown, place, limit(explicit(speed.value)) if limit is not None else None)
+        for speed in _latest_speeds(of, *others)
+        for unknown, place in places
+        if unknown.free_symbols == {speed.needed(ByEnergy).coordinate}
+    ]
+
+
+def _arrival(
+    of: Quantity, others: Sequence[Quantity], speed: Quantity, unknown: Expr, place: Expr, there: Expr | None
+) -> Arrival:
     condition = condition_to_reach(of, speed, unknown, place, there)
-    if condition is not None:
-        assume(Relation(condition.left, ">=", condition.right))
+    is_found = any(each.rests_on(speed) for each in others)
+    reached = None if is_found or condition is None else Relation(condition.left, ">=", condition.right)
+    begun = speed.needed(ByEnergy)
+    come = Arrival(begun, explicit(speed.value), unknown, place, reached, is_found)
+    ancestors = (each for quantity in (of, *others) for each in quantity.ancestors())
+    root = next((each for each in ancestors if each.fact(SignedRate) and each.rests_on(speed)), None)
+    if root is None or is_zero(begun.start_rate):
+        return come  # from rest, the motion comes only to places ahead of its start
+    sense = root.needed(SignedRate).sense
+    ahead = _side_of_start(come, sense)
+    if ahead in (0, 1):
+        return replace(come, sense=sense)
+    if ahead is None or unknown != begun.coordinate or not _turns_back(come, sense):
+        raise _unknown_sign(of, come, ahead)
+    if of.fact(SignedRate) is None or place in (oo, -oo):
+        message = (
+            f"`{of.key}`: the motion turns back before {unknown} = {place}, so `{root.key}` has the other sign there"
+        )
+        raise Rejected(Complaint("sign-of-rate", message, help=f"substitute this place in `{root.key}` first"))
+    return replace(come, sense=sense, turned=True)
+
+
+def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | None:
+    """Return the condition under which the motion comes to all these places; None if there is no condition."""
+    found = list(dict.fromkeys(each.reached for each in arrivals if each.reached is not None))
+    if len(found) > 1:
+        message = f"`{of.key}` at these places depends on two conditions, {found[0]} and {found[1]}"
+        raise Rejected(Complaint("not-reached", message, help="substitute one place after the other"))
+    return found[0] if found else None
+
+
+def _latest_speeds(*quantities: Quantity) -> list[Quantity]:
+    """Return the squared rates from conservation of energy on which these results rest, without those of earlier
+    motions, which only lead to the start of a later motion."""
+    found = {each.key: each for of in quantities for each in of.ancestors() if each.fact(ByEnergy)}.values()
+    return [each for each in found if not any(other is not each and other.rests_on(each) for other in found)]
+
+
+def _unknown_sign(of: Quantity, come: Arrival, ahead: int | None) -> Rejected:
+    q = come.begun.coordinate
+    message = f"`{of.key}` contains {rate(q)}, whose sign at {come.unknown} = {come.place} is unknown"
+    if come.unknown != q:
+        needed = f"substitute a value of {q}"
+    elif ahead is None:
+        needed = "state with `assume:` on which side of the start this place lies"
+    else:
+        needed = "state with `assume:` that the motion turns back before this place"
+    return Rejected(Complaint("sign-of-rate", message, help=f"{needed}, or use the squared rate"))
+
+
+def _side_of_start(come: Arrival, sense: int) -> int | None:
+    """Return 1 if the place lies ahead of the start, where the motion goes first, and -1 if it lies behind."""
+    q, start = come.begun.coordinate, come.begun.start
+    if come.place in (oo, -oo):
+        return sense if come.place == oo else -sense
+    change = come.place - come.unknown.xreplace({q: start})
+    first, second = (tidied(diff(come.unknown, q, n).xreplace({q: start})) for n in (1, 2))
+    return sign_known(tidied(change * second if is_zero(first) else change * first * sense))
+
+
+def _turns_back(come: Arrival, sense: int) -> bool:
+    """Whether the squared rate is known to be negative somewhere ahead of the start."""
+    q, squared = come.begun.coordinate, come.squared
+    if squared.has(sin, cos):
+        ahead = (each for each in QUARTERS if sign_known(sense * (each - come.begun.start)) == 1)
+        return any(sign_known(tidied(squared.xreplace({q: each}))) == -1 for each in ahead)
+    if sense == -1 and q.is_nonnegative:
+        squared, sense = squared.xreplace({q: 1 / q}), 1  # a distance decreases to zero
+    above, below = (part.as_poly(q) for part in tidied(squared).as_numer_denom())
+    if above is None or below is None:
+        return False
+    far_away = sign_known(tidied(above.LC() / below.LC()))
+    return far_away is not None and far_away * sense ** (above.degree() - below.degree()) == -1
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
