@@ -47,6 +47,23 @@ def test_a_cart_is_at_rest_on_both_sides_of_a_wall_that_nothing_favours(tmp_path
     assert [steps[f"stability_{n}"].value for n in (1, 2)] == [k, k]
 
 
+def test_a_cart_between_two_walls_is_never_outside_both(tmp_path: Path) -> None:
+    """x < 0 and x > d contradict each other, whatever the constants of the springs."""
+    between = edited(
+        WALL,
+        ("l: length, d", "K: spring constant, l: length, d"),
+        (
+            "springs: {constant: k, from: [d, 0], to: [x, 0], length: l}",
+            BOTH.partition("\n  assume")[0] + "\n  assume: d > 2*l",
+        ),
+    )
+    steps = solved(tmp_path, between)
+    k, K = symbols("k K", positive=True)
+    middle = (k * l + K * (d - l)) / (k + K)
+    assert any(equal(value, middle) for value in rests(steps))
+    assert len(rests(steps)) == 3
+
+
 def test_a_weight_can_stand_on_a_spring_that_is_strong_enough(tmp_path: Path) -> None:
     """k(|x| - l) x/|x| = m g: x = l + m g/k below the hook, x = -l + m g/k above it, where that is negative."""
     hanging = edited(WALL, *HANGING, ("length: l}", "length: l}\n  gravity: g"))

@@ -44,18 +44,23 @@ def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
 
 
 def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
-    """Return the state with the condition that all these lengths are positive; None if one length is never positive."""
+    """Return the state with the condition that all these lengths are positive; None if they are never all positive."""
     for each in lengths:
         there = tidied(each.xreplace(dict(state.values)))
-        sign = sign_for_all(there)
+        sign = sign_where(there, state.exists)
         if sign in (-1, 0):
             return None
         if sign is None:
             exists = positive(there)
-            if state.exists is not None and state.exists != exists:
+            if state.exists is not None and not _follows(state.exists, exists):
                 raise SidesOpen(state, exists)
             state = replace(state, exists=exists)
     return state
+
+
+def _follows(condition: Relation, other: Relation) -> bool:
+    """Whether the condition holds wherever the other one holds."""
+    return sign_where(condition.residual, other) == (1 if condition.operator[0] == ">" else -1)
 
 
 def keeps_sides(state: State) -> bool:
