@@ -345,6 +345,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     }
     roles = letters_put_equal(step.roles)
     names.update({role: Ref(called.name) if isinstance(called, Str) else Math(called) for role, called in roles})
+    names.update(_lists(names, words.labels["and"]))
     compared = words.compared(step.rule)
     names.update({name: word if name in compared else words.term(word) for name, word in step.words})
     names.update(AXIS_NAMES)
@@ -354,6 +355,16 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
     if unit:
         names["unit"] = UnitMark(unit)
     return names
+
+
+def _lists(names: Mapping[str, Any], last: str) -> dict[str, tuple[Inline, ...]]:
+    """Return `equation_list`: (1), (2) and (3), for equation_1, equation_2 and equation_3; the same for other roles."""
+    groups: dict[str, list[Any]] = {}
+    for role in sorted(names, key=lambda name: (len(name), name)):
+        stem, _, number = role.rpartition("_")
+        if number.isdigit():
+            groups.setdefault(f"{stem}_list", []).append(names[role])
+    return {name: joined(items, last) for name, items in groups.items()}
 
 
 def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]:

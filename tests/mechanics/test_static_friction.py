@@ -289,10 +289,25 @@ parts:
 
 
 def test_a_negative_force_is_said_to_act_the_other_way(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "The force F is negative: it acts upwards." in page(tmp_path, INCLINE)
+    assert "The force F is negative: it acts up the slope." in page(tmp_path, INCLINE)
     sense = Constraint.sense
     monkeypatch.setattr(Constraint, "sense", lambda self, side: sense(self, -side))
     assert "could not be confirmed" in refused(tmp_path, INCLINE)
+
+
+def test_an_oblique_force_that_is_not_friction_is_not_said_to_act_upwards(tmp_path: Path) -> None:
+    """The rail pushes the block along its normal: upwards, but also to the right."""
+    rail = edited(
+        INCLINE,
+        ("along: [cos(alpha), -sin(alpha)]}", "along: [-cos(alpha), sin(alpha)], side: both}"),
+        (", friction: {static: mu_s, force: F}", ""),
+        (", mu_s: positive number", ""),
+        ("normal force and the friction, positive down the incline.", "normal force."),
+        ("[N, F]", "N"),
+    )
+    said = page(tmp_path, rail)
+    assert "N = -m g cos α" in said
+    assert "The force N" not in said
 
 
 def test_a_place_that_is_not_the_first_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -432,10 +432,11 @@ multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 def multiplier_negative(facts: Judged) -> bool:
     """Whether, numerically, the force is negative, and acts on the body in the sense that the sentence states."""
     x, y = facts.inputs["positive"]
-    across, wanted = {"up": (y, 1), "down": (y, -1), "right": (x, 1), "left": (x, -1)}[facts.words["sense"]]
-    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
+    word, of_slope, _ = facts.words["sense"].partition("_slope")
+    across, beside, wanted = {"up": (y, x, 1), "down": (y, x, -1), "right": (x, y, 1), "left": (x, y, -1)}[word]
+    is_so = str(facts.inputs["enforcer"]) == "friction" and not is_zero(beside) if of_slope else is_zero(beside)
     acts = sign_found(facts.result * across) == wanted
-    return lasts(facts) and not is_stretched(facts) and is_level and sign_found(facts.result) == -1 and acts
+    return lasts(facts) and not is_stretched(facts) and is_so and sign_found(facts.result) == -1 and acts
 
 
 multiplier_multiplier: Predicate = both(lasts, is_stretched)

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, sqrt
+from sympy.core.symbol import Str
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
 
@@ -370,7 +371,7 @@ def _multiplier(
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     below = is_force and len(each.acting) == 1 and sign_known(explicit(found[each.force])) == -1
-    sense = each.sense(-1) if below else ""
+    sense = each.acts(-1) if below else ""
     return establish(
         MULTIPLIER,
         each.force,
@@ -398,6 +399,7 @@ def _multiplier(
                 **(isolation.outcome_data if isolation else {}),
                 "condition": each.residual,
                 "positive": each.acting[0].direction if sense else (),
+                "enforcer": Str(each.enforcer),
                 "gradient": each.gradient,
                 "place": _places(problem) if length is not None else (),
             },

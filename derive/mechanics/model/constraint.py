@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Symbol, diff
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff
 
 from derive.algebra.expressions import Relation, TimeRate, as_expr, explicit, rate, scalar
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
@@ -88,6 +88,15 @@ class Constraint(Part):
             return ""
         words = {1: "up", -1: "down"} if signs[1] else {1: "right", -1: "left"}
         return words[signs[1] or signs[0] or 0]
+
+    def acts(self, side: int) -> str:
+        """Return the direction as `sense` does for a vertical or horizontal force, and `up_slope` or `down_slope` for
+        the friction of a slope; empty for any other oblique force."""
+        sense = self.sense(side)
+        if not sense or sense in ("right", "left") or is_zero(self.acting[0].direction[0]):
+            return sense
+        is_of_slope = self.enforcer == "friction" and not coordinates_in(ImmutableDenseMatrix(self.acting[0].direction))
+        return f"{sense}_slope" if is_of_slope else ""
 
     @property
     def residual(self) -> Expr:
