@@ -291,6 +291,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
+    record.defined_at = {each.name: problem.place_of("define", each.name) for each in problem.defined}
     record.letters = _letters_of(problem)
     seed(1)  # SymPy chooses points at random when it factors; the same points give the same page in the same time
     with deriving(problem, record):
@@ -312,10 +313,11 @@ def deriving(problem: Problem, record: Run) -> Iterator[None]:
 
 
 def _letters_of(problem: Problem) -> set[str]:
-    """Return the letters of the givens, and those that a description introduces itself."""
+    """Return the letters of the givens, those that a description introduces itself, and the defined letters."""
     own = problem.described.letters if problem.described else {}
     given = {letter.name for each in problem.givens for letter in each.letters}
-    return {*own, *given, *(measured.symbol.name for measured in problem.measured)}
+    named = {each.name for each in problem.defined}
+    return {*own, *given, *named, *(measured.symbol.name for measured in problem.measured)}
 
 
 def _assume_range(declared: Declared) -> None:

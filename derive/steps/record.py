@@ -51,10 +51,11 @@ class Run:
     in_words      the assumed conditions that a step states in words
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
+    defined_at    the place in a file where each of them is written
     is_natural    whether results may be written in defined and in usual quantities
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
-    letters       letters of the problem for givens, coordinates and forces; results must not use them
+    letters       letters of the problem for givens, coordinates, forces and definitions; results must not use them
     memory        earlier calls of verbs
     call          the call that is running
     """
@@ -66,6 +67,7 @@ class Run:
     in_words: list[Relation] = field(default_factory=list)
     drawings: list[Any] = field(default_factory=list)
     defined: list[Quantity] = field(default_factory=list)
+    defined_at: Mapping[str, Place] = field(default_factory=dict)
     is_natural: bool = True
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
     places: Mapping[str, Place] = field(default_factory=dict)
@@ -113,7 +115,7 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
 def unrecorded() -> Iterator[None]:
     """Derive steps that only a check needs. The run does not record these steps, but it keeps their assumptions."""
     run = current_run.get() or Run()
-    token = current_run.set(replace(run, established=[], cases=[], drawings=[], memory=None, call=None))
+    token = current_run.set(replace(run, established=[], cases=[], drawings=[], defined=[], memory=None, call=None))
     try:
         yield
     finally:
@@ -212,7 +214,7 @@ def free_letter(name: str, *indices: str) -> str:
 
 @question
 def given_letters() -> set[str]:
-    """Return the letters of the problem for givens, coordinates and forces."""
+    """Return the letters of the problem for givens, coordinates, forces and definitions."""
     run = current_run.get()
     return set(run.letters) if run is not None else set()
 
@@ -282,6 +284,19 @@ def add_definition(quantity: Quantity) -> None:
     run = current_run.get()
     if run is not None:
         run.defined.append(quantity)
+
+
+def check_not_defined(key: str, symbol: Any) -> None:
+    """Reject a step whose key or symbol is the name of a quantity under `define:`."""
+    run = current_run.get()
+    if run is None:
+        return
+    own = {key, *(s.name for s in getattr(symbol, "free_symbols", ()) if isinstance(s, Symbol))}
+    name = next((quantity.key for quantity in run.defined if quantity.key in own), None)
+    if name is not None:
+        also = f"the step `{key}` also uses this symbol for its result"
+        message = f"`{name}` is a symbol of this problem, but {also if name != key else 'it is also the key of a step'}"
+        raise Rejected(Complaint("letter-clash", message, run.defined_at.get(name), help="use another symbol"))
 
 
 @question

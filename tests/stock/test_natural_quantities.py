@@ -10,12 +10,45 @@ from sympy import Expr, Symbol
 
 from derive.algebra.natural import Shortened
 from derive.building.solution import rendered
+from derive.errors import DeriveError
 from derive.steps import natural
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, solved
 
 DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
 PLANET = (ROOT / "problems" / "library" / "central" / "kepler.yaml").read_text(encoding="utf-8")
+
+
+SPRING = """\
+title: A mass on a spring
+solve: system
+symbols: {m: mass, k: spring constant}
+define: {DEFINE}
+given:
+  coordinates: {y: length}
+  particles: {ball: {mass: m, at: [0, y]}}
+  springs: {constant: k, from: [0, 0], to: ball}
+  results:
+    first: {value: 2*m}
+statement: A ball of mass <<m>> on a spring of constant <<k>>.
+parts:
+  - {ask: Find it., answer: [ANSWER]}
+"""
+CONE = """\
+title: A cone
+solve: body
+symbols: {R: length, h: length, M: mass}
+define: {DEFINE}
+given:
+  body: {shape: cone, radius: R, height: h, mass: M}
+statement: A cone of mass <<M>>, radius <<R>> and height <<h>>.
+parts:
+  - {ask: Find it., answer: [ANSWER]}
+"""
+
+
+def asking(text: str, define: str, answer: str) -> str:
+    return edited(text, ("DEFINE", define), ("ANSWER", answer))
 
 
 def defined(formulas: str) -> str:
@@ -82,3 +115,46 @@ def test_a_quantity_that_shortens_nothing_is_a_warning(tmp_path: Path) -> None:
     found = rendered(course_with(tmp_path, defined("{eta: x_0/a}")), "trial/one", only={"text"})
     (warning,) = (each for each in found.warnings if each.code == "unused-definition")
     assert warning.place is not None and "`eta`" in warning.message and warning.place.text.startswith("define:")
+
+
+@pytest.mark.parametrize(
+    ("text", "define", "answer", "key", "symbol"),
+    [
+        (SPRING, "T: sqrt(m/k)", "lagrangian", "kinetic_energy", "K"),
+        (SPRING, "tau: sqrt(m/k)", "period", "period", "tau_0"),
+        (CONE, "rho: M/(R**2*h)", "centre_of_mass", "density", "rho_0"),
+    ],
+)
+def test_a_step_does_not_use_a_defined_letter(
+    text: str, define: str, answer: str, key: str, symbol: str, tmp_path: Path
+) -> None:
+    assert str(solved(tmp_path, asking(text, define, answer))[key].symbol) == symbol
+
+
+@pytest.mark.parametrize(
+    ("text", "define", "answer", "said"),
+    [
+        (SPRING, "omega_0: sqrt(k/m)", "frequency", "the step `frequency_squared` also uses this symbol"),
+        (SPRING, "p_y: m*sqrt(k/m)", "hamiltonian", "also the key of a step"),
+        (SPRING, "first: k/m", "first", "also the key of a step"),
+        (CONE, "I_1: M*R**2", "principal_moments", "`principal_moments` also uses this symbol"),
+        (CONE, "I_xx: M*R**2", "inertia_tensor", "also uses this symbol"),
+        (CONE, "z_C: 2*h", "centre_of_mass", "`r_C_z` looks the same in print"),
+        (CONE, "theta: R/h", "centre_of_mass", "integrates over it"),
+    ],
+)
+def test_a_defined_letter_with_a_second_meaning_is_an_error_at_its_definition(
+    text: str, define: str, answer: str, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(DeriveError) as refused:
+        rendered(course_with(tmp_path, asking(text, define, answer)), "trial/one", only={"text"})
+    (found,) = refused.value.complaints
+    assert (found.code, found.help) == ("letter-clash", "use another symbol") and said in found.message
+    assert found.place is not None and found.place.text.startswith("define:")
+
+
+def test_a_defined_quantity_is_not_proposed_again(tmp_path: Path) -> None:
+    found = solved(tmp_path, defined("{Omega: sqrt(k/m)}"))
+    assert {str(s) for s in found["weak"].step.result.free_symbols} == {"x_0", "beta", "omega_1", "t"}
+    assert str(found["omega_1"].step.result) == "sqrt(Omega**2 - beta**2)"
+    assert "omega_0" not in found

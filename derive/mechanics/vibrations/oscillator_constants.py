@@ -16,7 +16,7 @@ from derive.mechanics.vibrations import claims
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner
 from derive.steps.natural import NamesValue, Proposal
-from derive.steps.record import free_letter, given_letters, result_called
+from derive.steps.record import defined_quantities, free_letter, given_letters, result_called
 from derive.steps.rule import Rule, Shown
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, same_value
@@ -61,11 +61,11 @@ def _proposed(
     coefficients: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
-    """Propose a constant, or an earlier result with the same symbol and value; None if the symbol is not free or would
-    only rename another symbol."""
+    """Propose a constant, or a defined quantity with its value, or an earlier result with the same symbol and value;
+    None if the symbol is not free or would only rename another symbol."""
     value = tidied(law(*(coefficients[each] for each in "abc")))
     name = free_letter(name)
-    known = result_called(name)
+    known = next((each for each in defined_quantities() if same_value(each.value, value)), result_called(name))
     if known is not None:
         return Proposal(known.symbol, known.value, lambda: known) if same_value(known.value, value) else None
     if name in given_letters() or value.is_Atom:

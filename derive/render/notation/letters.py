@@ -16,6 +16,7 @@ from derive.course.problem import Problem
 from derive.errors import Complaint, Place
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
+from derive.steps.defined import QUANTITY
 from derive.steps.step import Quantity, Step, entry_name
 
 ANOTHER = "use another symbol"
@@ -30,7 +31,7 @@ def letter_clashes(
     `coordinates` are the coordinates that the script names; a body that the script creates before it names them may use
     the same symbols.
     """
-    used = letters_in_use(problem)
+    used, defined = letters_in_use(problem), {each.name: each.symbol for each in problem.defined}
     looks = {as_printed(letter): letter for letter in used}
     faults: dict[Symbol, Complaint] = {}
     for letter in used:
@@ -38,8 +39,9 @@ def letter_clashes(
         if other != letter:
             message = f"`{letter.name}` and `{other.name}` look the same in print"
             faults[letter] = Complaint("letter-clash", message, _place(problem, letter), help=ANOTHER)
-    for quantity in known.values():
-        for name, what in meanings(quantity.step, set(problem.dimensions)):
+    for quantity in (quantity for quantity in known.values() if quantity.step.rule != QUANTITY.name):
+        written = {defined[key] for key in quantity.step.inputs if key in defined}
+        for name, what in meanings(quantity.step, {*problem.dimensions, *written}):
             mine = looks.get(as_printed(name))
             if mine is not None and mine not in faults:
                 faults[mine] = _clash(problem, mine, name, what)
@@ -68,9 +70,11 @@ def _integrated_coordinates(
 
 
 def letters_in_use(problem: Problem) -> list[Symbol]:
-    """Return the symbols that occur in inputs or have numbers; a symbol that is only declared is not in use."""
+    """Return the symbols that occur in inputs, have numbers or are defined; a symbol that is only declared is not in
+    use."""
     found = [letter for given in problem.givens for letter in given.letters]
-    return list(dict.fromkeys([*found, *(measured.symbol for measured in problem.measured)]))
+    found += [measured.symbol for measured in problem.measured]
+    return list(dict.fromkeys([*found, *(each.symbol for each in problem.defined)]))
 
 
 def as_printed(name: Any) -> str:
@@ -125,13 +129,13 @@ def _integrated(expr: Any) -> Iterator[Symbol]:
 def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
     so = what if name.name == letter.name else f"`{name.name}` looks the same in print: {what}"
     message = f"`{letter.name}` is a symbol of this problem, but {so}"
-    chosen = f"symbols.{letter.name}" not in problem.places
-    help_line = "declare another symbol of its kind under `symbols:`" if chosen else ANOTHER
+    declared = any(f"{key}.{letter.name}" in problem.places for key in ("symbols", "define"))
+    help_line = ANOTHER if declared else "declare another symbol of its kind under `symbols:`"
     return Complaint("letter-clash", message, _place(problem, letter), help=help_line)
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
     """Return where the symbol is declared, or else the place of the input that contains it."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
-    keys = (f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
+    keys = (f"define.{letter.name}", f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)
