@@ -157,15 +157,15 @@ class Selection:
 
     def _as_shown(self, derivation: Derivation) -> dict[str, Step]:
         found: dict[str, Step] = {}
-        known: dict[Any, Any] = {}
+        known: dict[Any, Step] = {}
         seen: set[tuple[str, tuple[str, ...]]] = set()
         before: Step | None = None
         for step in derivation.steps:
-            used = {name: value for name, value in known.items() if name in dict(step.names)}
+            used = {name: other for name, other in known.items() if name in dict(step.names)}
             whole = condensed(step, used)
             manner = self._manners[step.key]
             if manner is TAKEN_IN:
-                known[step.symbol] = step.result
+                known[step.symbol] = replace(whole, chain=step.chain)
             form = (step.rule, tuple(form.because for form in step.chain))
             in_turn = before is not None and (before.rule, before.outcome) == (step.rule, step.outcome)
             chain = self._lines(whole, repeats=form in seen, in_turn=in_turn)

@@ -1,7 +1,7 @@
 """In the lines of a step, values replace the symbols of those quantities whose own steps the page does not show.
 
 Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
-step.
+steps.
 """
 
 from __future__ import annotations
@@ -12,16 +12,23 @@ from typing import Any
 
 from derive.algebra.equality import Compared, Evidence, equal
 from derive.algebra.expressions import Truncated, bound, explicit
-from derive.steps.chain import refused, without_repeats
+from derive.steps.chain import names_in, refused, without_repeats
 from derive.steps.step import NUMBERS, Form, Step
 
 
-def condensed(step: Step, known: Mapping[Any, Any]) -> Step:
-    """Replace the known names in the lines of a step by their values, and add evidence that each new line equals the
-    line that it replaces."""
+def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
+    """Replace the symbols of known steps in the lines of a step by their results, and add evidence that each new line
+    equals the line that it replaces.
+
+    A result may contain names that the step itself does not, such as a defined quantity.
+    """
     if not known:
         return step
-    written = [_put_in(form, known) for form in step.chain]
+    results = {symbol: each.result for symbol, each in known.items()}
+    written = [_put_in(form, results) for form in step.chain]
+    own, inherited = dict(step.names), {name: value for each in known.values() for name, value in each.names}
+    further = names_in([form.expr for form in written], inherited)
+    step = replace(step, names=(*step.names, *(each for each in further if each[0] not in own)))
     evidence = [
         _same(step, i, form, was) for i, (form, was) in enumerate(zip(written, step.chain, strict=True)) if form != was
     ]

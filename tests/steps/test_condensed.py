@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from sympy import Integer
+from sympy import Integer, Symbol
 
 from derive.algebra.equality import Compared, Grade
 from derive.algebra.expressions import Truncated
@@ -23,7 +23,7 @@ def steps(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Step]:
 
 def test_the_value_stands_where_the_letter_stood(steps: dict[str, Step]) -> None:
     square, energy = steps["squared_speed"], steps["kinetic_energy"]
-    written = condensed(energy, {square.symbol: square.result})
+    written = condensed(energy, {square.symbol: square})
     assert any(form.expr.has(square.symbol) for form in energy.chain)
     assert not any(form.expr.has(square.symbol) for form in written.chain)
     assert written.result == energy.result
@@ -31,13 +31,13 @@ def test_the_value_stands_where_the_letter_stood(steps: dict[str, Step]) -> None
 
 def test_lines_that_have_become_the_same_stand_once(steps: dict[str, Step]) -> None:
     square, energy = steps["squared_speed"], steps["kinetic_energy"]
-    written = condensed(energy, {square.symbol: square.result})
+    written = condensed(energy, {square.symbol: square})
     assert len({form.expr for form in written.chain}) == len(written.chain) < len(energy.chain)
 
 
 def test_each_line_that_was_changed_has_evidence_of_its_own(steps: dict[str, Step]) -> None:
     square, energy = steps["squared_speed"], steps["kinetic_energy"]
-    written = condensed(energy, {square.symbol: square.result})
+    written = condensed(energy, {square.symbol: square})
     (added,) = written.evidence[len(energy.evidence) :]
     assert (added.compared, added.grade) == (Compared.LINES, Grade.PROVED)
 
@@ -45,13 +45,13 @@ def test_each_line_that_was_changed_has_evidence_of_its_own(steps: dict[str, Ste
 def test_a_value_that_the_name_does_not_have_is_refused(steps: dict[str, Step]) -> None:
     square, energy = steps["squared_speed"], steps["kinetic_energy"]
     with pytest.raises(Unverified, match="changes when the values are substituted"):
-        condensed(energy, {square.symbol: 2 * square.result})
+        condensed(energy, {square.symbol: replace(square, chain=(Form(2 * square.result, "law"),))})
 
 
 def test_nothing_is_changed_where_nothing_is_put_in(steps: dict[str, Step]) -> None:
-    energy = steps["kinetic_energy"]
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
     assert condensed(energy, {}) is energy
-    assert condensed(energy, {steps["potential_energy"].symbol: 1}) == replace(energy)
+    assert condensed(energy, {steps["potential_energy"].symbol: square}) == replace(energy)
 
 
 @pytest.mark.parametrize("because", [None, *sorted(NUMBERS)])
@@ -61,5 +61,12 @@ def test_numbers_stay_as_they_were_read_and_so_does_a_series(steps: dict[str, St
     series = Truncated(first, square.symbol, Integer(0), Integer(1))
     line = Form(first, because) if because else Form(series, "series")
     assert line.expr.has(square.symbol)
-    written = condensed(replace(energy, chain=(line, *energy.chain)), {square.symbol: square.result})
+    written = condensed(replace(energy, chain=(line, *energy.chain)), {square.symbol: square})
     assert written.chain[0] == line
+
+
+def test_a_name_in_the_value_keeps_its_meaning(steps: dict[str, Step]) -> None:
+    square, energy = steps["squared_speed"], steps["kinetic_energy"]
+    half = Symbol("half", real=True)
+    with_half = replace(square, chain=(Form(2 * half, "law"),), names=(*square.names, (half, square.result / 2)))
+    assert dict(condensed(energy, {square.symbol: with_half}).names)[half] == square.result / 2

@@ -16,6 +16,7 @@ from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, solved
 
 DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
+BEAD = (ROOT / "problems" / "library" / "constraints" / "hoop_oscillations.yaml").read_text(encoding="utf-8")
 PLANET = (ROOT / "problems" / "library" / "central" / "kepler.yaml").read_text(encoding="utf-8")
 
 
@@ -158,3 +159,9 @@ def test_a_defined_quantity_is_not_proposed_again(tmp_path: Path) -> None:
     assert {str(s) for s in found["weak"].step.result.free_symbols} == {"x_0", "beta", "omega_1", "t"}
     assert str(found["omega_1"].step.result) == "sqrt(Omega**2 - beta**2)"
     assert "omega_0" not in found
+
+
+def test_a_value_in_defined_quantities_is_substituted_in_a_later_line(tmp_path: Path) -> None:
+    define = "\ndefine: {omega_c: sqrt(g/R), nu: sqrt(omega**2 - omega_c**2)}\ngiven:"
+    found = rendered(course_with(tmp_path, edited(BEAD, ("\ngiven:", define))), "trial/one", only={"text"})
+    assert "√(ω² - ω_c⁴/ω²) = ω sin θ_3" in found.texts["text"]
