@@ -13,7 +13,7 @@ from derive.errors import Rejected, Unverified
 from derive.mechanics import Coordinate, coordinate, quality_factor
 from derive.mechanics.vibrations import driven
 from tests.mechanics.test_answers import equation
-from tests.stock.described import messages, solved
+from tests.stock.described import edited, messages, solved
 from tests.test_phrases_used import variants
 
 m, k, b, w = symbols("m k b w", positive=True)
@@ -78,3 +78,8 @@ def test_a_file_asks_for_it_by_its_name(tmp_path: Path) -> None:
     assert equal(found["light"].value, 5)
     wrong = variants()["quality"].replace("for: x}", "for: x, start: 0}", 1)
     assert any("`start` has no effect on `quality_factor`" in each for each in messages(tmp_path / "wrong", wrong))
+
+
+def test_an_assumption_decides_whether_the_oscillator_oscillates(tmp_path: Path) -> None:
+    assuming = edited(variants()["quality"], ("\n  results:", "\n  assume: [b**2 < 4*k*m]\n  results:"))
+    assert solved(tmp_path, assuming)["of_the_cart"].step.outcome == "oscillates"

@@ -90,21 +90,29 @@ def free_motion(wanted: str) -> Predicate:
     return is_so
 
 
+def _coefficients(facts: Judged) -> tuple[Expr, ...]:
+    """Return the derivatives of the equation of motion by the acceleration, the rate and the coordinate."""
+    q, equation = facts.inputs["q"], explicit(facts.inputs["equation"])
+    solved_for = facts.quantities["equation"].symbol
+    residual = equation.residual if isinstance(equation, Relation) else solved_for - equation
+    return tuple(diff(residual, s) for s in (rate(q, 2), rate(q), q))
+
+
 def is_decay_rate(facts: Judged) -> bool:
     """Whether the value is half of the coefficient of the rate, divided by that of the acceleration."""
-    a, b = (facts.inputs[each] for each in "ab")
+    a, b, _ = _coefficients(facts)
     return is_zero(2 * a * explicit(facts.result) - b)
 
 
 def is_frequency_without_damping(facts: Judged) -> bool:
     """Whether the square of the value, times the first coefficient, is the last coefficient."""
-    a, c = (facts.inputs[each] for each in "ac")
+    a, _, c = _coefficients(facts)
     return is_zero(a * explicit(facts.result) ** 2 - c)
 
 
 def is_frequency_with_damping(facts: Judged) -> bool:
     """Whether -b/(2 a) + i omega is a root of the characteristic equation."""
-    a, b, c = (facts.inputs[each] for each in "abc")
+    a, b, c = _coefficients(facts)
     root = -b / (2 * a) + I * explicit(facts.result)
     return is_zero((a * root**2 + b * root + c).expand())
 

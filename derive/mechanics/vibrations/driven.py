@@ -215,7 +215,8 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
         return found, 2 * pi * whole / work
 
     def outcome(found: Expr) -> str:
-        return {1: "oscillates", 0: "critical", -1: "creeps", None: "depends"}[sign_known(found - HALF)]
+        """Compare the squares, because an assumption such as b^2 < 4 k m decides their difference."""
+        return {1: "oscillates", 0: "critical", -1: "creeps", None: "depends"}[sign_known(found**2 - HALF**2)]
 
     return establish(
         QUALITY_FACTOR,

@@ -173,7 +173,9 @@ def solution(
             outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
         ),
         parents=approximations_among(start, start_rate),
-        proposals=list(oscillator_constants(equation, linear.a, linear.b, linear.c)) if linear.order == 2 else (),
+        proposals=list(oscillator_constants(equation, q.symbol, linear.a, linear.b, linear.c))
+        if linear.order == 2
+        else (),
     )
 
 

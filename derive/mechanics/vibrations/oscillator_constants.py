@@ -5,7 +5,7 @@ A motion proposes them. A step is made only for a constant that a result contain
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -13,9 +13,9 @@ from sympy import Expr, Symbol, sqrt
 
 from derive.algebra.tidy import tidied
 from derive.mechanics.vibrations import claims
-from derive.steps.establish import Lines, PhraseData, establish
+from derive.steps.establish import Lines, establish
 from derive.steps.level import Manner
-from derive.steps.natural import NamesValue, Proposal
+from derive.steps.natural import Proposal
 from derive.steps.record import defined_quantities, free_letter, given_letters, result_called
 from derive.steps.rule import Rule, Shown
 from derive.steps.signs import sign_known
@@ -30,25 +30,25 @@ OSCILLATOR_CONSTANT = Rule(
         "with_damping": claims.is_frequency_with_damping,
     },
     shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
+    names_value=True,
 )
 
 
-def oscillator_constants(equation: Quantity, a: Expr, b: Expr, c: Expr) -> Iterator[Proposal]:
+def oscillator_constants(equation: Quantity, q: Symbol, a: Expr, b: Expr, c: Expr) -> Iterator[Proposal]:
     """Propose beta = b/(2 a), omega_0 = sqrt(c/a) and, with damping, omega_1 = sqrt(omega_0^2 - beta^2), in 1/s.
 
     equation   the equation of motion whose coefficients are a, b and c
+    q          the coordinate
     """
     if sign_known(a) != 1 or sign_known(c) != 1 or sign_known(b) not in (0, 1):
         return
-    coefficients = {"equation": equation, "a": a, "b": b, "c": c}
-    frequency = _proposed("omega_0", "without_damping", lambda a, b, c: sqrt(c / a), coefficients)
+    of = {"equation": equation, "q": q}
+    frequency = _proposed("omega_0", "without_damping", sqrt(c / a), of)
     if frequency is None:
         return
-    if b != 0 and (rate := _proposed("beta", "decay_rate", lambda a, b, c: b / (2 * a), coefficients)) is not None:
+    if b != 0 and (rate := _proposed("beta", "decay_rate", b / (2 * a), of)) is not None:
         yield rate
-        slower = _proposed(
-            "omega_1", "with_damping", lambda a, b, c: sqrt(c / a - b**2 / (4 * a**2)), coefficients, (frequency, rate)
-        )
+        slower = _proposed("omega_1", "with_damping", sqrt(c / a - b**2 / (4 * a**2)), of, (frequency, rate))
         if slower is not None:
             yield slower
     yield frequency
@@ -57,13 +57,13 @@ def oscillator_constants(equation: Quantity, a: Expr, b: Expr, c: Expr) -> Itera
 def _proposed(
     name: str,
     outcome: str,
-    law: Callable[[Expr, Expr, Expr], Expr],
-    coefficients: Mapping[str, Any],
+    value: Expr,
+    of: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
     """Propose a constant, or a defined quantity with its value, or an earlier result with the same symbol and value;
     None if the symbol is not free or would only rename another symbol."""
-    value = tidied(law(*(coefficients[each] for each in "abc")))
+    value = tidied(value)
     name = free_letter(name)
     known = next((each for each in defined_quantities() if same_value(each.value, value)), result_called(name))
     if known is not None:
@@ -71,27 +71,24 @@ def _proposed(
     if name in given_letters() or value.is_Atom:
         return None
     symbol = Symbol(name, real=True, positive=True)
-    return Proposal(symbol, value, partial(_constant, symbol, value, outcome, coefficients, others))
+    return Proposal(symbol, value, partial(_constant, symbol, value, outcome, of, others))
 
 
 def _constant(
-    symbol: Symbol, value: Expr, outcome: str, coefficients: Mapping[str, Any], others: tuple[Proposal, ...]
+    symbol: Symbol, value: Expr, outcome: str, of: Mapping[str, Any], others: tuple[Proposal, ...]
 ) -> Quantity:
     """A constant of the oscillator, by the coefficients of its equation, or by omega_0 and beta: a definition.
 
     Outcomes: decay_rate, without_damping, with_damping.
     Source: Taylor, *Classical Mechanics*, section 5.4.
     """
-    inputs = {each.symbol.name: each.make() for each in others}
+    made = {each.symbol.name: each.make() for each in others}
     return establish(
         OSCILLATOR_CONSTANT,
         symbol,
-        (lambda omega_0, beta: sqrt(omega_0**2 - beta**2)) if inputs else lambda: value,
-        inputs,
+        lambda equation, q, *both: sqrt(both[0] ** 2 - both[1] ** 2) if both else value,
+        {**of, **made},
         key=symbol.name,
         lines=Lines(put_in=None, result=False),
         outcome=outcome,
-        phrase_data=PhraseData(outcome_data={each: coefficients[each] for each in "abc"}),
-        parents=[coefficients["equation"]],
-        facts=[NamesValue()],
     )
