@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 from sympy import Add, Expr, Integer, Mul, Pow, Symbol, expand, factor_list, sqrt
 
-from derive.algebra.collect import spread
+from derive.algebra.collect import LONGEST_PRODUCT, spread
 from derive.algebra.expressions import Relation
+from derive.algebra.length import length
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -17,7 +18,6 @@ from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import Quantity
 
 TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
-LARGEST_PRODUCT = 60  # number of operations up to which a sum is tested for being a product
 
 
 class Isolated(NamedTuple):
@@ -80,7 +80,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
 def _in_factors(core: Expr) -> Expr:
     """Factor the sum if it is a product of sums, such as (k - m w^2) (c - m w^2)."""
-    if core.count_ops() > LARGEST_PRODUCT or not core.is_polynomial():
+    if length(core) > LONGEST_PRODUCT or not core.is_polynomial():
         return tidied(core)
     number, factors = factor_list(core)
     sums = [(factor, times) for factor, times in factors if isinstance(factor, Add)]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from sympy import Expr, MatrixBase, Symbol
+from sympy import Expr, Symbol
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
@@ -104,17 +104,10 @@ def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
 
 def _named(quantities: Iterable[Quantity]) -> Iterator[Proposal]:
     for quantity in quantities:
-        for symbol, value in _named_values(quantity):
+        for symbol, value in ((symbol, explicit(value)) for symbol, value in quantity.named_values):
             if isinstance(symbol, Symbol) and isinstance(value, Expr) and value.free_symbols:
                 yield Proposal(symbol, value, partial(_itself, quantity))
 
 
 def _itself(quantity: Quantity) -> Quantity:
     return quantity
-
-
-def _named_values(quantity: Quantity) -> list[tuple[Any, Any]]:
-    """Symbol and value; for several results of one step, such as (r_0, theta_0), each symbol with its value."""
-    symbol, value = quantity.symbol, explicit(quantity.value)
-    is_list = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
-    return list(zip(symbol, value, strict=True)) if is_list else [(symbol, value)]

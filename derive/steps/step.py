@@ -163,6 +163,13 @@ class Quantity:
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
 
+    @property
+    def named_values(self) -> list[tuple[Any, Any]]:
+        """Return each symbol that the step introduces, with its value; the results (r_0, theta_0) have two symbols."""
+        if isinstance(self.symbol, MatrixBase) and isinstance(self.value, MatrixBase):
+            return list(zip(self.symbol, self.value, strict=True))
+        return [(self.symbol, self.value)] if isinstance(self.symbol, Symbol) else []
+
     def fact(self, kind: type[F]) -> F | None:
         """Return the fact of this kind that the quantity carries, or None."""
         return next((fact for fact in self.facts if isinstance(fact, kind)), None)

@@ -12,7 +12,6 @@ from typing import Any
 from sympy import (
     Expr,
     Integer,
-    MatrixBase,
     Poly,
     Rational,
     Symbol,
@@ -105,21 +104,13 @@ def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
 def is_value_of_the_symbol(facts: Judged, found: Expr) -> bool:
     """Whether the length is the value of the symbol that the sentence names."""
     told = facts.inputs["length"]
-    values = [explicit(value) for q in facts.quantities.values() for name, value in named_values(q) if name == told]
+    values = [explicit(value) for q in facts.quantities.values() for name, value in q.named_values if name == told]
     return found == facts.result and any(_agree(value, found) for value in values)
 
 
 def _agree(one: Expr, other: Expr) -> bool:
     """Whether two values agree at all trial points."""
     return everywhere(numbers([one, other]), lambda point: same(value_at(one, point), value_at(other, point)))
-
-
-def named_values(quantity: Quantity) -> Iterator[tuple[Any, Expr]]:
-    """Yield each symbol that a step introduces, with its value."""
-    if isinstance(quantity.symbol, Symbol):
-        yield quantity.symbol, quantity.value
-    elif isinstance(quantity.symbol, MatrixBase) and isinstance(quantity.value, MatrixBase):
-        yield from zip(quantity.symbol, quantity.value, strict=True)
 
 
 def swings_in_the_field(facts: Judged) -> bool:
@@ -174,7 +165,7 @@ def closes_for(ratio: int) -> Naming:
 
 def rate_on_the_circle(facts: Judged, told: Any) -> bool:
     """Whether the rate in letters, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
-    names = dict(entry for q in facts.quantities.values() for entry in named_values(q))
+    names = dict(entry for q in facts.quantities.values() for entry in q.named_values)
     letters = told.right if isinstance(told, Relation) else told
     return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
 

@@ -87,7 +87,7 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
         worth_it = not isinstance(length, Symbol) and simple(length, 6) and _has_rational_factors(length)
         return ("length", {"length": length}, []) if worth_it else None
     for step in view.shown:
-        for name, value in claims.named_values(step):
+        for name, value in step.named_values:
             if isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - length):
                 return "named", {"length": name, "equal": length}, [step]
     for letter in view.of_kind("length"):
