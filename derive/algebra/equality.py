@@ -46,6 +46,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.normal_form import is_identity, vanishes
 from derive.algebra.ranges import has_meaning, never_vanishes_within, strict_sign_within, without_abs
+from derive.algebra.relation import TURNED
 from derive.algebra.samples import (
     DIGITS,
     NoNumber,
@@ -271,8 +272,6 @@ def _refutation(sample: Sample) -> Verdict:
 
 # --- relations -------------------------------------------------------------------------------------------------------
 
-_TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
-
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     """Whether two equations or inequalities are equivalent: their residuals must differ by a factor of known sign."""
@@ -398,7 +397,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
     inequality."""
     if left in {"=", "!="} or right in {"=", "!="}:
         return left == right
-    return bool(sign) and left == (right if sign > 0 else _TURNED[right])
+    return bool(sign) and left == (right if sign > 0 else TURNED[right])
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
@@ -406,9 +405,11 @@ def _both_squared(left: Relation, right: Relation) -> bool:
     x^2 > y^2."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
-        if difference != 0 and all(side.is_nonnegative for side in roots.sides):
+        if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):
             factor = _ratio(squares.residual, difference)
-            if factor.is_positive and vanishes(squares.residual - factor * difference):
+            if (factor.is_positive or strict_sign_within(factor) == 1) and vanishes(
+                squares.residual - factor * difference
+            ):
                 return True
     return False
 

@@ -42,6 +42,7 @@ from sympy.polys.polyerrors import PolynomialError
 from derive.algebra.expressions import Relation
 from derive.algebra.length import length
 from derive.algebra.ranges import Range, sign_within, within
+from derive.algebra.relation import TURNED
 from derive.algebra.tidy import common_factor, tidied
 
 MOST_TOGETHER = 3  # quantities that one form may use
@@ -75,20 +76,29 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
     if not isinstance(value, Expr | Relation) or _size(value) > LONGEST:
         return None
     names = {_with_sign(name, known): name for name, known in quantities.items()}
+    real = {part: Dummy(positive=True) for known in quantities.values() for part in _functions_under_roots(known)}
+    named = {dummy: part for part, dummy in real.items()}
     near = {
-        dummy: quantities[name] for dummy, name in names.items() if quantities[name].free_symbols & value.free_symbols
+        dummy: quantities[name].xreplace(real)
+        for dummy, name in names.items()
+        if quantities[name].free_symbols & value.free_symbols
     }
-    best, least = None, _cost(value)
+    kept, least, best = {*kept, *named}, _cost(value), None
+    value = value.xreplace(real)
     for some in _some_of(near):
         chosen = {name: near[name] for name in some}
         # a formula itself, such as a reduced mass, may also be replaced
         whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
         for known in (whole, *_eliminations(chosen, kept)):
-            form = _with(value, known, chosen)
-            cost = _cost(form.value)
+            form = _with(value, known, chosen, kept)
+            cost = _cost(form.value.xreplace(named))
             if cost < least and _is_natural(form.value, chosen):
                 best, least = form, cost
-    return best and Shortened(best.value.xreplace(names), tuple(map(names.get, best.used)), best.nonzero)
+    return best and Shortened(
+        best.value.xreplace({**names, **named}),
+        tuple(map(names.get, best.used)),
+        tuple(factor.xreplace(named) for factor in best.nonzero),
+    )
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
@@ -109,8 +119,18 @@ def _with_sign(name: Symbol, value: Expr) -> Symbol:
 
 
 def is_positive(value: Expr) -> bool:
-    """Whether a value is positive wherever it is real and not zero."""
-    return sign_within(value) == 1 or value.is_Pow and value.exp == HALF
+    """Whether a value is positive wherever it is real and not zero: each factor is positive, except that one may be a
+    square root."""
+    others = [factor for factor in Mul.make_args(value) if sign_within(factor) != 1]
+    return not others or len(others) == 1 and others[0].is_Pow and others[0].exp == HALF
+
+
+def _functions_under_roots(value: Expr) -> Iterator[Expr]:
+    """Yield sin(beta) for sqrt(g sin(beta)/h): wherever the value is real and not zero, this factor is positive."""
+    if is_positive(value):
+        roots = (factor for factor in Mul.make_args(value) if factor.is_Pow and factor.exp in (HALF, -HALF))
+        bases = (root.base for root in roots if sign_within(root.base) != 1)
+        yield from (base for base in bases if isinstance(base, Function))
 
 
 def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
@@ -175,37 +195,46 @@ def _solved_together(choice: Sequence[tuple[Symbol, Expr]]) -> dict[Symbol, Expr
     return None if any(known.free_symbols & gone for known in found.values()) else found
 
 
-def _with(value: Any, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr]) -> Shortened:
+def _with(
+    value: Any, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]
+) -> Shortened:
     with within(_ranges(quantities)):
         if isinstance(value, Relation):
-            return _relation(value, known, tuple(quantities))
+            return _relation(value, known, quantities, is_motion=not value.free_symbols.isdisjoint(kept))
         return Shortened(_written(value, known), tuple(quantities))
 
 
-def compared(left: Expr, mark: str, right: Expr) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
+def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
+    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions. A number
+    that is compared with an expression is on the right."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
     numbers = [side.as_coeff_Mul()[0] for side in (left, right)]
     common = igcd(*(n.p for n in numbers)) if all(n.is_Integer for n in numbers) else 1
     left, right = left / common, right / common
+    if left.is_number and not right.is_number:
+        left, mark, right = right, TURNED[mark], left
     roots = [tidied(sqrt(side)) for side in (left, right)]
-    plain = all(root.is_rational_function() and root.is_positive for root in roots)
+    plain = takes_roots and all(root.is_rational_function() and root.is_positive for root in roots)
     return Relation(roots[0], mark, roots[1]) if plain else Relation(left, mark, right)
 
 
-def _relation(value: Relation, known: Mapping[Expr, Expr], used: tuple[Symbol, ...]) -> Shortened:
+def _relation(
+    value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
+) -> Shortened:
     """Rewrite both sides, term by term; divide an equation with zero on the right by the positive symbols that all
-    terms on the left have in common."""
+    terms on the left have in common. Any other relation between constants is divided by the factors of both sides."""
+    used = tuple(quantities)
     left, right = (Add(*(_written(term, known) for term in Add.make_args(side))) for side in (value.left, value.right))
-    if value.operator != "=" and left != 0 and right != 0:
-        return Shortened(compared(left, value.operator, right), used)
+    if not (is_motion and value.operator == "=") and left != 0 and right != 0:
+        is_sure = not any(formula.atoms(Dummy) for formula in quantities.values())  # no function stands in as positive
+        return Shortened(compared(left, value.operator, right, is_sure), used)
     if value.operator != "=" or right != 0:
         return Shortened(Relation(left, value.operator, right), used)
-    front = [
-        f for f in Mul.make_args(factor_terms(left)) if f.is_positive and (f.is_Symbol or f.is_Pow or f.is_Rational)
-    ]
+    factors = Mul.make_args(factor_terms(left))
+    front = [f for f in factors if f.is_positive and (f.is_Symbol or f.is_Pow or f.is_Rational)]
+    front = [f for f in front if all(Mul(*(o for o in factors if o != f)).has(s) for s in f.free_symbols & {*used})]
     divided = Add(*(term / Mul(*front) for term in Add.make_args(left)))
     return Shortened(Relation(divided, "=", Integer(0)), used, tuple(f for f in front if not f.is_Rational))
 

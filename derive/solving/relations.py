@@ -9,15 +9,13 @@ from sympy import Add, Expr, Integer, Mul, Pow, Symbol, expand, factor_list, sqr
 from derive.algebra.collect import LONGEST_PRODUCT, spread
 from derive.algebra.expressions import Relation
 from derive.algebra.length import length
-from derive.algebra.relation import sides_without_minus
+from derive.algebra.relation import TURNED, sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
 from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import Quantity
-
-TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
 
 
 class Isolated(NamedTuple):

@@ -51,6 +51,7 @@ from sympy import (
 from derive.algebra.equality import Grade, Verdict, equal
 from derive.algebra.expressions import PLUS_MINUS, Cross, Dot, Relation, column, rate
 from derive.algebra.normal_form import vanishes
+from derive.algebra.ranges import Range, within
 
 x, y, t = symbols("x y t", real=True)
 a, b, c = symbols("a b c", positive=True)
@@ -569,3 +570,11 @@ def test_what_has_values_at_hardly_any_point_is_not_sampled() -> None:
     w = symbols("w", negative=True)
     k, p = symbols("k p", real=True)
     assert equal(w**k * Abs(p), w**k * p).grade is Grade.REFUTED
+
+
+def test_squared_sides_that_are_positive_in_a_range() -> None:
+    """b^2 < 4 sin(x) and b < 2 sqrt(sin(x)) are equivalent for 0 < x < pi, but not for every x."""
+    squares, roots = Relation(b**2, "<", 4 * sin(x)), Relation(b, "<", 2 * sqrt(sin(x)))
+    assert not equal(squares, roots)
+    with within({x: Range(Integer(0), pi)}):
+        assert equal(squares, roots)

@@ -46,6 +46,20 @@ statement: A cone of mass <<M>>, radius <<R>> and height <<h>>.
 parts:
   - {ask: Find it., answer: [ANSWER]}
 """
+INCLINE = """\
+title: A block on an incline
+solve: system
+symbols: {m: mass, h: length, g: acceleration, beta: angle}
+define: {DEFINE}
+given:
+  coordinates: {x: length}
+  particles: {block: {mass: m, at: [x*cos(beta), -x*sin(beta)]}}
+  potential: m*g*sin(beta)*(x**2/(2*h) - x)
+  at: {x: h}
+statement: A block of mass <<m>> on an incline with the angle <<beta>>. The length <<h>> and <<g>> are given.
+parts:
+  - {ask: Find it., answer: [ANSWER]}
+"""
 
 
 def asking(text: str, define: str, answer: str) -> str:
@@ -165,3 +179,21 @@ def test_a_value_in_defined_quantities_is_substituted_in_a_later_line(tmp_path: 
     define = "\ndefine: {omega_c: sqrt(g/R), nu: sqrt(omega**2 - omega_c**2)}\ngiven:"
     found = rendered(course_with(tmp_path, edited(BEAD, ("\ngiven:", define))), "trial/one", only={"text"})
     assert "√(ω² - ω_c⁴/ω²) = ω sin θ_3" in found.texts["text"]
+
+
+@pytest.mark.parametrize("kind", ["angle", "'angle in (0, pi/2)'"])
+def test_a_sine_under_the_root_of_a_definition_is_cancelled(kind: str, tmp_path: Path) -> None:
+    text = edited(asking(INCLINE, "nu: sqrt(g*sin(beta)/h)", "equilibria, period"), ("beta: angle", f"beta: {kind}"))
+    found = solved(tmp_path, text)
+    assert str(found["period"].step.result) == "2*pi/nu"
+    conditions = [str(step.step.result) for step in found.values() if step.step.rule.startswith("rest.")]
+    assert any("nu**2*" in each and "sin" not in each for each in conditions), conditions
+
+
+def test_a_condition_and_its_border_are_short(tmp_path: Path) -> None:
+    turning = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
+    found = solved(tmp_path, edited(turning, ("{omega_c: sqrt(g/R)}", "{eta: g/(omega**2*R)}")))
+    roles = [dict(step.step.roles) for step in found.values()]
+    borders = {str(each["border"]) for each in roles if "border" in each}
+    conditions = {str(each["condition"]) for each in roles if "condition" in each}
+    assert borders == {"eta = 1"} and "eta > 1" in conditions

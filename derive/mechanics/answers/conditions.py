@@ -12,6 +12,7 @@ from sympy.core.symbol import Str
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
 from derive.algebra.expressions import bound as with_those
+from derive.algebra.relation import TURNED
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -20,7 +21,7 @@ from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letter, Value, in_results
 from derive.solving.attainable import existence
 from derive.solving.divisors import may_vanish
-from derive.solving.relations import TURNED, conditions_told, divided_out, number_of, solved_for_unknown, unsolvable
+from derive.solving.relations import conditions_told, divided_out, number_of, solved_for_unknown, unsolvable
 from derive.solving.unknowns import unknown_of, with_unknown
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers

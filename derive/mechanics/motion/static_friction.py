@@ -10,12 +10,13 @@ from sympy import Add, Dummy, Expr, Integer, Mul, Symbol, cos, sin, tan, togethe
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.relation import TURNED
 from derive.algebra.samples import NoNumber, Undefined, points, seed_of
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.model.constraint import Constrained, Constraint, StaticLimit
 from derive.solving.presentation import presented
-from derive.solving.relations import TURNED, divided_out, number_of, positive, solved_for_unknown
+from derive.solving.relations import divided_out, number_of, positive, solved_for_unknown
 from derive.solving.unknowns import mark_for
 from derive.steps.signs import sign_known
 from derive.steps.step import Form, Quantity
