@@ -241,7 +241,7 @@ given:
   surfaces: {table: {through: [0, 0], along: [1, 0]}}
   contacts: {of: rope, on: table}
   strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
-  potential: -M*g*x**2/(2*l)
+  gravity: g
 statement: A rope <<M>> <<l>> <<g>>.
 parts:
   - {ask: Find the acceleration., answer: acceleration_x}

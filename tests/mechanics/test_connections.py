@@ -606,7 +606,7 @@ given:
   coordinates: {x: positive length}
   particles: {rope: {mass: M, at: [x - l, 0]}}
   strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
-  potential: -M*g*x**2/(2*l)
+  gravity: g
 statement: A rope <<M>> <<l>> <<g>>.
 parts:
   - ask: How does it move?
@@ -620,6 +620,18 @@ def test_a_rope_over_an_edge_moves_as_the_particle_with_its_mass(tmp_path: Path)
     assert (solved(tmp_path, ROPE)["acceleration_x"].value - g * x / l).simplify() == 0
 
 
+def test_gravity_acts_on_the_pieces_of_a_rope_on_both_sides_of_a_peg(tmp_path: Path) -> None:
+    """If x hangs on one side and l - x on the other, M x_ddot is the difference of the weights, M g (2 x - l)/l."""
+    over_a_peg = edited(ROPE, ("from: [x - l, 0]", "from: [0, x - l]"), ("at: [x - l, 0]", "at: [x - l, 3*l]"))
+    x, g, l = symbols("x g l", positive=True)
+    assert (solved(tmp_path, over_a_peg)["acceleration_x"].value - g * (2 * x - l) / l).simplify() == 0
+
+
+def test_gravity_changes_nothing_for_a_rope_whose_pieces_keep_their_height(tmp_path: Path) -> None:
+    level = edited(ROPE, ("to: [0, -x]", "to: [x, 0]"))
+    assert solved(tmp_path, level)["acceleration_x"].value == 0
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
@@ -630,6 +642,7 @@ def test_a_rope_over_an_edge_moves_as_the_particle_with_its_mass(tmp_path: Path)
             "must move along themselves",
         ),
         ([("length: l, mass_of", "length: l, tension: S, mass_of")], "so the force `S` does not appear"),
+        ([("gravity: g", "gravity: g\n  potential: -M*g*x**2/(2*l)")], "which the weight already includes"),
         ([("mass_of: rope", "mass_of: roap")], "`roap` is not a body or particle of this system"),
     ],
 )

@@ -16,7 +16,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import body_at
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, unknown
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.acted_on import ActsOnNothing
+from derive.mechanics.model.acted_on import WrongPart
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.described import Struck, places_that_move_alone
 from derive.mechanics.model.material import material_point
@@ -229,7 +229,7 @@ class Impact:
             act, place = asked[i]
             message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: the place moves with no body"
             help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
-            raise ActsOnNothing.of(act, Complaint("which-body", message, help=help_line))
+            raise WrongPart.of(act, Complaint("which-body", message, help=help_line))
 
     def _particle(self, of: Any, at: Vector) -> Vector:
         """Return the place of the material point on which the impulse acts, as a function of the coordinates."""

@@ -23,13 +23,13 @@ WHERE_IT_ACTS: Mapping[str, str] = {
 }
 
 
-class ActsOnNothing(Rejected):
-    """The error for a part of a system that acts on no particle, or whose reaction acts on an unknown body."""
+class WrongPart(Rejected):
+    """The error for one part of a system, such as a force that acts on no particle."""
 
     part: Any = None
 
     @classmethod
-    def of(cls, part: Any, complaint: Complaint) -> ActsOnNothing:
+    def of(cls, part: Any, complaint: Complaint) -> WrongPart:
         found = cls(complaint)
         found.part = part
         return found
@@ -66,7 +66,7 @@ def _check_particles(system: WithParts) -> None:
         part, what, place = acting[i]
         where = ", ".join(map(str, place))
         message = f"the {what} at ({where}) acts on no particle: the place moves with no body or particle of the system"
-        raise ActsOnNothing.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
+        raise WrongPart.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
 
 
 def _check_gradients(system: WithParts) -> None:
@@ -76,7 +76,7 @@ def _check_gradients(system: WithParts) -> None:
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
         message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
         help_line = "use the constraint without a square: `x - y` in place of `(x - y)**2`"
-        raise ActsOnNothing.of(part, Complaint("constrained", message, help=help_line))
+        raise WrongPart.of(part, Complaint("constrained", message, help=help_line))
 
 
 def _check_partners(system: WithParts) -> None:
@@ -97,4 +97,4 @@ def _check_partners(system: WithParts) -> None:
     (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
     message = f"a force with {letter} acts between two bodies, but the body that exerts it is not stated"
     help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
-    raise ActsOnNothing.of(open_[0], Complaint("which-body", message, help=help_line))
+    raise WrongPart.of(open_[0], Complaint("which-body", message, help=help_line))

@@ -53,6 +53,10 @@ class Part:
         """Pairs of the name of the part and a place; it is not stated on which object the part acts there."""
         return ()
 
+    def weighed(self, gravity: Expr) -> Sequence[Any]:
+        """Return the weight of the part, if it is not that of `masses` at their places."""
+        return ()
+
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
         """The forces with a potential energy."""
         return ()

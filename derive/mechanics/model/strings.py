@@ -16,8 +16,10 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.dalembert import Load
+from derive.mechanics.model.forces import StoredEnergy
 from derive.mechanics.model.no_slip import velocity_at
-from derive.mechanics.model.part import moved
+from derive.mechanics.model.part import Part, moved
 from derive.mechanics.model.surfaces import column_of, direction_between, distance_between, dot, raw_distance
 from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
@@ -61,9 +63,50 @@ class Line(Connection):
         """The ends, and the centres of the pulleys between them."""
         return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
 
+    def weighed(self, gravity: Expr) -> Sequence[Part]:
+        """Return the weight of a rope, unless all its pieces keep their height."""
+        if self.rope is None:
+            return ()
+        found = _weight_of_rope(self.places, self.rope, gravity)
+        return (found,) if coordinates_in(found.energy) else ()
+
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through = (e.moved(known) if isinstance(e, Pulley) else e.with_values(known) for e in self.through)
         return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known))
+
+
+@dataclass(frozen=True)
+class WeightOfRope(StoredEnergy):
+    """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
+
+    energy   the sum of (mass) g (height of the middle) over the straight pieces, minus that of the particle, J
+    force    if all pieces move by ds along the rope, the weight does the work (M/l) g (y_0 - y_1) ds, with the heights
+             y_0 and y_1 of the two ends; this is the work of a force along the rope on the first end
+    at       the first end
+    """
+
+    force: tuple[Expr, ...]
+    at: tuple[Expr, ...]
+
+    def moved(self, known: Mapping[Symbol, Expr]) -> WeightOfRope:
+        force, at = (tuple(c.subs(known) for c in each) for each in (self.force, self.at))
+        return WeightOfRope(self.energy.subs(known), force, at)
+
+    def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
+        return [Load(self.force, self.at)]
+
+
+def _weight_of_rope(places: Sequence[Location], particle: Any, gravity: Expr) -> WeightOfRope:
+    pieces = list(pairwise(places))
+    lengths = _kept_lengths(pieces)
+    assert lengths is not None, "a string without a symbol for its tension has a constant length"
+    per_length = particle.mass * gravity / tidied(Add(*lengths))
+    middles = [(one.height + other.height) / 2 for one, other in pieces]
+    energy = per_length * Add(*(size * y for size, y in zip(lengths, middles, strict=True)))
+    along = (c / lengths[0] for c in (places[1] - places[0]).components)
+    pull = per_length * (places[0].height - places[-1].height)
+    lowest = tidied(energy - particle.mass * gravity * particle.at.height)
+    return WeightOfRope(lowest, tuple(tidied(pull * c) for c in along), places[0].components)
 
 
 @dataclass(frozen=True)
@@ -133,7 +176,7 @@ def string(
                  the coordinates allow the length to change
     mass_of      for a uniform rope: the particle whose mass is that of the rope. All pieces of the rope must have the
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
-                 height of the particle must be constant; give the potential energy of the rope with `potential`
+                 height of the particle must be constant; gravity acts on each piece of the rope
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
@@ -162,7 +205,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope moves up or down, but its weight is not that of the rope"
-        help_line = "put the particle at a constant height, and give the potential energy of the rope as `potential`"
+        help_line = "put the particle at a constant height; gravity acts on each piece of the rope"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
 
@@ -274,18 +317,22 @@ def _touched(each: Any, k: int) -> list[Location]:
 
 
 def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    """Return the total length of the pieces if it contains neither coordinates nor the time; otherwise None.
+    """Return the total length of the pieces if it contains neither coordinates nor the time; otherwise None."""
+    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces])
+    return tidied(Add(*lengths)) if lengths is not None else None
+
+
+def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | None:
+    """Return the lengths of the pieces if their sum is constant; otherwise None.
 
     The length of a piece on a fixed line is u or -u. All choices of the signs are tried until the sum is constant.
     """
-    lengths = []
-    for piece in pieces:
-        length = raw_distance(piece.start, piece.end)
-        lengths.append(length.replace(Abs, lambda size: size))
+    lengths = [raw_distance(*piece).replace(Abs, lambda size: size) for piece in pieces]
     for signs in product((1, -1), repeat=len(lengths)):
-        whole = tidied(Add(*(sign * length for sign, length in zip(signs, lengths, strict=True))))
+        signed = [sign * length for sign, length in zip(signs, lengths, strict=True)]
+        whole = tidied(Add(*signed))
         if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])):
-            return -whole if whole.could_extract_minus_sign() else whole
+            return [-each for each in signed] if whole.could_extract_minus_sign() else signed
     return None
 
 

@@ -21,7 +21,7 @@ from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.placed import Placeable, PlacedBody, central_second_moments
 from derive.mechanics.bodies.possible import require_positive
 from derive.mechanics.kinematics.places import Axes, Location
-from derive.mechanics.model.acted_on import check_what_is_acted_on
+from derive.mechanics.model.acted_on import WrongPart, check_what_is_acted_on
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.dalembert import Load, MassPoint, Matter
 from derive.mechanics.model.described import Described, described
@@ -277,7 +277,7 @@ class System:
         known = dict(_known_by(condition) for condition in self.conditions)
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
-        made = (_as_part(part) for part in parts if not isinstance(part, Quantity))
+        made = _with_weights([_as_part(part) for part in parts if not isinstance(part, Quantity)])
         # bodies are last, because sums over all masses begin with the particles
         self._described = tuple(sorted(made, key=lambda part: isinstance(part, MovingBody)))
         self.put_in = tuple(c for c in self.conditions if _is_put_into(c, self._described))
@@ -388,6 +388,17 @@ class System:
         others = [load for part in self.parts for load in part.other_loads(moving)]
         fields = [field for part in self.parts for field in part.fields]
         return Matter(tuple(points), tuple(loads), tuple(moving), tuple(others), tuple(fields))
+
+
+def _with_weights(parts: Sequence[Part]) -> list[Part]:
+    """Return the parts, and the weights of those whose mass is not at one place, such as a rope."""
+    gravity = next((part.gravity for part in parts if isinstance(part, Weight)), None)
+    weights = [] if gravity is None else [each for part in parts for each in part.weighed(gravity)]
+    for each in (part for part in parts if isinstance(part, StoredEnergy)):
+        if any(not coordinates_in(tidied(each.energy - own.energy)) for own in weights):
+            message = f"{each.energy} is the potential energy of a rope in gravity, which the weight already includes"
+            raise WrongPart.of(each, Complaint("twice", message, help="leave this `potential` out"))
+    return [*parts, *weights]
 
 
 def _as_part(part: Part | PlacedBody) -> Part:

@@ -320,7 +320,8 @@ class StringKeys(Record):
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
     mass_of: Word | None = key(
-        "for a uniform rope with mass: the particle that has its mass and moves with its speed, at a constant height",
+        "for a uniform rope with mass: the particle that has its mass and moves with its speed, at a constant height; "
+        "`gravity` acts on each piece of the rope",
         TEXT,
     )
 

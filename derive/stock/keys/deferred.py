@@ -15,7 +15,7 @@ from derive.course.stock import told_at
 from derive.errors import Place
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.acted_on import ActsOnNothing
+from derive.mechanics.model.acted_on import WrongPart
 
 N = TypeVar("N")
 
@@ -91,7 +91,7 @@ def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherw
     with told_at(otherwise):
         try:
             yield
-        except ActsOnNothing as error:
+        except WrongPart as error:
             pairs = zip(described, made, strict=True)
             with told_at(next((part.place for part, own in pairs if error.part in parts_of(own)), None)):
                 raise
