@@ -466,6 +466,10 @@ WRONG = {
         edited(POLAR, ("answer: equations_of_motion", "answer: kinetic_energy")),
         "so it has no effect",
     ),
+    "both methods for accelerations": (
+        edited(POLAR, ("method: newton", "method: both"), ("answer: equations_of_motion", "answer: accelerations")),
+        "shows Lagrange's equations only among the `equations_of_motion`",
+    ),
     "a method that does not exist": (edited(POLAR, ("method: newton", "method: hamilton")), "`method` must be"),
     "energy that friction takes": (
         edited(

@@ -28,7 +28,7 @@ LAWS = ("newton.second_law", "newton.torque_law")
 OF_IMPACTS = ("impacts.momentum_law", "impacts.angular_momentum_law")
 RULES: Mapping[str, tuple[str, ...]] = {  # method -> the rules by which it derives an equation
     NEWTON: (*LAWS, *OF_IMPACTS),
-    BOTH: LAWS,
+    BOTH: ("newton.agreement_of_laws",),
     ENERGY: ("newton.energy_equation", "newton.total_energy"),
     ANGULAR_MOMENTUM: ("newton.torque_law", *OF_IMPACTS),
 }
@@ -65,6 +65,10 @@ def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
         return
     steps = with_ancestors(returned_quantities(list(answers.values())))
     if not any(each.step.rule in RULES[method] for each in steps.values()):
+        if method == BOTH:
+            message = "`method: both` shows Lagrange's equations only among the `equations_of_motion`"
+            help_line = "let a part ask for `equations_of_motion`, or write `method: newton`"
+            rejected("method", f"{message}, and no part asks for these", method.place, help_line)
         message = f"no answer here is derived by `method: {method}`, so it has no effect"
         rejected("method", message, method.place, "leave it out")
 
