@@ -11,13 +11,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Symbol
+from sympy import Expr, Symbol
 
 from derive.algebra.expressions import Amount
 from derive.course.given import Measured
-from derive.course.placement import HIDDEN, STATEMENT, Placement
+from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
-from derive.errors import Complaint, Rejected, did_you_mean
+from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
 from derive.page.plots import Curve, Curves, curves_of, panel_letters, told_value, with_unit
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
@@ -59,7 +59,8 @@ def depictions(
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
     """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
-    faults = _unknown(problem, drawings) + [f for drawing in drawings for f in _without_letter(problem, drawing)]
+    faults = _unknown(problem, drawings)
+    faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
     for drawing in drawings:
@@ -129,8 +130,14 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each name that has a value for a drawing but is a symbol of neither drawing nor problem."""
+    """Return an error for values for a plot, and for each name with a value that is a symbol of neither drawing nor
+    problem."""
     placement = placement_of(problem, drawing.key)
+    if isinstance(drawing, m.Plot):
+        message = f"`values` has no effect on the plot `{drawing.key}`"
+        help_line = "write the numbers under its `cases`, `cases: [{l: 1 m}]`, or under the `values` of the problem"
+        place = next(iter(placement.names.values()), None) if placement else None
+        return [Complaint("unused-key", message, place, help=help_line)] if place else []
     letters = {symbol.name for symbol in drawing.letters}
     return [
         Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
@@ -140,17 +147,45 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     ]  # fmt: skip
 
 
+def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
+    """Return an error for each case of a plot that repeats a case, and for each number of the horizontal axis."""
+    placement = placement_of(problem, drawing.key)
+    found: list[Complaint] = []
+    if placement is None or not isinstance(drawing, m.Plot):
+        return found
+    before: list[dict[Symbol, Expr]] = []
+    for i, case in enumerate(placement.cases):
+        for number in (each for each in case if each.symbol == drawing.variable):
+            message = f"`{number.symbol}` varies along the horizontal axis of `{drawing.key}`, so it has no number"
+            found.append(Complaint("unused-key", message, number.place, help="leave it out"))
+        numbers = {number.symbol: number.si for number in (*placement.cases[0], *case)}
+        if numbers in before:
+            place = case[0].place if case else placement.place
+            same = case_label(before.index(numbers))
+            message = f"case {case_label(i)} of the plot `{drawing.key}` is the same as case {same}"
+            found.append(Complaint("twice", message, place, help="change a number, or leave the case out"))
+        before.append(numbers)
+    return found
+
+
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
     """Return a warning for each symbol of the problem that has a value for a drawing but does not occur there."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
         letters = {symbol.name for symbol in drawing.letters}
-        for name, place in placement.names.items() if placement else ():
+        for name, place in _with_values(problem, placement).items() if placement else ():
             if name not in letters and name in problem.symbols:
                 message = f"`{name}` does not occur in the drawing `{drawing.key}`, so its value is not used"
                 found.append(Complaint("unused-letter", message, place, severity="warning"))
     return found
+
+
+def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | None]:
+    """Return the symbols with a value for a drawing, or with a number in cases that no part uses for its answers."""
+    is_for_parts = any(part.cases == placement.key for part in problem.parts)
+    cases = () if is_for_parts else placement.cases
+    return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:

@@ -16,6 +16,7 @@ from derive.algebra.equality import Compared
 from derive.algebra.expressions import Amount, rate
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
+from derive.course.placement import STATEMENT
 from derive.course.problem import Problem
 from derive.course.prose import latex_in
 from derive.course.reference.comparison import Told
@@ -253,17 +254,22 @@ class _Writer:
         blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
-        return PartPage(label, self._question(part, own), part.points, placed, part.extra)
+        return PartPage(label, self._question(label, part, illustrations), part.points, placed, part.extra)
 
-    def _question(self, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
+    def _question(self, label: str, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
         """Return the question of a part, with the numbers of the cases of a plot if the part asks for these numbers or
         mentions `<<cases>>`. A plot that only illustrates an answer has its numbers in its caption."""
-        is_mentioned = any(mention.name == CASES and not mention.of for mention in part.ask.mentions)
-        plots = {part.cases, *(drawing.key for drawing in drawings if is_mentioned)}
-        cases = [each.cases for each in self.problem.drawings if each.key in plots and each.cases]
+        mentioned = next((each for each in part.ask.mentions if each.name == CASES and not each.of), None)
+        with_cases = {each.key: each.cases for each in self.problem.drawings if each.cases}
+        there = [drawing for drawing in drawings if drawing.key in with_cases]
+        plots = {part.cases, *(drawing.key for drawing in there if mentioned and drawing.at == label)}
+        cases = [numbers for key, numbers in with_cases.items() if key in plots]
+        if mentioned and not cases and CASES not in self.page_names:
+            self.faults.append(_without_cases(mentioned.place, label, there))
+            return ()
         numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
         asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
-        if is_mentioned or all(are_told(each, asked) for each in cases):
+        if mentioned or all(are_told(each, asked) for each in cases):
             return asked
         return (*asked, *take(numbers, self.words))
 
@@ -389,6 +395,17 @@ class _Writer:
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
+
+
+def _without_cases(place: Place, label: str, plots: Sequence[Illustration]) -> Complaint:
+    """Return the error for `<<cases>>` in a part without a plot that has cases; `plots` are those of other parts."""
+    help_line = "give `cases` to a plot in this part"
+    if plots:
+        key, at = plots[0].key, plots[0].at
+        where = "the statement" if at == STATEMENT else f"part {at}"
+        help_line = f"the plot `{key}` is in {where}: mention `<<{CASES}>>` there, or move the plot with `at: {label}`"
+    message = f"`<<{CASES}>>` prints the numbers of a plot in its part, but no plot in part {label} has `cases`"
+    return Complaint("undefined-name", message, place, help=help_line)
 
 
 def _punctuated(blocks: list[Block]) -> tuple[Block, ...]:

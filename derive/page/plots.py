@@ -99,7 +99,7 @@ def _curve(
     if missing:
         listed = ", ".join(f"`{name}`" for name in missing)
         place = placement.place if placement else problem.place_of("solve")
-        help_line = "write the number under `values:`, or under `cases:` of the drawing"
+        help_line = "write the number under the `values` of the problem, or under the `cases` of the drawing"
         raise Rejected(
             Complaint("drawing", f"the plot `{plot.key}` needs a number for {listed}", place, help=help_line)
         )

@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 from sympy import Symbol, cos, pi, sin
 
+from derive.building.solution import rendered
 from derive.course.problem import run_solve
+from derive.errors import DeriveError
 from derive.figures.marks import Plot
 from derive.steps.record import Run
 from tests.courses import ROOT
-from tests.stock.described import edited, loaded, messages
+from tests.stock.described import course_with, edited, loaded, messages
 
 HOOP = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
 
@@ -40,3 +42,46 @@ def test_the_curve_of_an_answer_is_drawn(tmp_path: Path) -> None:
 )
 def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], said: str) -> None:
     assert any(said in each for each in messages(tmp_path, edited(HOOP, *edits)))
+
+
+SLOW = "      - {R: 1 m, m: 1 kg, g: 9.8 m/s^2, omega: 2 rad/s}\n"
+FAST = "      - {omega: 4 rad/s}\n"
+
+
+@pytest.mark.parametrize(
+    ("edits", "line", "said", "helped"),
+    [
+        (
+            [("    cases:\n" + SLOW + FAST, "    values: {R: 1 m}\n"), (", <<cases>>", "")],
+            42,
+            "`values` has no effect on the plot `energy`",
+            "",
+        ),
+        (
+            [("    cases:\n" + SLOW + FAST, ""), (", <<cases>>", "")],
+            36,
+            "needs a number for `R`, `g`, `m`, `omega`",
+            "under the `values` of the problem, or under the `cases` of the drawing",
+        ),
+        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 44, "`theta` varies along the horizontal axis", ""),
+        ([(FAST, "      - {omega: 2 rad/s}\n")], 44, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 44, "case ii of the plot `energy` is the same as case i", ""),
+        (
+            [("    at: c\n", "    at: d\n")],
+            29,
+            "no plot in part c has `cases`",
+            "the plot `energy` is in part d: mention `<<cases>>` there, or move the plot with `at: c`",
+        ),
+        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 43,
+         "`M` does not occur in the drawing `energy`, so its value is not used", ""),
+    ],
+)  # fmt: skip
+def test_what_has_no_effect_on_a_curve_is_reported(
+    tmp_path: Path, edits: list[tuple[str, str]], line: int, said: str, helped: str
+) -> None:
+    try:
+        found = rendered(course_with(tmp_path, edited(HOOP, *edits)), "trial/one", only=("text",)).warnings
+    except DeriveError as error:
+        found = error.complaints
+    told = [(each.place.line if each.place else 0, each.message, each.help or "") for each in found]
+    assert any(at == line and said in message and helped in more for at, message, more in told), told
