@@ -22,13 +22,13 @@ from derive.building.printed import Wanted, printed
 from derive.building.solved import Solved, steps_key
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
-from derive.course.problem import Problem, load_problem, run_solve
+from derive.course.problem import Problem, problem_and_faults, run_solve
 from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, OutOfTime, Rejected, did_you_mean, during
+from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.page.template import template_folder
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
@@ -48,7 +48,7 @@ from derive.steps.memory import Memory
 from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_plain, value_of
 from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
-from derive.stock.keys.observations import observations_of
+from derive.stock.keys.observations import observations_of, with_known_observations
 
 
 def rendered(
@@ -67,15 +67,19 @@ def rendered(
     The other parameters are fields of `Wanted`.
     """
     begun = time.time_ns()
-    problem = load_problem(root, problem_id)
-    _check_characters(problem)
+    problem, faults = problem_and_faults(root, problem_id)
+    with faults:
+        _check_characters(problem)
     phrases(template_folder(root))  # raises errors in the phrases before anything is derived
-    solved, failures = _solved(problem, cache, begun)
-    page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
+    problem = with_known_observations(problem, faults)
+    with faults:
+        solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)
+        page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
+    faults.stop()
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
 
-def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[Complaint, ...]]:
+def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, stored or derived now, and the disagreements with the reference.
 
     Newly derived steps are stored for later builds, unless they disagree with the reference or a file was edited after
@@ -85,12 +89,12 @@ def _solved(problem: Problem, cache: Cache, begun: int) -> tuple[Solved, tuple[C
     with suppress(KeyError):
         return _kept(cache, key), ()
     with calls_of(problem.id, cache) as memory:
-        derivation, values, known, run = derived(problem, memory)
+        derivation, values, known, run = derived(problem, memory, faults)
         with during(lambda: "the comparison with the reference"):
             compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
-    if not failures and not _edited(problem, begun):
+    if not failures and not faults and not _edited(problem, begun):
         with suppress(ValueError, RecursionError):  # steps that JSON cannot represent are derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
@@ -124,10 +128,13 @@ def _check_characters(problem: Problem) -> None:
 
 
 def derived(
-    problem: Problem, memory: Memory | None = None
+    problem: Problem, memory: Memory | None = None, faults: Faults | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
     """Return the derivation of all answers, the steps that evaluate answers numerically, all steps by key, and the
-    record of the run."""
+    record of the run.
+
+    faults   collects errors on which no step depends; by default they are raised
+    """
     run = record.Run(memory=memory)
     try:
         returned = run_solve(problem, run)
@@ -145,20 +152,23 @@ def derived(
     if clashes := letter_clashes(problem, known, run.coordinates):
         raise Rejected(clashes)
     closing = limits_of(problem, known, run)
-    observed = observations_of(problem, known, [list(keys) for keys in asked], run)
+    found = Faults() if faults is None else faults
+    observed = observations_of(problem, known, [list(keys) for keys in asked], run, found)
     derivation = derivation_of(asked, known, run, groups, closing, observed)
     values: dict[str, Step] = {}
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
     for part, answers_of_part in zip(problem.parts, asked, strict=True):
         for key, as_asked in answers_of_part.items():
             cases = problem.cases_of(part)
-            value = _value(problem, part, known[key], as_asked, dimensions) if not cases else None
+            value = _value(problem, part, known[key], as_asked, dimensions, found) if not cases else None
             if value is not None and not _compared_before(value.step, values.values()):
                 values[key] = value.step
             for case, amounts in cases.items():
-                value = _value(problem, part, known[key], as_asked, dimensions, amounts, case)
+                value = _value(problem, part, known[key], as_asked, dimensions, found, amounts, case)
                 if value is not None:
                     values[value.key] = value.step
+    if faults is None:
+        found.stop()
     return derivation, values, known, run
 
 
@@ -198,10 +208,12 @@ def _value(
     answer: Quantity,
     asked: str,
     dimensions: Mapping[Any, Dimension | None],
+    faults: Faults,
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the unit and to the significant figures that the part asks for.
+    """Return the number of an answer, in the unit and to the significant figures that the part asks for; report units
+    that do not fit, and leave them out.
 
     amounts, case   the numbers of one case of the part, and the label of the case; default: the numbers of the problem
     """
@@ -214,7 +226,7 @@ def _value(
         never = answer.value.operator == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
-            raise Rejected(Complaint("wrong-unit", message, form.units[0].place, help="leave its `unit` out"))
+            faults.error("wrong-unit", message, form.units[0].place, help="leave its `unit` out")
         return None
     kind, dimension = _kind_of(problem, answer, dimensions)
     units: list[tuple[str, Expr]] = []
@@ -222,8 +234,9 @@ def _value(
         read = read_unit(unit, unit.place)
         wrong = misfit(read, kind, dimension)
         if wrong:
-            raise Rejected(Complaint(wrong.code, f"`{answer.key}` {wrong.why}", unit.place, help=wrong.help))
-        units.append((unit, read.factor))
+            faults.error(wrong.code, f"`{answer.key}` {wrong.why}", unit.place, help=wrong.help)
+        else:
+            units.append((unit, read.factor))
     first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
     # If all letters of a condition have numbers, its sides are compared, unless the part asks for its bound in a unit.

@@ -14,7 +14,7 @@ from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
 from derive.course.expression import RESERVED, Declared, rational
 from derive.course.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
 from derive.course.yaml_tree import Scalar
-from derive.errors import Place, rejected
+from derive.errors import Place, did_you_mean, rejected
 
 _NUMBER_UNIT = re.compile(
     r"\s*(?P<sign>[-+]?)\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*/\s*(?P<over>\d+))?"
@@ -66,6 +66,11 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     if first and not begins_with_unit(match["unit"]) and (first[1] in symbols or first[1] in RESERVED):
         return None
     start = match.start("unit") + len(match["unit"]) - len(match["unit"].lstrip())
+    if first and not begins_with_unit(match["unit"]) and not did_you_mean(first[1], UNIT_NAMES):
+        message = f"`{first[1]}` is neither a unit nor a declared symbol"
+        declare = f"write a unit; or declare the symbol and write `{match['number']}*{match['unit'].strip()}`"
+        help_of_unit = did_you_mean(first[1], symbols) or declare
+        rejected("unknown-unit", message, scalar.place_within(start, len(first[1])), help_of_unit)
     unit = read_unit(match["unit"], scalar.place_within(start, len(scalar.text.rstrip()) - start))
     text = " ".join(scalar.text.split())
     if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):

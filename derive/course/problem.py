@@ -174,7 +174,15 @@ class Problem:
 
 def load_problem(root: Path, problem_id: str) -> Problem:
     """Return the problem, or raise one `Rejected` with all errors of its file and its script."""
-    faults = Faults()
+    problem, faults = problem_and_faults(root, problem_id)
+    faults.stop()
+    return problem
+
+
+def problem_and_faults(root: Path, problem_id: str) -> tuple[Problem, Faults]:
+    """Return the problem, and the errors in its `drawings:`, on which no step depends; raise all errors if there are
+    others."""
+    faults, of_drawings = Faults(), Faults()
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
     script_path, script = _script(root, path, written.solve, faults)
@@ -186,16 +194,18 @@ def load_problem(root: Path, problem_id: str) -> Problem:
     brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
     moving = pinned.described.letters if pinned.described else {}
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
-    drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), faults)
-    _check_cases(written.parts, drawings, faults)
-    _check_plots(drawings, script, faults)
+    drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)
+    _check_cases(written.parts, drawings, of_drawings)
+    _check_plots(drawings, script, of_drawings)
     asked, given = _asked(written.parts, written.limits, drawings), (pinned.givens, pinned.measured, pinned.described)
-    warnings = () if faults else unused_in(written, asked, *given)
-    faults.stop()
+    warnings = () if faults or of_drawings else unused_in(written, asked, *given)
+    if faults:
+        faults.take(of_drawings)
+        faults.stop()
     assert written.title is not None
     assert written.statement is not None
     assert script is not None
-    return Problem(
+    problem = Problem(
         id=problem_id,
         path=path,
         root=root,
@@ -220,6 +230,7 @@ def load_problem(root: Path, problem_id: str) -> Problem:
         reference=as_text(written.reference),
         warnings=warnings,
     )
+    return problem, of_drawings
 
 
 def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Iterable[Placement]) -> tuple[Word, ...]:

@@ -490,6 +490,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _linearised_at(self, at: Quantity | Mapping[Any, Expr] | None, key: str = "linearised") -> tuple[Quantity, ...]:
         motions = self.motions
         if self.reduced is not self.lagrangian:
+            self._check_momenta_have_symbols()
             left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.stationary[0]
@@ -497,6 +498,13 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             at = self.stationary[0]
         found = linearised(motions, at=at, key=key)
         return found if isinstance(found, tuple) else (found,)
+
+    def _check_momenta_have_symbols(self) -> None:
+        """Reject given values of constant momenta: small motions are about an equilibrium for any momentum."""
+        for name in self.kept:
+            message = f"small motions need a symbol for the momentum of {name}, but `conserved` gives a value"
+            help_line = f"write `conserved: {{{name}: p}}`, and substitute the value in the result with `put_in`"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
     @property
     def _is_pushed(self) -> bool:

@@ -196,6 +196,15 @@ def test_what_cannot_be_meant_is_refused(text: str, kind: str, code: str) -> Non
     assert codes(text, kind) == [code]
 
 
+@pytest.mark.parametrize(("text", "product"), [("2 Z", "2*Z"), ("2Z*M", "2*Z*M")])
+def test_an_unknown_letter_after_a_number_is_not_only_an_unknown_unit(text: str, product: str) -> None:
+    with pytest.raises(Rejected) as refused:
+        given(text, "Mass")
+    (complaint,) = refused.value.complaints
+    assert complaint.message == "`Z` is neither a unit nor a declared symbol"
+    assert complaint.help == f"write a unit; or declare the symbol and write `{product}`"
+
+
 def test_a_difference_that_may_be_positive_is_accepted() -> None:
     assert value("[a - b, a, b]", "Lengths", {"a": "length", "b": "length"}) == (a - b, a, b)
 

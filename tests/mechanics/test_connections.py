@@ -22,7 +22,7 @@ from tests.courses import ROOT
 from tests.newton_euler.in_space import in_space
 from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_curve, on_a_surface, problem, with_strings
-from tests.stock.described import edited, loaded, messages, solved
+from tests.stock.described import complaints, edited, loaded, messages, solved
 
 
 def on_a_surface_called(name: str) -> Trial:
@@ -511,13 +511,41 @@ ROLLING = problem(trial_called("disc-floor-in space"))
         ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
         ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
         ("{rolling: F}", "rolling", "a friction force must prevent slipping"),
-        ("shape: disc", "shape: cylinder, height: a", "it is unknown which end of a cylinder touches the plane"),
+        (
+            "shape: disc",
+            "shape: cylinder, height: a",
+            "it is unknown which end of a cylinder touches the plane: the sign",
+        ),
         ("shape: disc", "shape: hemisphere", "is not round in this view"),
     ],
 )
 def test_rolling_in_space_that_cannot_be_meant_is_told(old: str, new: str, said: str, tmp_path: Path) -> None:
     (message, *_) = messages(tmp_path, edited(ROLLING, (old, new)))
     assert said in message
+
+
+@pytest.mark.parametrize(
+    ("edits", "said", "helped"),
+    [
+        ([], "the sign of a*(sin(theta) - cos(theta)) decides", "give `theta` a narrower range"),
+        (
+            [
+                ("theta: 'angle in (0, pi)', ", ""),
+                ("{x: theta}", "{x: beta}"),
+                ("symbols: {", "symbols: {beta: 'angle in (0, pi/2)', "),
+            ],
+            "the sign of a*(sin(beta) - cos(beta)) decides",
+            "as `assume: [0 < a*(sin(beta) - cos(beta))]`",
+        ),
+    ],
+)
+def test_the_help_for_the_end_of_a_cone_names_what_is_missing(
+    edits: list[tuple[str, str]], said: str, helped: str, tmp_path: Path
+) -> None:
+    """An angle that has a range needs a narrower one; constants need a relation between them."""
+    cone = edited(ROLLING, ("shape: disc", "shape: cone, height: a"), *edits)
+    (complaint, *_) = complaints(tmp_path, cone)
+    assert said in complaint.message and helped in str(complaint.help), complaint
 
 
 def test_the_direction_along_a_surface_needs_a_known_inclination(tmp_path: Path) -> None:

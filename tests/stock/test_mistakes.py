@@ -220,3 +220,44 @@ def test_a_mistake_is_told_where_it_was_made(mistake: tuple[str, ...], tmp_path:
         lines = {4}
     found = told(tmp_path, changed)
     assert any(place in lines and said in message for place, message in found), (line, found)
+
+
+def test_errors_on_which_no_step_depends_are_reported_with_those_of_the_page(tmp_path: Path) -> None:
+    """Errors of drawings, observations, units and prose belong to different stages, but one run reports all."""
+    text = """\
+title: A pendulum
+solve: system
+symbols: {l: length, m: mass, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+statement: A bob <<nobody>>.
+observations: [independant, below]
+drawings: {system: {width: 3 kg, at: z}}
+parts:
+  - ask: Find the frequency <<nothing>>.
+    answer: frequency
+    form: {frequency: {unit: kg}}
+"""
+    found = told(tmp_path, text)
+    assert [line for line, _ in found] == [8, 9, 9, 10, 10, 12, 14], found
+
+
+def test_small_motions_need_a_symbol_for_a_constant_momentum(tmp_path: Path) -> None:
+    text = """\
+title: A planet
+solve: system
+symbols: {K: positive energy, a: length, m: mass, l: angular momentum}
+given:
+  coordinates: {r: positive length, phi: angle}
+  particles: {planet: {mass: m, at: [r*cos(phi), r*sin(phi)]}}
+  potential: -K*a/r
+  conserved: {phi: 2*l}
+statement: A planet.
+parts:
+  - ask: Find the frequency.
+    answer: frequency
+"""
+    ((line, said),) = told(tmp_path, text)
+    assert line == 12 and "small motions need a symbol for the momentum of phi, but `conserved` gives a value" in said

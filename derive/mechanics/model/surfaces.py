@@ -20,6 +20,7 @@ from derive.algebra.expressions import (
     explicit,
     prescribed_in,
 )
+from derive.algebra.ranges import range_of
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
@@ -389,15 +390,17 @@ def _positive(length: Expr) -> Expr:
             assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
     message = f"the sign of {length} is unknown, so the distance is |{length}|"
-    raise Rejected(Complaint("sign", message, help=_help_to_sign(length, [*moving, *prescribed_in(length)])))
+    raise Rejected(Complaint("sign", message, help=help_to_sign(length, [*moving, *prescribed_in(length)])))
 
 
-def _help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
+def help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
     """Return the help for an unknown sign: a range for a coordinate, a positive function, or a relation to assume."""
     if not changing:
         more, less = sides_without_minus(length)
         return f"{DECIDES} {less} < {more}"
     name = changing[0]
+    if range_of(name) is not None:
+        return f"give `{name}` a narrower range, or choose sizes with which the sign of {length} never changes"
     what, noun = ("function", "function_of_time") if isinstance(name, Prescribed) else ("coordinate", "coordinate")
     if coordinates_in(ImmutableDenseMatrix([name])).get(name) == "angle":
         return Spelled("give the angle a range", f"give the angle a range, such as `{name}: angle in (0, pi)`")

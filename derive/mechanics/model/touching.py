@@ -14,7 +14,7 @@ from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
-from derive.mechanics.model.surfaces import Curve, Plane, Surface, column_of, direction_between, dot
+from derive.mechanics.model.surfaces import Curve, Plane, Surface, column_of, direction_between, dot, help_to_sign
 from derive.steps.record import assume, coordinates_in
 from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import is_zero
@@ -140,10 +140,11 @@ def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location
     A body that touches the plane along the line between the two points must be held at one of them; then it does not
     slip anywhere on the line if it does not slip at the other point.
     """
-    sign = sign_known(one[1] - other[1])
+    difference = tidied(one[1] - other[1])
+    sign = sign_known(difference)
     if sign is None:
-        message = f"it is unknown which end of {placed.body.name} touches the plane"
-        help_line = "give the inclination of its axis a range, such as `theta: angle in (0, pi/2)`, or a point"
+        message = f"it is unknown which end of {placed.body.name} touches the plane: the sign of {difference} decides"
+        help_line = help_to_sign(difference, [*coordinates_in(ImmutableDenseMatrix([difference]))])
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if sign:
         return one if sign < 0 else other

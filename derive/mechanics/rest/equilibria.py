@@ -35,7 +35,7 @@ from derive.algebra.ranges import range_of
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.taylor import coefficient_along, slope
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.lagrange.applied_forces import ActedOn
@@ -209,7 +209,8 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
         message = f"the equilibria of `{of.key}` have no closed form: the zeros of {fault.factor} are unknown"
-        help_line = "if a function needs an equilibrium, give a known one, `at={theta: 0}`"
+        known = "if an answer needs an equilibrium, give a known one, "
+        help_line = Spelled(f"{known}`at={{theta: 0}}`", f"{known}`at: {{theta: 0}}`")
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     found = [state for state in found if _in_range(of, state)]
     if not found:

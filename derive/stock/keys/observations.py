@@ -17,20 +17,33 @@ from derive.steps.step import Quantity
 NONE = "none"
 
 
+def with_known_observations(problem: Problem, faults: Faults) -> Problem:
+    """Return the problem with the chosen kinds of observations that exist; report all other names."""
+    parts = tuple(replace(part, observations=_known(part.observations, faults)) for part in problem.parts)
+    return replace(problem, observations=_known(problem.observations, faults), parts=parts)
+
+
+def _known(words: Sequence[Word] | None, faults: Faults) -> tuple[Word, ...] | None:
+    if words is None or list(words) == [NONE]:
+        return words if words is None else tuple(words)
+    for word in (word for word in words if word not in NAMES):
+        help_line = did_you_mean(word, NAMES) or f"the observations are {', '.join(NAMES)}, or {NONE} alone"
+        faults.error("unknown-observation", f"`{word}` is not an observation", word.place, help=help_line)
+    return tuple(word for word in words if word in NAMES)
+
+
 def observations_of(
-    problem: Problem, known: Mapping[str, Quantity], asked: Sequence[Sequence[str]], run: Run
+    problem: Problem, known: Mapping[str, Quantity], asked: Sequence[Sequence[str]], run: Run, faults: Faults
 ) -> list[list[Quantity]]:
-    """Return the observations of each part.
+    """Return the observations of each part; report the chosen kinds that no answer has.
 
     By default these are the most valuable ones. An author may choose kinds for the problem or for a part, or `none`.
     """
-    faults = Faults()
-    chosen = [_names(part.observations, faults) for part in problem.parts]
-    everywhere = _names(problem.observations, faults)
-    faults.stop()
+    problem = with_known_observations(problem, faults)
+    chosen, everywhere = [_names(part.observations) for part in problem.parts], _names(problem.observations)
     views = _views(problem, known, asked)
     general = [quantity for quantity, case_of in zip(run.established, run.cases, strict=True) if case_of is None]
-    with faults, deriving(problem, replace(run, established=general, cases=[None] * len(general), memory=None)):
+    with deriving(problem, replace(run, established=general, cases=[None] * len(general), memory=None)):
         if everywhere == [] or everywhere is None and not any(chosen):
             found = best(views) if everywhere is None else [[] for _ in views]
             return [[] if names == [] else own for names, own in zip(chosen, found, strict=True)]
@@ -39,21 +52,12 @@ def observations_of(
         _check_found(everywhere or (), of_parts, faults)
         for names, own in zip(chosen, of_parts, strict=True):
             _check_found(names or (), [own], faults)
-    faults.stop()
     return [[quantity for kind in own.values() for quantity in kind] for own in of_parts]
 
 
-def _names(words: Sequence[Word] | None, faults: Faults) -> list[Word] | None:
+def _names(words: Sequence[Word] | None) -> list[Word] | None:
     """Return the chosen kinds: None for the default, an empty list for `none`."""
-    if words is None:
-        return None
-    if list(words) == [NONE]:
-        return []
-    for word in words:
-        if word not in NAMES:
-            help_line = did_you_mean(word, NAMES) or f"the observations are {', '.join(NAMES)}, or {NONE} alone"
-            faults.error("unknown-observation", f"`{word}` is not an observation", word.place, help=help_line)
-    return list(words)
+    return None if words is None else [word for word in words if word != NONE]
 
 
 def _check_found(names: Sequence[Word], parts: Sequence[Mapping[str, Sequence[Quantity]]], faults: Faults) -> None:
