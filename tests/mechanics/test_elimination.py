@@ -6,12 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sympy import symbols
+from sympy import Integer, symbols
 
 import derive.steps.establish as establishing
 from derive.building.solution import derived, rendered
 from derive.course.problem import deriving, load_problem
-from derive.mechanics.lagrange.claims import follows_from_these_equations
+from derive.mechanics.lagrange.claims import follows_from_these_equations, names_the_enforcer
+from derive.mechanics.model.connection import PointForce
+from derive.mechanics.model.constraint import Constraint
 from derive.solving.elimination import isolated_in_order
 from derive.steps.record import Run
 from derive.steps.rule import Judged
@@ -81,3 +83,24 @@ def test_a_page_solves_equation_by_equation(tmp_path: Path) -> None:
     assert "Equations (2) and (5) give" in text and "= 5μ N/(2M a) = 5μ g/(2a)" in text
     text = " ".join(rendered(ROOT, "library/yoyo", only={"text"}).texts["text"].split())
     assert "and S from (1), (3) and (4) gives" in text and "S = M (g - " in text
+
+
+@pytest.mark.parametrize(
+    ("problem_id", "reason"),
+    [
+        ("library/yoyo", "The length of the string is constant, "),
+        ("library/race", "At the contact the body and the surface have the same velocity, "),
+        ("library/ball_on_belt", "Contact requires a - y = 0."),
+    ],
+)
+def test_a_constraint_is_differentiated_after_its_reason(problem_id: str, reason: str) -> None:
+    text = " ".join(rendered(ROOT, problem_id, only={"text"}).texts["text"].split())
+    assert f"{reason}" in text and "Differentiating this" in text
+
+
+def test_another_enforcer_than_that_of_the_constraint_is_refused() -> None:
+    of = Constraint(x, Integer(0), N, in_rates=False, forces=(PointForce(N, (Integer(0), Integer(1)), None, None),))
+    facts = Judged(None, {"condition": x, "of": replace(of, enforcer="surface")}, words={"kept": "surface"})
+    assert names_the_enforcer(facts, "")
+    for word in ("string", "friction"):
+        assert not names_the_enforcer(replace(facts, words={"kept": word}), "")

@@ -186,8 +186,10 @@ CONSTRAINT_RATE = Rule(
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     outcomes={"in_rates": claims.constraint_rate_in_rates, "in_coordinates": claims.constraint_rate_in_coordinates},
     evidence={"functions_of_time": CHECK},
+    statements=[claims.names_the_enforcer],
     shown=Shown(brief=Manner.LEFT_OUT),
 )
+KEPT = ("surface", "rail", "string", "rod", "joint", "friction")  # enforcers that the sentence names
 
 
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
@@ -226,7 +228,11 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "in_coordinates",
-        phrase_data=PhraseData(formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))}),
+        phrase_data=PhraseData(
+            formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))},
+            words={"kept": each.enforcer} if each.enforcer in KEPT else {},
+            outcome_data={"of": each},
+        ),
         key=key or f"constraint_{each.force.name}",
         facts=[described] if (described := description_behind(of)) is not None else [],
         scope=Scope(coordinates=of.coordinates),
