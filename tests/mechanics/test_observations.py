@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye, pi, sin
 
 import derive.steps.establish as establishing
 from derive.algebra.equality import Grade
@@ -193,6 +193,13 @@ def test_a_statement_that_only_its_predicate_tests_is_not_called_proved(
     assert [step.grade for step in steps] == [grade]
 
 
+def _with_further_zeros(facts: Judged) -> Judged:
+    """A torque that also vanishes at two neighbouring angles, both about half a degree."""
+    sine, value = sin(facts.inputs["angle"]), facts.quantities["of"].value
+    factor = (sine - Rational(1, 100)) * (sine - Rational(101, 10**4))
+    return _other(facts, "of", value=explicit(value) * factor)
+
+
 SEEDED: dict[str, Any] = {
     "modes": lambda facts: [_growing(facts)],
     "exact": lambda facts: [
@@ -209,7 +216,11 @@ SEEDED: dict[str, Any] = {
         )
     ],
     "one_sign": lambda facts: [_one_sided(facts)],
-    "balanced": lambda facts: [_with(facts, place_3=Relation(facts.inputs["angle"], "=", Integer(1)))],
+    "balanced": lambda facts: [
+        _with(facts, place_3=Relation(facts.inputs["angle"], "=", Integer(1))),
+        _with(facts, place_2=Relation(facts.inputs["angle"], "=", pi / 4)),
+        _with_further_zeros(facts),
+    ],
     "pair": lambda facts: [_with(facts, product=Relation(facts.inputs["product"].left, "=", Integer(1)))],
     "below": lambda facts: [_with(facts, letter=Symbol("v", positive=True))],
     "flat": lambda facts: [_other(facts, "of", value=eye(3))],
@@ -307,6 +318,18 @@ def test_a_charge_that_may_move_along_the_field_does_not_describe_a_circle(tmp_p
     text = edited(HELIX, *plane) if flat else HELIX
     page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
     assert ("circle" in page) is flat, page
+
+
+LEANING = (ROOT / "problems" / "library" / "rotation" / "leaning_rod.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("lies", "said"), [(" in [0, pi/2]", True), (" in (0, pi/2)", False), (" in [0, pi/4]", False), ("", True)]
+)
+def test_a_rod_is_balanced_only_at_angles_in_the_declared_range(tmp_path: Path, lies: str, said: bool) -> None:
+    text = edited(LEANING, ("angle in [0, pi/2]", f"angle{lies}"))
+    page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
+    assert ("The torque vanishes for α = 0 and for α = π/2, and for no angle between them." in page) is said
 
 
 def _case(facts: Judged, **changes: Any) -> Judged:

@@ -6,6 +6,7 @@ They compute numbers at trial points: of the answer, and of the first line of it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import reduce
 from itertools import pairwise
 from typing import Any
 
@@ -17,14 +18,21 @@ from sympy import (
     Symbol,
     cos,
     expand,
+    expand_trig,
+    fraction,
+    gcd,
     minimal_polynomial,
     nan,
     pi,
+    quo,
     sin,
     sqrt,
+    together,
 )
+from sympy.polys.polyerrors import BasePolynomialError
 
 from derive.algebra.expressions import TIME, Amount, Relation, bound, depends_on_time, explicit, rate
+from derive.algebra.ranges import range_of
 from derive.algebra.rounding import half_a_unit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
 from derive.algebra.swing import half_swing
@@ -660,20 +668,33 @@ def has_one_sign(facts: Judged) -> bool:
 
 
 def balances(facts: Judged) -> bool:
-    """Whether all components of the torque vanish at the stated angles, and at no other angle from 0 to 90 degrees."""
-    torque = [explicit(each) for each in facts.quantities["of"].value]
-    angle = facts.inputs["angle"]
+    """Whether the torque vanishes at 0 and 90 degrees and at no angle between them, and both are in the declared range.
+
+    With u = tan(angle/2), each component is a rational function of u; Sturm's theorem counts its zeros for 0 < u < 1.
+    """
+    torque = [each for each in map(explicit, facts.quantities["of"].value) if each != 0]
+    angle, u = facts.inputs["angle"], Symbol("u")
     told = [each.right for role, each in facts.inputs.items() if role.startswith("place_")]
-    others = [pi * Rational(k, 80) for k in range(41) if pi * Rational(k, 80) not in told]
+    lies = range_of(angle)
+    if told != [0, pi / 2] or lies is not None and not all(map(lies.holds, told)):
+        return False
+    half = {sin(angle): 2 * u / (1 + u**2), cos(angle): (1 - u**2) / (1 + u**2)}
 
     def only_there(point: Point) -> bool:
-        def size(at: Expr) -> Expr:
-            return max(abs(value_at(each, {**point, angle: at})) for each in torque)
+        others = {letter: number for letter, number in point.items() if letter != angle}
+        parts = [expand_trig(each).xreplace(half).xreplace(others) for each in torque]
+        common = reduce(gcd, (Poly(fraction(together(each))[0], u, domain="QQ") for each in parts))
+        own = common
+        if own.is_zero:
+            return False
+        while own.eval(0) == 0 or own.eval(1) == 0:
+            own = quo(own, Poly(u if own.eval(0) == 0 else u - 1, u))
+        return bool(common.eval(0) == 0 and common.eval(1) == 0 and own.count_roots(0, 1) == 0)
 
-        sizes = [size(each) for each in others]
-        return bool(all(size(each) <= CLOSE * max(sizes) for each in told) and min(sizes) > max(sizes) / 10**4)
-
-    return bool(told) and everywhere(numbers(torque, tried=3), only_there)
+    try:
+        return bool(torque) and everywhere(numbers(torque, tried=3), only_there)
+    except BasePolynomialError:  # a coefficient is not rational
+        return False
 
 
 def is_an_angle(facts: Judged, told: Relation) -> bool:

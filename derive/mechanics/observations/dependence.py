@@ -5,10 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, MatrixBase, Mul, Symbol, acos, asin, atan, cos, factor_list, pi, sin, tan
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Integer,
+    MatrixBase,
+    Mul,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    cos,
+    expand_trig,
+    factor_list,
+    pi,
+    sin,
+    tan,
+)
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import Amount, Relation, explicit, rate
+from derive.algebra.ranges import range_of
 from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies, ForceOf
@@ -459,14 +477,27 @@ BALANCED = Rule(
 
 
 def balanced(view: View) -> Observed:
-    """Angles from 0 to 90 degrees for which no torque of the bearings is needed."""
+    """The angles 0 and 90 degrees, if the bearings need no torque there, but need one at each angle between them."""
     for of in view.answers:
         entries = [each for each in explicit(of.value) if each != 0] if isinstance(of.value, MatrixBase) else []
         if of.step.kind == "torque" and len(entries) == 1:
             for letter in [s for s in view.of_kind("angle") if s in entries[0].free_symbols]:
-                found = [end for end in (Integer(0), pi / 2) if is_zero(entries[0].xreplace({letter: end}))]
-                if len(found) == 2:
-                    yield _balanced(of, entries[0], letter, found)
+                if _vanishes_only_at_the_ends(entries[0], letter):
+                    yield _balanced(of, entries[0], letter, (Integer(0), pi / 2))
+
+
+def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
+    """Whether 0 and 90 degrees are in the range of the angle, and the entry is sin(angle) cos(angle) times factors that
+    have one sign for all angles in this range."""
+    lies = range_of(angle)
+    if lies is not None and not (lies.holds(Integer(0)) and lies.holds(pi / 2)):
+        return False
+    rest = tidied(expand_trig(entry) / (sin(angle) * cos(angle)))
+    factors = [factor for factor in Mul.make_args(rest) if angle in factor.free_symbols]
+    others = rest.free_symbols - {angle}
+    as_numbers = rest.xreplace({sin(angle): Symbol("s"), cos(angle): Symbol("c")})
+    is_rational = as_numbers.is_rational_function(*others, Symbol("s"), Symbol("c")) and not as_numbers.has(pi)
+    return bool(is_rational) and all(sign_for_all(factor) in (1, -1) for factor in factors)
 
 
 def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) -> Quantity:
