@@ -96,9 +96,9 @@ class Checks:
         }
 
     def closing(self, words: Phrases, evidence: EvidenceShown) -> tuple[Inline, ...]:
-        """Return the closing note, which says that the problem was checked, with counts if `evidence` requests them."""
+        """Return the closing note, which counts the evidence, if `evidence` requests it."""
         if evidence is EvidenceShown.NONE:
-            return filled(words.labels["closing_line"], {})
+            return ()
         names: dict[str, Any] = {
             "lines": sum(self.lines.values()),
             "lines_by_grade": _by_grade(self.lines, words.grades),

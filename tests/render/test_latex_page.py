@@ -68,7 +68,7 @@ def test_the_strategy_stands_between_the_statement_and_the_first_part() -> None:
 def test_limiting_cases_stand_behind_the_parts_without_a_letter_of_their_own() -> None:
     tex = solution(WHOLE)
     heading = tex.index(r"\closinghead{Limiting cases}")
-    assert tex.index(r"\ask{a}") < heading < tex.index("A light one flies.") < tex.index(r"\closingof{")
+    assert tex.index(r"\ask{a}") < heading < tex.index("A light one flies.") < tex.index(r"\closing{")
     assert r"\closinghead" not in solution(page()) and "flies" not in str(fragments(WHOLE).sheet)
 
 

@@ -40,7 +40,7 @@ from derive.render.printing.amsmath import display_latex
 from derive.render.printing.figure_numbers import figure_number
 from derive.render.printing.lines import PAGE_WIDTH, Printed, printed_lines
 from derive.render.printing.templates import filled_html
-from derive.render.printing.text_page import closing_title, inline_text
+from derive.render.printing.text_page import inline_text
 from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
@@ -132,8 +132,7 @@ class HtmlPage:
         return type(block).__name__.lower()
 
     def closing(self) -> Html:
-        title = closing_title(self.document, self.words)
-        return Html(f"<strong>{escape(title)}</strong> {self.inline(self.document.closing)}")
+        return Html(f"<strong>{escape(self.words.labels['checked'])}</strong> {self.inline(self.document.closing)}")
 
     def inline(self, nodes: Sequence[Inline]) -> Html:
         """Return words and formulas; no line begins with the punctuation after a formula."""

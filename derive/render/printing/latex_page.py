@@ -36,7 +36,7 @@ from derive.render.printing.amsmath import equation_latex
 from derive.render.printing.lines import Printed, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
-from derive.render.printing.text_page import closing_title, inline_text, second_ways
+from derive.render.printing.text_page import inline_text, second_ways
 from derive.render.rendered import Tex
 
 # Approximate heights on the page in points, and characters in a line of text and of a note.
@@ -148,7 +148,7 @@ class LatexPage:
 
     def is_last(self, block: Block) -> bool:
         """Return whether the block is the last one before the closing note."""
-        last = self.sections()[-1].blocks[-1:]
+        last = self.sections()[-1].blocks[-1:] if self.document.closing else ()
         return any(block is each for each in last) and not self.document.note
 
     def kind(self, block: Any) -> str:
@@ -278,8 +278,7 @@ class LatexPage:
         return self.document.evidence is EvidenceShown.MARGIN
 
     def closing(self) -> Tex:
-        title = closing_title(self.document, self.words)
-        return Tex(rf"\textbf{{{escaped(title)}}} {self.inline(self.document.closing)}")
+        return Tex(rf"\textbf{{{escaped(self.words.labels['checked'])}}} {self.inline(self.document.closing)}")
 
 
 class _Questions(LatexPage):

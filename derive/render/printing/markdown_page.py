@@ -16,7 +16,7 @@ from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import aligned, display_rows
 from derive.render.printing.lines import TEXT_WIDTH, Printed
-from derive.render.printing.text_page import closing_title, inline_text
+from derive.render.printing.text_page import inline_text
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>$|~#&])")
 _AS_A_LIST = re.compile(r"^(\d+)([.)])(?=\s)|^([-+=])")  # text that would begin a list or underline a heading
@@ -58,10 +58,8 @@ class MarkdownPage:
         """Yield the text after the last part."""
         if self.document.note:
             yield self.paragraph(self.document.note)
-        yield f"---\n\n**{text_markdown(closing_title(self.document, self.words))}** {self.closing()}"
-
-    def closing(self) -> str:
-        return self.inline(self.document.closing)
+        if self.document.closing:
+            yield f"---\n\n**{text_markdown(self.words.labels['checked'])}** {self.inline(self.document.closing)}"
 
     def sections(self) -> Sequence[PartPage]:
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))

@@ -54,11 +54,6 @@ def second_ways(display: Display, words: Phrases) -> list[str]:
     return [*(f"{routes}: {said}" for said in display.routes), *(f"{check}: {said}" for said in display.checks)]
 
 
-def closing_title(document: Document, words: Phrases) -> str:
-    """Return the heading of the closing note."""
-    return str(words.labels["checked_line" if document.evidence is EvidenceShown.NONE else "checked"])
-
-
 class _Page:
     def __init__(self, document: Document, words: Phrases, notation: Notation):
         self.document, self.words, self.notation = document, words, notation
@@ -74,8 +69,9 @@ class _Page:
             blocks += ["", self._part(part)]
         blocks += ["", self._part(self.document.limits)] if self.document.limits else []
         blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
-        checked = Text(closing_title(self.document, self.words) + " ")
-        blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
+        if self.document.closing:
+            checked = Text(self.words.labels["checked"] + " ")
+            blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
 
     def _part(self, part: PartPage) -> str:
