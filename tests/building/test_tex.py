@@ -7,10 +7,13 @@ from pathlib import Path
 
 import pytest
 from fake_course import TEX
+from pypdf import PdfReader
 
 from derive.building import tex as pdf
+from derive.building.preamble import beginning
 from derive.building.tex import Engine, chosen_engine, engines, typeset
 from derive.errors import BuildFailed, Complaint, Misused
+from tests.courses import ROOT
 
 
 def source(body: str, preamble: str = "") -> str:
@@ -232,3 +235,23 @@ def test_a_pdf_that_is_shorter_than_its_log_says_does_not_replace_one(programs: 
     script = f"#!/bin/sh\necho '{said}' > block.log\nprintf '{WHOLE.replace('%', '%%')}' > block.pdf\n"
     assert complaint("x", target, program(programs, "pdflatex", script)).code == "tex"
     assert target.read_bytes() == b"earlier"
+
+
+def pages_of(body: str, target: Path) -> list[str]:
+    preamble = beginning(ROOT / "templates", None)
+    typeset(rf"{preamble}\begin{{document}}\shortlastpageavoided {body}\end{{document}}", target, chosen_engine(None))
+    return [page.extract_text() for page in PdfReader(target).pages]
+
+
+def test_a_few_lines_of_a_last_page_move_to_the_page_before(target: Path) -> None:
+    def lines(count: int) -> str:
+        return "".join(rf"line {n}\par " for n in range(count))
+
+    assert [len(pages_of(lines(count), target)) for count in (30, 39, 55)] == [1, 1, 2]
+
+
+def test_pages_that_cannot_take_the_last_lines_stay_as_they_are(target: Path) -> None:
+    room = r"\noindent\rule{1pt}{330pt}\par "
+    found = pages_of(rf"{room * 2}the height is \the\textheight\par\rule{{1pt}}{{50pt}}", target)
+    usual = pages_of(r"the height is \the\textheight", target)
+    assert len(found) == 2 and usual[0].split("height is ")[1].split("pt")[0] in found[1]

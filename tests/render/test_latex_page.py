@@ -97,10 +97,10 @@ def test_a_theorem_says_which_it_is_and_what_stands_for_it_later_in_the_document
     assert r"\theorem{inertia}{Bodies persist.\par}{See \toldproblem{Problem}\ }" in solution(page(Paragraph((told,))))
 
 
-def test_a_page_may_end_in_the_middle_of_a_long_step() -> None:
+def test_a_page_may_end_in_the_middle_of_a_long_step_but_not_before_its_last_row() -> None:
     lines = tuple(ChainLine(T if i == 0 else None, "equals", a**i, (Text("why"),)) for i in range(8))
     rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", lines, 1),)))))
-    assert [row for row in rows if "row" not in row] == [r"\samestep", *[r"\inlongstep"] * 6]
+    assert [row for row in rows if "row" not in row] == [r"\samestep", *[r"\inlongstep"] * 5, r"\samestep"]
 
 
 def test_a_left_side_that_takes_two_rows_is_not_aligned_at_a_relation() -> None:
@@ -113,6 +113,11 @@ def test_a_left_side_that_takes_two_rows_is_not_aligned_at_a_relation() -> None:
     short = ChainLine(T, "equals", Integer(0))
     rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", (short,), 1),)))))
     assert rows[0].startswith(r"\row")
+
+
+def test_a_page_rarely_ends_within_the_words_before_a_display() -> None:
+    tex = solution(page(Paragraph((Text("So "),)), display("mass"), Paragraph((Text("Then it stops."),))))
+    assert r"\todisplay{So }" in tex and r"\todisplay{Then" not in tex
 
 
 def test_the_margin_names_a_route_only_if_there_is_room_for_it() -> None:

@@ -197,9 +197,10 @@ class LatexPage:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """Return the rows of a display; a page may end between steps, or within a step of more than two rows.
+        """Return the rows of a display; a page may end between steps, or within a step of more than three rows.
 
-        A page does not end within a few equations of one row each, such as Euler's equations.
+        A page does not end within a few equations of one row each, such as Euler's equations. The last row of a step,
+        which has its result and its number, is never alone at the top of a page.
         """
         steps: list[str] = []
         tall: list[bool] = []
@@ -217,7 +218,7 @@ class LatexPage:
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
         set_rows = [self._row(lines, stop if lines is rows[-1] else "") for lines in rows]
-        breaks = [r"\inlongstep" if i > 1 else r"\samestep" for i in range(1, len(rows))]
+        breaks = [r"\inlongstep" if 1 < i < len(rows) - 1 else r"\samestep" for i in range(1, len(rows))]
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
