@@ -47,11 +47,11 @@ def antiderivative(value: Expr, x: Symbol) -> Expr | None:
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
     """The terms of the value, each split into a factor without x and a factor with x. Products of sines and cosines of
-    x become sums."""
+    x become sums, except odd powers, which a substitution integrates."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)
-        if any(f.has(x) for f in inside.atoms(sin, cos)):
+        if any(f.has(x) for f in inside.atoms(sin, cos)) and _odd_powers(inside, x) is None:
             parts = (_apart(part, x) for part in Add.make_args(_by_sums(inside)))
             found += [(outside * more, part) for more, part in parts]
         else:
@@ -97,9 +97,34 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
         if rate != 0 and not rate.has(x):
             whole = -cos(inside.args[0]) if isinstance(inside, sin) else sin(inside.args[0])
             return whole / rate
+    if (odd := _odd_powers(inside, x)) is not None:
+        return odd
     if power[0] == 1 and power[1].is_Rational:
         return log(x) if power[1] == -1 else x ** (power[1] + 1) / (power[1] + 1)
     return _powers_by_parts(inside, x)
+
+
+@lru_cache(maxsize=1024)
+def _odd_powers(inside: Expr, x: Symbol) -> Expr | None:
+    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd: sin^3 u = (1 - cos^2 u) sin u, with the substitution
+    c = cos u."""
+    powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
+    angle = next((f.args[0] for f in powers if isinstance(f, sin | cos)), None)
+    if angle is None or powers.keys() - {sin(angle), cos(angle)}:
+        return None
+    p, q = (powers.get(f(angle), Integer(0)) for f in (sin, cos))
+    rate = angle.diff(x)
+    if any(not n.is_Integer or n < 0 for n in (p, q)) or p + q < 2 or rate == 0 or rate.has(x):
+        return None
+    if q % 2 and (q <= p or p % 2 == 0):
+        return _of_powers(sin(angle), p, (q - 1) // 2) / rate
+    return -_of_powers(cos(angle), q, (p - 1) // 2) / rate if p % 2 else None
+
+
+def _of_powers(c: Expr, n: Integer, half: Integer) -> Expr:
+    """The antiderivative of c^n (1 - c^2)^half as a polynomial in c."""
+    u = Symbol("u")
+    return Poly(u**n * (1 - u**2) ** half, u).integrate().as_expr().subs(u, c)
 
 
 def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:

@@ -292,10 +292,12 @@ class _Writer:
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
-        """Return the steps of a part that are framed: its answers, but not a formula whose number is framed instead."""
+        """Return the steps of a part that are framed: its answers, but neither a formula whose number is framed instead
+        nor a formula that is only the reason of a verdict in words."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
-        return self.selection.standing_for(set(asked) - measured)
+        verdicts = {key for key in asked if self.derivation.step(key).display.verdict}
+        return self.selection.standing_for(set(asked) - measured - verdicts)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
         """Add the words and lines of a step; a step that continues the step before needs no words.

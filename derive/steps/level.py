@@ -48,6 +48,7 @@ class Display:
                       level `full`, the sentence points to these lines
     conditions        roles of the conditions in the sentence that are part of the answer, so the frame shows them too
     quoted            whether only the result is shown below the level `full`, unless a part asks for the step
+    verdict           whether the answer is the sentence, and the formula only its reason, so that no frame is needed
     """
 
     brief: Manner = Manner.OWN
@@ -62,6 +63,7 @@ class Display:
     result_in: tuple[str, ...] = ()
     conditions: tuple[str, ...] = ()
     quoted: bool = False
+    verdict: bool = False
 
     def manner(self, level: Level) -> Manner:
         return self.brief if level is Level.BRIEF else self.standard
@@ -85,6 +87,7 @@ class Shown:
     repeats       a function of the step that returns the key of the equation that the step repeats, or ""
     result_in     outcome -> names of rules: the lines of an input of such a rule may already contain the result
     quoted        outcomes whose steps are standard results: only the result is shown
+    verdicts      outcomes for which the answer is the sentence, such as "stable", and the formula is only its reason
     The other fields are those of `Display`.
     """
 
@@ -103,6 +106,7 @@ class Shown:
     result_in: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     conditions: tuple[str, ...] = ()
     quoted: frozenset[str] = frozenset()
+    verdicts: frozenset[str] = frozenset()
 
     def of(self, step: Any) -> Display:
         """Return how this step is shown."""
@@ -122,6 +126,7 @@ class Shown:
             result_in=self.result_in.get(step.outcome, ()),
             conditions=self.conditions,
             quoted=step.outcome in self.quoted,
+            verdict=step.outcome in self.verdicts,
         )
 
 

@@ -65,3 +65,9 @@ def test_powers_with_a_sine_or_an_exponential_are_integrated_by_parts(value: Any
 def test_what_has_no_simple_antiderivative_gives_none() -> None:
     assert antiderivative(exp(-(x**2)), x) is None
     assert antiderivative(x ** Rational(1, 2) * exp(x), x) is None
+
+
+def test_an_odd_power_of_a_sine_is_integrated_as_a_polynomial_in_the_cosine() -> None:
+    assert antiderivative(sin(x) ** 3, x) == cos(x) ** 3 / 3 - cos(x)
+    assert antiderivative(sin(2 * x) ** 2 * cos(2 * x), x) == sin(2 * x) ** 3 / 6
+    assert antiderivative(sin(x) * cos(x), x) == sin(x) ** 2 / 2

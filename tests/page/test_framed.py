@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.solution import rendered
 from derive.page.document import document_of
 from derive.page.tree import Display, Document
 from derive.page.wording import phrases
@@ -14,6 +15,7 @@ from derive.render.notation.text import plain
 from derive.render.printing.lines import printed_lines
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once
+from tests.stock.described import PENDULUM, course_with, edited
 
 Formula = tuple[str, str, str]
 
@@ -47,3 +49,12 @@ def test_no_framed_formula_repeats_one_above_it(name: str, level: Level, tmp_pat
     document, _ = document_of(problem, solved.derivation, solved.values, words, level, drawings=solved.drawings)
     assert any(framed for framed, _ in formulas(document))
     assert repeated(document) == []
+
+
+def test_a_second_derivative_that_only_decides_stability_is_not_framed(tmp_path: Path) -> None:
+    """The answer is the sentence: the equilibrium is stable."""
+    asked = edited(PENDULUM, ("answer: equations_of_motion", "answer: [equilibria, stability]"))
+    page = rendered(course_with(tmp_path, asked), "trial/one", only={"text"}).texts["text"]
+    assert page.count("  * ") == 2, "one frame for each equilibrium"
+    assert not any("d²U/d" in line for line in page.splitlines() if line.startswith("  * "))
+    assert "is stable." in page and "is unstable." in page

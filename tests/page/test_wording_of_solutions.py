@@ -137,3 +137,11 @@ def test_a_root_has_the_letter_of_its_rate() -> None:
 
     assert energy_integral.claims.coordinate_of_rate(Of(), scalar("theta"))  # type: ignore[arg-type]
     assert not energy_integral.claims.coordinate_of_rate(Of(), scalar("phi"))  # type: ignore[arg-type]
+
+
+def test_only_an_exactly_linear_equation_has_a_frequency_for_every_amplitude(tmp_path: Path) -> None:
+    hanging = page(tmp_path / "hanging", library("oscillations/hanging_mass"))
+    assert "Without approximation" in hanging and "does not depend on the amplitude" in hanging
+    assert "To first order" not in hanging and "small oscillations" not in hanging
+    pendulum = page(tmp_path / "pendulum", library("pendulums/simple_pendulum"))
+    assert "of small oscillations" in pendulum and "on the amplitude, ω" not in pendulum

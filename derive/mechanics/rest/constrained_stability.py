@@ -25,7 +25,7 @@ from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.system import System
 from derive.mechanics.rest import claims
 from derive.steps.establish import Lines, PhraseData, Scope, establish
-from derive.steps.rule import ROUTE, Rule
+from derive.steps.rule import ROUTE, Rule, Shown
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
@@ -128,6 +128,7 @@ STABILITY_ON_CONSTRAINTS = Rule(
         "constraint": claims.on_the_constraints,
         "way": claims.along_the_constraints,
     },
+    shown=Shown(verdicts=frozenset(claims.STABILITY_ON_CONSTRAINTS)),
 )
 
 

@@ -33,7 +33,7 @@ from derive.mechanics.rest.sides import on_known_sides
 from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant
-from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero, require_kind
 from derive.witness.facts import Rest
@@ -180,6 +180,12 @@ STABILITY = Rule(
         "place": claims.level_there("potential_here"),
         "state": claims.at_its_place,
     },
+    shown=Shown(
+        verdicts=frozenset(
+            ("stable", "unstable", "stable_by_higher_order", "unstable_by_higher_order", "flat", "depends")
+            + ("depends_stable_on_border", "depends_unstable_on_border")
+        )
+    ),
 )
 
 
@@ -320,6 +326,7 @@ STABILITY_OF_SEVERAL = Rule(
     evidence={"any_direction": CHECK},
     statements=[claims.about_an_energy],
     named={"state": claims.at_its_place, "moving": claims.falls_along, "direction": claims.falls_along},
+    shown=Shown(verdicts=frozenset(("stable", "unstable", "unstable_along", "level", "depends"))),
 )
 
 

@@ -499,6 +499,13 @@ SIGNS: dict[str, Predicate] = {
 }
 
 
+def oscillates_exactly(facts: Judged, q: Any) -> bool:
+    """Whether the equation of motion, with all its terms, is that of a harmonic oscillator with this frequency."""
+    left = facts.inputs["left"]
+    inertia = diff(left, rate(q, 2))
+    return not inertia.has(q, rate(q)) and is_zero(left - inertia * (rate(q, 2) + explicit(facts.result) ** 2 * q))
+
+
 def alone_in_its_equation(facts: Judged, q: Any) -> bool:
     motion = facts.quantities["motion"]
     return {s for s in motion.coordinates if explicit(motion.value).residual.has(s, rate(s), rate(s, 2))} == {q}

@@ -24,7 +24,7 @@ from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.known_numbers import with_numbers
-from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.signs import sign_known, taken_positive
 from derive.steps.step import Level, Quantity
 
@@ -48,6 +48,7 @@ LAG = Rule(
     outcomes={"damped": claims.loses(True), "undamped": claims.in_step(1, None), "opposite": claims.in_step(-1)},
     evidence={"quarter_turn_on": CHECK, "put_back": CHECK},
     statements=[claims.lag_as_written],
+    shown=Shown(verdicts=frozenset(("undamped", "opposite"))),
 )
 
 

@@ -10,6 +10,7 @@ from sympy import (
     ImmutableDenseMatrix,
     Integer,
     Mul,
+    Symbol,
     factor,
     lcm,
     together,
@@ -28,13 +29,15 @@ class Linear(LinearSystem, Fact):
     """All linear equations of a system, M eta_ddot + (G + C) eta_dot + K eta = f(t), as matrices.
 
     The fact also contains the condition for the equilibrium, the displacements eta, the driving forces f, and the value
-    of each coordinate at equilibrium.
+    of each coordinate at equilibrium. `exact` has the left sides of the equations of motion in terms of eta if all of
+    them are linear without approximation; otherwise it is empty.
     """
 
     missing = "is not an equation of motion to first order"
     displacements: tuple[Coordinate, ...] = ()
     driven: tuple[Expr, ...] = ()
     place: tuple[tuple[Coordinate, Expr], ...] = ()
+    exact: tuple[Expr, ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
         """Divide each row of a matrix by the common factor of the equation that belongs to this row."""
@@ -68,8 +71,13 @@ class Mode(Fact):
 
 @dataclass(frozen=True)
 class SquareOf(Fact):
-    """The symbol of a frequency whose square is the result, and the condition under which the equilibrium exists."""
+    """The symbol of a frequency whose square is the result, and the condition under which the equilibrium exists.
+
+    `exact` is the displacement, and the left side of its equation of motion, if this equation is linear without
+    approximation.
+    """
 
     missing = "is not the square of a frequency"
     letter: str
     exists: Relation | None = None
+    exact: tuple[Symbol, Expr] | None = None

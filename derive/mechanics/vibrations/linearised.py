@@ -81,7 +81,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     mass, turning, stiffness = (_coefficients(equations, moving, place, order) for order in (2, 1, 0))
     driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
     rest = tuple((q, place[q.symbol]) for q in moving)
-    linear = Linear(mass, turning, stiffness, exists, eta, driven, rest)
+    linear = Linear(mass, turning, stiffness, exists, eta, driven, rest, _exact(equations, moving, place, eta))
     rests = [at] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
@@ -152,6 +152,8 @@ def _one(
     whole = Relation(left, "=", tidied(linear.driven[i] / common))
     if not away and is_zero(explicit(equations[i].value).residual - whole.residual):
         counted["as_it_is"] = (whole, equations[i].value)
+    if linear.exact:
+        counted["exact"] = (whole, Relation(linear.exact[i] / common, "=", ZERO))
     small = None if away or "as_it_is" in counted else _with_small_angles(equations[i], moving, common)
     alone: dict[str, Expr] = {}
     if len(moving) == 1:
@@ -182,6 +184,20 @@ def _one(
         facts=[linear, OfCoordinate(eta[i]), Around(dict(place), linear.exists, displaced)],
         scope=Scope(coordinates={s.symbol: s.kind for s in eta}),
     )
+
+
+def _exact(
+    equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], eta: Sequence[Coordinate]
+) -> tuple[Expr, ...]:
+    """Return the left sides in terms of the displacements if no equation has a term of higher order; otherwise
+    nothing."""
+    put = {q.symbol: place[q.symbol] + s.symbol for q, s in zip(moving, eta, strict=True)}
+    for q, s in zip(moving, eta, strict=True):
+        put.update({q.rate: s.rate, q.acceleration: s.acceleration})
+    letters = [letter for s in eta for letter in (s.symbol, s.rate, s.acceleration)]
+    found = tuple(explicit(equation.value).residual.xreplace(put).expand() for equation in equations)
+    powers = [left.as_poly(*letters) for left in found]
+    return found if all(power is not None and power.total_degree() == 1 for power in powers) else ()
 
 
 def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:

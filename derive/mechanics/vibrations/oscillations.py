@@ -93,7 +93,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
             points_to={"linear": linear},
             outcome_data={"exists": exists} if exists is not None else {},
         ),
-        facts=[SquareOf(symbol, exists)],
+        facts=[SquareOf(symbol, exists, (q, whole.exact[0]) if whole is not None and whole.exact else None)],
     )
 
 
@@ -190,6 +190,7 @@ FREQUENCY = Rule(
         "growing": claims.rate_of_square(None, -1),
     },
     evidence={"motion": CHECK, "positive": CHECK},
+    named={"exact": claims.oscillates_exactly},
 )
 
 
@@ -249,7 +250,11 @@ def _rate(
         outcome=outcome,
         phrase_data=PhraseData(
             formulas=told_where_positive(squared.value) if condition and outcome == "conditional" else {},
-            outcome_data={"exists": known.exists} if known.exists is not None else {},
+            named={"exact": known.exact[0]} if known.exact and not grows else {},
+            outcome_data={
+                **({"exists": known.exists} if known.exists is not None else {}),
+                **({"left": known.exact[1]} if known.exact and not grows else {}),
+            },
             stands_for=stands_for,
         ),
         key=key,
