@@ -187,14 +187,14 @@ class Arrow(Mark):
     start    the point at which the arrow starts
     size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
     asked    whether the problem asks for the vector; then the arrow is emphasised
-    pushes   whether the tip of the arrow is at `start`
+    aside    a shift to the left of the arrow, in points, so that the arrow covers no other arrow
     """
 
     start: Position
     value: Position
     size: Any
     asked: bool = True
-    pushes: bool = False
+    aside: float = 0.0
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -202,17 +202,18 @@ class Arrow(Mark):
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector:
         along = unit(numbers.vector(self.value))
-        return plus(numbers.vector(self.start), along, 0.0 if self.pushes else numbers.of(self.size) * reach)
+        return plus(numbers.vector(self.start), along, numbers.of(self.size) * reach)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
         if not size_of(along):
             return []
         far = paper.numbers.of(self.size) * paper.reach
-        spots = paper.spots(start, plus(start, along, -far if self.pushes else far))
+        spots = paper.spots(start, plus(start, along, far))
+        if self.aside:
+            x, y = direction(*spots)
+            spots = tuple((u - self.aside * y, v + self.aside * x) for u, v in spots)
         pen = "asked" if self.asked else "given"
-        if self.pushes:
-            return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
 
     def in_words(self) -> InWords:

@@ -7,33 +7,45 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Float, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin
 
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import explicit, rate
+from derive.algebra.expressions import as_expr, explicit, rate, scalar
+from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, PointMark
-from derive.figures.connections import Connections, connections_of
+from derive.figures.connections import Connections, connections_of, distance_of
+from derive.figures.links import Link, angle_of_link, is_fixed
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import BarMark, ParticleMark, WheelMark
-from derive.figures.placed_bodies import placed_outline, with_its_shape
+from derive.figures.placed_bodies import own_angle, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.space import numeric
+from derive.figures.space import Vector, cross, dot, numeric, plus, size_of, unit
+from derive.figures.surroundings import AngleBetween
+from derive.figures.tops import stance_values
 from derive.figures.turning import downwards
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce
+from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.system import System
-from derive.steps.record import coordinates_in, current_run
+from derive.steps.known_numbers import with_numbers
+from derive.steps.record import coordinates_in, given_letters
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
+from derive.steps.trial_numbers import assumptions_about, trial_points
 
 __all__ = ["force_diagram", "free_body_diagram"]
 
-LONG = Rational(3, 4)  # the drawn length of a force, relative to the size of the body
+LONG = Rational(3, 5)  # the drawn length of a force, relative to the size of the body
 ON_PARTICLE = Rational(3, 5)
 OFF = Rational(1, 30)  # the distance of a force along a rod from the rod, relative to the length of the rod
+APART = 5.0  # the distance between the arrows of two forces on the same line, in points
+SLIGHT, NEAR = 1e-6, 0.3  # relative to the length of an arrow
+ANGLE = Rational(63, 100)  # about the angle with which drawings show a given angle without a value
+NORMALS = ("N", "F_n", "n")  # symbols of a normal force that the equations do not contain
 
 
 def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> Drawing | None:
@@ -42,97 +54,189 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
 
     key     the name of the drawing
     of      the body or particle, as a part of the system
-    found   symbol of a constraint force -> the step that derives the force; the sign of its value in the drawn state,
-    at rest, determines the direction of the arrow. The lengths are to scale, unless a force depends on the speed
-    The result is None for a system in space. It is also None if no such force acts on the body, if a force is not among
-    `found`, if other forces act that the diagram would not show, or if the direction of a force is unknown.
+    found   symbol of a constraint force -> the step that derives the force
+    The lengths are to scale in the drawn state, at rest, and a negative force is reversed. The result is None in space.
+    It is also None if no such force acts on the body, if a force is not among `found`, if other forces act that the
+    diagram would not show, or if the direction of a force is unknown.
     """
-    if len(system.places[0].components) != 2:
-        return None
-    acting = [force for each in connections_of(system, Connection) for force in each.on(of)]
-    if not acting or any(letter not in found for force in acting for letter in _multipliers(system, force)):
-        return None
-    if _has_others(system) or not _moves_by(system, of, acting, found):
-        return None
-    scene = Connections(system)
-    if not scene.is_possible:
-        return None
-    forces = _forces(system, acting, found, {q: scene.values[q] for q in system.coordinates if q in scene.values})
-    if forces is None:
-        return None
-    drawn = [*_weight(system, of), *forces]
+    acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
-    if any(explicit(found[letter].value).has(*map(rate, system.coordinates)) for letter in letters):
-        sizes = [1.0] * len(drawn)  # the speed in the drawn state is unknown, and so are the sizes of the forces
-    else:
-        sizes = _numbers([each.value for each in drawn], scene.values)
-    long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
-    arrows = [each.arrow(long * _share(size, max(sizes))) for each, size in zip(drawn, sizes, strict=True)]
-    return drawing(key, [*_outline(of), *arrows], values=scene.values)
-
-
-def free_body_diagram(key: str, system: System, of: Any, leads_to: Sequence[str]) -> Drawing | None:
-    """Return a drawing of one body or particle with the forces on it before they are known: each letter is drawn in the
-    direction in which it is positive, and the lengths of the arrows have no meaning.
-
-    key       the name of the drawing
-    of        the body or particle, as a part of the system
-    leads_to  the keys of the laws of this body, before which the drawing is placed
-    The result is None in the cases in which `force_diagram` returns None, except for the sizes of the forces.
-    """
-    acting = [force for each in connections_of(system, Connection) for force in each.on(of)]
-    if not acting or _has_others(system) or not _moves_by(system, of, acting, {}):
+    if not letters <= found.keys() or len(system.places[0].components) != 2:
         return None
     scene = Connections(system)
-    if not scene.is_possible:
+    if not acting or not _shows_all(system, of, acting, found) or not scene.is_possible:
         return None
-    letters = {each.force for each in system.constraints}
-    drawn = list(_weight(system, of))
-    for force, times in Counter(acting).items():  # a string pulls a pulley twice
-        size, direction = force.size, Location(force.direction)
-        if size == 1:  # for friction of size 1 the direction contains the true size
-            size, direction = _size_and_direction(direction, list(letters))
-        way = ImmutableDenseMatrix(list(direction.components))
-        at = _beside(force) if isinstance(force.of, PlacedBody) else force.of.at
-        pushes = isinstance(force.of, PlacedBody) and size in _of_surfaces(system)
-        drawn.append(_Drawn(at, way, size, times * size, (), pushes))
-    long = LONG if isinstance(of, PlacedBody) else ON_PARTICLE
-    return drawing(key, [*_outline(of), *(each.arrow(long) for each in drawn)], values=scene.values, leads_to=leads_to)
+    drawn = _forces(system, of, acting, found)
+    signs = [1 if each.pushes else sign_known(_there(each.value, scene)) for each in drawn]
+    if not {*signs} <= {1, -1, 0}:
+        return None
+    kept = [each.reversed() if sign == -1 else each for each, sign in zip(drawn, signs, strict=True) if sign != 0]
+    return _diagram(key, system, of, kept, scene)
 
 
-def _of_surfaces(system: System) -> set[Symbol]:
-    return {each.force for each in system.constraints if each.enforcer == "surface"}
+def free_body_diagram(
+    key: str, system: System, of: Any, leads_to: Sequence[str], found: Mapping[Symbol, Quantity]
+) -> Drawing | None:
+    """Return a drawing of one body or particle with the forces on it, each in the direction in which its symbol is
+    positive.
+
+    leads_to  the keys of the laws of this body, before which the drawing is placed
+    found     as for `force_diagram`; if a force is not among them, and in space, the lengths have no meaning
+    The result is None in the cases in which `force_diagram` returns None, except for the values of the forces.
+    """
+    scene, acting = Connections(system), _acting(system, of)
+    if not acting or not _shows_all(system, of, acting, {}) or not scene.is_possible:
+        return None
+    drawn = _forces(system, of, acting, found)
+    shown = [replace(each, keys=(), value=each.value if scene.in_a_plane else None) for each in drawn]
+    return _diagram(key, system, of, shown, scene, leads_to)
+
+
+def _diagram(
+    key: str, system: System, of: Any, drawn: Sequence[_Drawn], scene: Connections, leads_to: Sequence[str] = ()
+) -> Drawing:
+    """Return the drawing of a body with its weight, these forces, and the angles of their directions."""
+    drawn = [*_weight(system, of), *drawn]
+    long, sizes = (
+        ON_PARTICLE if not isinstance(of, PlacedBody) else LONG if scene.in_a_plane else 1,
+        _sizes(drawn, scene),
+    )
+    shares, reach = [long * _share(size, max(sizes)) for size in sizes], _reach(of, drawn, scene)
+    apart = _set_apart([each.line(share * reach, scene) for each, share in zip(drawn, shares, strict=True)])
+    arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
+    angles = _angles(system, of, [(each, share * reach) for each, share in zip(drawn, shares, strict=True)])
+    values = {**scene.values, **stance_values(system)}
+    return drawing(key, [*_outline(of), *arrows, *angles], values=values, leads_to=leads_to)
+
+
+def _acting(system: System, of: Any) -> list[PointForce]:
+    """Return the forces of connections on a body. If the coordinates alone keep the body on a plane, the normal force
+    of the plane is also returned, although no equation contains its symbol."""
+    named = [force for each in connections_of(system, Connection) for force in each.on(of)]
+    return [*named, *_unnamed_normals(system, of)] if named else []
+
+
+def _unnamed_normals(system: System, of: Any) -> list[PointForce]:
+    touching = [each for each in connections_of(system, Contact) if each.of == of and each.is_kept]
+    flat = [each for each in touching if isinstance(each.surface, Plane) and is_fixed(system, each.surface.through)]
+    used = {*given_letters(), *(each.force.name for each in system.constraints)}
+    letter = scalar(next((name for name in NORMALS if name not in used), NORMALS[0]))
+    return [PointForce(letter, each.normal.components, each.at, of) for each in flat] if len(touching) == 1 else []
 
 
 @dataclass(frozen=True)
 class _Drawn:
-    """A force in a diagram. `value` is its value in the drawn state, in newtons; if `pushes` is true, the tip of its
-    arrow is at the body."""
+    """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
+    is true for the force of a surface that cannot pull."""
 
     at: Location
     way: Any
-    value: Expr
+    value: Expr | None
     label: Expr
     keys: tuple[str, ...] = ()
     pushes: bool = False
 
-    def arrow(self, size: Rational) -> Arrow:
-        return Arrow(column_of(self.at), self.way, size, False, self.pushes, label=self.label, keys=self.keys)
+    def reversed(self) -> _Drawn:
+        assert self.value is not None
+        return replace(self, way=-self.way, value=-self.value, label=-self.label)
+
+    def arrow(self, size: Expr, aside: float) -> Arrow:
+        return Arrow(column_of(self.at), self.way, size, False, aside, label=self.label, keys=self.keys)
+
+    def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
+        """Return the start and the end of the arrow."""
+        start, along = (_vector(scene, *column) for column in (self.at.components, self.way))
+        return start, plus(start, unit(along), length)
 
 
-def _numbers(values: Sequence[Expr], at: Mapping[Symbol, Any]) -> list[float]:
-    """Return the magnitudes of the forces; a symbol has the same number in all forces."""
-    there = [value.subs(at).subs(at) for value in values]
-    letters = sorted(set().union(*(value.free_symbols for value in there)), key=str)
-    run = current_run.get()
-    given = run.numbers if run is not None else {}
-    numbers = {letter: given.get(letter, Float(0.6 + 0.07 * i)) for i, letter in enumerate(letters)}
-    return [abs(float(value.xreplace(numbers).evalf())) for value in there]
+def _vector(scene: Connections, *components: Expr) -> Vector:
+    x, y, *rest = (scene.number(as_expr(c)) for c in components)
+    return x, y, rest[0] if rest else 0.0
+
+
+def _there(value: Expr | None, scene: Connections) -> Expr:
+    """Return a value in the drawn state."""
+    values = {q: scene.values[q] for q in scene.system.coordinates if q in scene.values}
+    return tidied(as_expr(value).subs(values).subs(values))
+
+
+def _sizes(drawn: Sequence[_Drawn], scene: Connections) -> list[float]:
+    """Return the magnitudes of the forces at numbers that the assumptions allow and at which no surface pulls; a symbol
+    has the same number in all forces. If a value is unknown or there are no such numbers, all magnitudes are 1."""
+    equal = [1.0] * len(drawn)
+    if any(each.value is None for each in drawn):
+        return equal
+    values = [explicit(with_numbers(as_expr(each.value).subs(scene.values).subs(scene.values))) for each in drawn]
+    letters = sorted(set().union(*(value.free_symbols for value in values)), key=str)
+    angles = {s for value in values for f in value.atoms(sin, cos) for s in f.free_symbols}
+    usual = {s: ANGLE if s in angles else rational_in_range(s, Rational(4, 4 + i)) for i, s in enumerate(letters)}
+    for point in (fulfilling(usual), *trial_points(letters, *assumptions_about(letters))):
+        sizes = [value.xreplace(dict(point)).evalf() for value in values]
+        if all(size.is_real for size in sizes) and all(
+            size > 0 for each, size in zip(drawn, sizes, strict=True) if each.pushes
+        ):
+            return [abs(float(size)) for size in sizes]
+    return equal
 
 
 def _share(size: float, greatest: float) -> Rational:
     """Return the length of an arrow relative to the longest arrow: at least 1/5, so that small forces stay visible."""
     return Rational(max(round(60 * size / greatest), 12), 60)
+
+
+def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
+    """Return the size of a body, about as `Paper.reach` defines it; 1 for a particle."""
+    arms = [distance_of(each.at, of.centre) for each in drawn] if isinstance(of, PlacedBody) else []
+    return max(map(scene.number, arms), default=0.0) or 1.0
+
+
+def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
+    """Return the shift of each arrow to its left, in points: an arrow that covers an earlier arrow is shifted, to the
+    side away from the other arrows."""
+    found = []
+    for i, (start, end) in enumerate(lines):
+        along = unit(plus(end, start, -1.0))
+        left = (-along[1], along[0], 0.0)
+        others = sum(dot(left, unit(plus(b, a, -1.0))) for a, b in lines)
+        is_covering = any(_overlap(start, end, *other) for other in lines[:i])
+        found.append((-APART if others > SLIGHT else APART) if is_covering else 0.0)
+    return found
+
+
+def _overlap(start: Vector, end: Vector, other_start: Vector, other_end: Vector) -> bool:
+    """Whether two arrows on one line overlap, or their heads almost meet."""
+    way = plus(end, start, -1.0)
+    long, along = size_of(way), unit(way)
+    ways = [plus(place, start, -1.0) for place in (other_start, other_end)]
+    if any(size_of(cross(along, each)) > SLIGHT * long for each in ways):
+        return False
+    tail, head = (dot(along, each) for each in ways)
+    covered = min(max(tail, head), long) - max(min(tail, head), 0.0)
+    return covered > SLIGHT * long or head < tail and 0 <= head - long < NEAR * long
+
+
+def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> Iterator[Mark]:
+    """Yield the angle of a rod, and the angles by which the forces are inclined, with the lengths of their arrows; each
+    angle once, preferably at a normal force."""
+    if len(system.places[0].components) != 2:
+        return
+    told: set[Any] = set()
+    if isinstance(of, PlacedBody):
+        bars: list[Mark] = [mark for mark in placed_outline(with_its_shape(of)) if isinstance(mark, BarMark)]
+        for mark in own_angle(system, of, bars):
+            told.add(mark.label)
+            yield mark
+    for each, length in sorted(drawn, key=lambda pair: not pair[0].pushes):
+        turned = angle_of_link(system, Link(each.at, each.at + Location(tuple(each.way)), Integer(1), True))
+        if turned is not None and turned[0].is_Symbol and turned[0] not in told:
+            told.add(turned[0])
+            far = Rational(round(1000 * length), 1000)
+            zero, way = far * column_of(turned[1]), far * each.way
+            yield AngleBetween(column_of(each.at), zero, way, True, label=turned[0])
+
+
+def _shows_all(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
+    return not _has_others(system) and _moves_by(system, of, acting, found)
 
 
 def _has_others(system: System) -> bool:
@@ -146,16 +250,21 @@ def _has_others(system: System) -> bool:
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
     """Whether the forces account for the motion of the centre of mass. The centre must move independently in the
-    directions in which coordinates move it, and the forces must balance in all other directions. Otherwise an unknown
-    reaction also acts, such as the reaction of the ice on a plank."""
+    directions in which coordinates move it, and the forces must balance in all other directions; the normal force of a
+    plane balances them. Otherwise an unknown reaction also acts, such as the reaction of the ice on a plank."""
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
     moving = list(system.coordinates)
     free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
-    rows = ImmutableDenseMatrix([[derivative(centre.components[k], q) for q in moving] for k in free])
+    normals = [force.direction for force in acting if not _multipliers(system, force)]
+    rows = ImmutableDenseMatrix(
+        [[*(derivative(centre.components[k], q) for q in moving), *(n[k] for n in normals)] for k in free]
+    )
     if free and rows.rank(simplify=True) < len(free):
         return False
     values = {letter: explicit(step.value) for letter, step in found.items()}
     for k in set(range(len(centre.components))) - set(free):
+        if any(n[k] != 0 for n in normals):
+            continue
         down = explicit(mass) * system.gravity if k == len(centre.components) - 1 else Integer(0)
         if not is_zero(Add(*(f.size * f.direction[k] for f in acting)).xreplace(values) - down):
             return False
@@ -182,38 +291,36 @@ def _weight(system: System, of: Any) -> Iterator[_Drawn]:
     if system.weights:
         centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
         weight = explicit(mass) * system.gravity
-        yield _Drawn(centre, downwards(2), weight, weight)
+        yield _Drawn(centre, downwards(len(centre.components)), weight, weight)
 
 
-def _forces(
-    system: System, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity], values: Mapping[Symbol, Any]
-) -> list[_Drawn] | None:
-    """Return the forces, each reversed if it is negative in the drawn state; a zero force is not drawn.
-
-    The result is None if the direction of a force is unknown, for example if it depends on the sign of a difference of
-    masses.
-    """
-    drawn = []
+def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> list[_Drawn]:
+    """Return the forces with their values in the system at rest, if these are known."""
     still = {rate(q): Integer(0) for q in system.coordinates}
-    surfaces = _of_surfaces(system)
+    values = {s: explicit(step.value).subs(still) for s, step in found.items() if isinstance(step.value, Expr)}
+    surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
+    named: list[_Drawn] = []
+    unnamed: list[_Drawn] = []
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
         if size == 1:  # for friction of size 1 the direction contains the true size
             size, direction = _size_and_direction(direction, letters)
-        value = times * size.xreplace({letter: explicit(found[letter].value) for letter in letters}).subs(still)
-        if is_zero(value):
-            continue
-        sign = sign_known(tidied(value.subs(values).subs(values)))
-        if sign not in (1, -1):
-            return None
-        keys = tuple(found[letter].key for letter in letters)
-        way = ImmutableDenseMatrix([sign * c for c in direction.components])
-        is_body = isinstance(force.of, PlacedBody)
-        pushes = is_body and sign == 1 and size in surfaces
-        at = _beside(force) if is_body else force.of.at
-        drawn.append(_Drawn(at, way, value, sign * times * size, keys, pushes))
-    return drawn
+        value = times * size.xreplace(values) if values.keys() >= {*letters} else None
+        at = _beside(force) if isinstance(of, PlacedBody) else of.at
+        keys = tuple(found[letter].key for letter in letters if letter in found)
+        way = ImmutableDenseMatrix(list(direction.components))
+        drawn = _Drawn(at, way, value, times * size, keys, size in surfaces or not letters)
+        (named if letters else unnamed).append(drawn)
+    others = [*_weight(system, of), *named]
+    return [*named, *(replace(each, value=_balance(each, others)) for each in unnamed)]
+
+
+def _balance(normal: _Drawn, others: Sequence[_Drawn]) -> Expr | None:
+    """Return the normal force of a plane along which a body moves: it balances the components of the other forces."""
+    if any(each.value is None for each in others):
+        return None
+    return tidied(-Add(*(as_expr(each.value) * (each.way.T * normal.way)[0] for each in others)))
 
 
 def _beside(force: PointForce) -> Location:

@@ -90,7 +90,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     elif pivoted is not None:
         yield from _pivoted(system, pivoted, outline)
     elif not in_space:
-        yield from _own_angle(system, placed, outline)
+        yield from own_angle(system, placed, outline)
         if square == 0 and is_fixed(system, centre):
             yield FixedEnd(column_of(centre), downwards(2), True)
 
@@ -101,7 +101,7 @@ def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
     hub, centre = placed.hub, placed.centre
     yield PointMark(column_of(hub))
     if same(hub, centre):
-        yield from _own_angle(system, placed, placed_outline(placed))
+        yield from own_angle(system, placed, placed_outline(placed))
         return
     right = hub + Location((placed.rim[1], Integer(0)))
     yield Line(column_of(hub), column_of(right), "construction", label=placed.rim[1])
@@ -301,7 +301,7 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
     ]
 
 
-def _own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark]:
+def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark]:
     """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre."""
     for mark in outline:
         if isinstance(mark, ThickBar):

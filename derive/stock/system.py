@@ -141,17 +141,24 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body: before Newton's laws of this body, or else if parts of the problem derive the
-        constraint forces on the body."""
+        """Draw the forces on each body: before Newton's laws of this body or, in space, before the equations of motion
+        that contain the forces; in a plane also if parts of the problem derive the constraint forces on the body."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
-            if laws := laws_of(steps, self.system, of):
-                free_body_diagram(key, self.system, of, laws)
+            if laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
+                free_body_diagram(key, self.system, of, laws, at_rest | along)
             elif force_diagram(key, self.system, of, at_rest | along) is None:
                 force_diagram(key, self.system, of, at_rest)
+
+    def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
+        """Return, in space, the keys of the equations of motion that contain constraint forces."""
+        forces = {each.force for each in self.system.constraints}
+        is_plane = len(self.system.places[0].components) == 2
+        laws = [each for each in steps if each.key.startswith("motion_") and not is_plane]
+        return [each.key for each in laws if forces & explicit(each.value).free_symbols]
 
     def asks(self) -> dict[str, Any]:
         """Return name -> function that derives the answer, for every name that a part may ask for, including those of

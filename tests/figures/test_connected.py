@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos
+from math import cos, sin
 from pathlib import Path
 from typing import Any
 
@@ -278,3 +278,98 @@ def test_a_cone_lies_on_a_table_that_is_larger_than_the_circle_of_its_contacts(t
     alpha, h = 0.5, 1.3
     values = {letter: {"alpha": alpha, "h": h}[letter.name] for letter in table.radius.free_symbols}
     assert numeric(table.radius.subs(values)) == pytest.approx(1.2 * h / cos(alpha))
+
+
+YOYO = """\
+title: A yo-yo
+solve: system
+method: newton
+symbols: {M: mass, R: length, g: acceleration}
+given:
+  coordinates: {y: positive length, phi: angle}
+  bodies:
+    disc: {shape: disc, radius: R, mass: M, turned: -phi, centre: [R, -y], across: z}
+  strings: {from: [0, 0], wound_on: disc, tension: S}
+  gravity: g
+statement: A disc.
+parts:
+  - ask: Find the equations of motion.
+    answer: equations_of_motion
+  - ask: Find the tension.
+    answer: S
+"""
+PUSHED = """\
+title: A particle that is pushed off a sphere
+solve: system
+symbols: {m: mass, R: length, g: acceleration, v_0: positive speed}
+given:
+  coordinates: {r: positive length, theta: angle}
+  particles: {particle: {mass: m, at: [r*sin(theta), r*cos(theta)]}}
+  gravity: g
+  assume: v_0**2 < g*R
+  surfaces: {sphere: {centre: [0, 0], radius: R}}
+  contacts: {of: particle, on: sphere, normal: N}
+  results:
+    on_it: {put_in: energy_function, values: {r: R, r_dot: 0}}
+    slide: {put_in: motion_theta, values: {r: R, r_dot: 0}}
+    speed: {speed: on_it, for: theta, start: 0, start_rate: v_0/R, results: slide}
+    force: {put_in: N, results: [speed]}
+statement: A particle on a sphere.
+parts:
+  - ask: Find the normal force.
+    answer: force
+"""
+
+
+def test_a_free_body_diagram_is_to_scale_if_the_forces_are_derived(tmp_path: Path) -> None:
+    weight, tension = of_class(drawings(tmp_path, YOYO)["forces_disc"], Arrow)
+    assert str(tension.label) == "S" and tension.size / weight.size == pytest.approx(1 / 3, abs=0.02)
+    unknown = edited(YOYO, ("  - ask: Find the tension.\n    answer: S\n", ""))
+    weight, tension = of_class(drawings(tmp_path, unknown)["forces_disc"], Arrow)
+    assert tension.size == weight.size
+
+
+def test_a_normal_force_whose_sign_depends_on_the_speed_is_drawn_as_a_push(tmp_path: Path) -> None:
+    """On the sphere N < m g cos(theta)."""
+    drawn = drawings(tmp_path, PUSHED)["forces_particle"]
+    weight, normal = of_class(drawn, Arrow)
+    assert 0 < normal.size / weight.size < cos(numeric(dict(drawn.values)[symbols_of("theta", real=True)]))
+    assert [str(mark.label) for mark in of_class(drawn, AngleBetween)] == ["theta"]
+
+
+def test_a_normal_force_begins_at_the_contact_and_covers_no_other_arrow(tmp_path: Path) -> None:
+    level = edited(BALL, ("along: [cos(alpha), -sin(alpha)]", "along: [1, 0]"), ("mass: M,", "mass: M*tan(alpha),"))
+    weight, normal = of_class(drawings(tmp_path, level)["forces_ball"], Arrow)
+    assert [numeric(c) for c in normal.value] == [0, 1]
+    assert str(weight.start[0]) == str(normal.start[0]) and weight.aside == 0 != normal.aside
+
+
+def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(tmp_path: Path) -> None:
+    text = edited(
+        BALL,
+        ("{x: length, y: length, phi: angle}", "{s: length, phi: angle}"),
+        ("centre: [x, y]", "centre: [s*cos(alpha) + a*sin(alpha), -s*sin(alpha) + a*cos(alpha)]"),
+        ("normal: N, ", ""),
+        ("[N, F]", "F"),
+    )
+    weight, friction, normal = of_class(drawings(tmp_path, text)["forces_ball"], Arrow)
+    assert str(normal.label) == "N" and normal.keys == () and friction.keys == ("F",)
+    assert normal.size / weight.size == pytest.approx(cos(0.63), abs=0.02)
+    assert friction.size / weight.size == pytest.approx(max(2 / 7 * sin(0.63), 0.2), abs=0.02)
+    taken = edited(
+        text,
+        ("radius: a,", "radius: N,"),
+        ("a*sin(alpha)", "N*sin(alpha)"),
+        ("a*cos(alpha)", "N*cos(alpha)"),
+        ("a: length", "N: length"),
+    )
+    assert str(of_class(drawings(tmp_path, taken)["forces_ball"], Arrow)[-1].label) == "F_n"
+
+
+def test_in_space_the_forces_are_drawn_before_the_equations_of_motion(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[2] / "problems/library/contacts/rolling_coin.yaml").read_text(encoding="utf-8")
+    drawn = drawings(tmp_path, text)["forces_coin"]
+    weight, *forces = of_class(drawn, Arrow)
+    assert [str(each.label) for each in forces] == ["N", "F_x", "F_y"]
+    assert {each.size for each in (weight, *forces)} == {1}
+    assert "motion_theta" in drawn.leads_to and drawn.keys == ()
