@@ -14,7 +14,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 
 from derive.algebra.expressions import TIME, column, explicit, rate
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, AxisOfRotation, PointMark, Turn
+from derive.figures.annotations import Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.annotations import Line as Edge
 from derive.figures.elements import UNDER
 from derive.figures.links import Link, is_fixed, moving_in, same
@@ -39,6 +39,7 @@ from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
 from derive.figures.surfaces import TableMark
 from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
+from derive.figures.tops import euler_angles
 from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
@@ -54,10 +55,12 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 # Values of free coordinates, relative to the largest body.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same for a body on a table in space, clear of the axes
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
-TABLE = 4  # the radius of a table in space, relative to the largest body on it
+AXIS = Rational(4, 5)  # the length of the axes on a table, relative to its radius
+TABLE = 3  # the radius of a table in space, relative to the largest body on it
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the circle of the contacts about its middle
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
@@ -111,9 +114,11 @@ class Connections:
         free = [q for q, kind in self.system.coordinates.items() if q not in found and kind == "length"]
         carriers = [each.through for each in self._planes if each.of is not None]
         carried = {q for place in carriers for q in moving_in(self.system, *place.components)}
+        on_table = not self.in_a_plane and self.contacts and not any(q.is_positive for q in free)
+        away, size = (ON_A_TABLE, self.ball_size) if on_table else (AWAY, self.size)
         for i, q in enumerate(sorted(free, key=lambda q: q in carried)):
-            found[q] = self._free_value(q, len(found)) or self.size * (
-                self._farthest if q in carried else AWAY[i % len(AWAY)]
+            found[q] = self._free_value(q, len(found)) or size * (
+                self._farthest if q in carried else away[i % len(away)]
             )
         found |= self._arms() | self._amplitudes()
         found |= self._turned(found)
@@ -305,6 +310,23 @@ class Connections:
             rate = next((diff(angle, TIME) for i, angle in plane.moves.turns if i == 2), None)
             if rate is not None:
                 yield AxisOfRotation(through, ACROSS, rate, label=rate)
+        for touch in self.contacts:
+            if touch.surface == plane and isinstance(touch.of, PlacedBody) and same(touch.of.at, touch.of.centre):
+                yield from self._on_table(touch, plane)
+
+    def _on_table(self, touch: Contact, plane: Plane) -> Iterable[Mark]:
+        """Yield the axes of the coordinates of a body that moves on a table, its radius at the contact, and its Euler
+        angles."""
+        arm = distance_of(touch.of.centre, touch.at)
+        for k, q in enumerate(touch.of.centre.components):
+            if q in self.system.coordinates:
+                start = column_of(plane.through)
+                yield Axis(
+                    start, start + AXIS * TABLE * self.ball_size * column(*(int(i == k) for i in range(3))), label=q
+                )
+        yield Edge(column_of(touch.of.centre), column_of(touch.at), "hidden", label=arm if arm.is_Symbol else None)
+        yield PointMark(column_of(touch.at))
+        yield from euler_angles(self.system, touch.of, Rational(5, 4) * arm)
 
     def _table_radius(self, plane: Plane) -> Expr:
         """The radius of a table: beyond the circle on which the contacts move; a multiple of the bodies' size if they
@@ -316,9 +338,9 @@ class Connections:
 
     @property
     def ball_size(self) -> Expr:
-        """The radius of the largest body in space that touches a surface."""
-        gaps = [tidied(dot(each.normal, each.of.hub - each.at)) for each in self.contacts if hasattr(each.of, "hub")]
-        return max(gaps, key=numeric, default=ONE)
+        """The greatest distance of a contact in space from the centre of its body."""
+        arms = [distance_of(each.of.hub, each.at) for each in self.contacts if hasattr(each.of, "hub")]
+        return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
         """Whether a particle carries a surface, and is therefore drawn as a wedge or a plank on its own floor."""

@@ -65,6 +65,23 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
         yield Axis(start, start + ACROSS * size * along, label=scalar(name))
 
 
+def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
+    """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
+    body, and the angle between the two; nothing if the angles are not Euler angles.
+
+    size   the distance of the rotation arrows from the centre
+    """
+    turns: Any = getattr(placed.turned, "turns", ())
+    if [i == 2 for i, _ in turns] != [True, False, True] or not all(moving_in(system, angle) for _, angle in turns):
+        return
+    start, (_, _, along) = column_of(placed.centre), following_axes(placed)
+    up: Any = ImmutableDenseMatrix([0, 0, 1])
+    for way, angle in ((up, turns[0][1]), (along, turns[-1][1])):
+        yield Line(start, start + LONGER * size * way, "construction")
+        yield Turn(start + BESIDE * size * way, way, ROUND, label=angle)
+    yield UprightAngle(start, size * up, size * along, label=turns[1][1])
+
+
 def follows_nodes(placed: Any) -> bool:
     """Return whether the body is symmetric and has Euler angles, so that the line of nodes is a principal axis."""
     turns = getattr(placed.turned, "turns", ())

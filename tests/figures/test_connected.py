@@ -11,7 +11,7 @@ from sympy import symbols as symbols_of
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import Arrow, LengthMark
+from derive.figures.annotations import Arrow, LengthMark, Line
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import BarMark, BlockMark, HeavyRopeMark, ParticleMark, RopeMark, WedgeMark, WheelMark
 from derive.figures.space import numeric
@@ -373,3 +373,14 @@ def test_in_space_the_forces_are_drawn_before_the_equations_of_motion(tmp_path: 
     assert [str(each.label) for each in forces] == ["N", "F_x", "F_y"]
     assert {each.size for each in (weight, *forces)} == {1}
     assert "motion_theta" in drawn.leads_to and drawn.keys == ()
+
+
+def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[2] / "problems/library/contacts/rolling_coin.yaml").read_text(encoding="utf-8")
+    drawn = drawings(tmp_path, text)["system"]
+    labels = {str(mark.label) for mark in drawn.marks if mark.label is not None}
+    assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g"}
+    (table,) = of_class(drawn, TableMark)
+    touch = next(mark for mark in of_class(drawn, Line) if str(mark.label) == "a").end
+    values = dict(drawn.values)
+    assert sum(numeric(c, values) ** 2 for c in touch) < numeric(table.radius, values) ** 2
