@@ -30,6 +30,8 @@ from derive.figures.space import (
 )
 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
+SHORTEST = 11.0  # points: the shortest dimension line that has room for its two arrowheads
+OUTSIDE = 13.0  # points: length of the arrows outside a shorter dimension line
 ASIDE = 12.0  # points: distance between a body and its dimension line
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
@@ -133,6 +135,18 @@ class AxisOfRotation(Mark):
         return "axis_of_rotation" if self.rate is None else "turning_axis", names
 
 
+def measured(line: tuple[Spot, Spot], label: Any, away: Spot, gap: float = 3.0, way: Spot | None = None) -> list[Piece]:
+    """Return a dimension line with its label. If the line is too short for its arrowheads, two arrows point to its ends
+    from outside, and the label is beyond the arrow at the far end."""
+    (x, y), (u, v) = line
+    if hypot(u - x, v - y) >= SHORTEST:
+        return [Stroke(line, "measure", head=True, tail=True), Tag(label, midway(*line), away, gap, way)]
+    a, b = direction(*line)
+    outer = (x - OUTSIDE * a, y - OUTSIDE * b), (u + OUTSIDE * a, v + OUTSIDE * b)
+    arrows = [Stroke((far, near), "measure", head=True) for far, near in zip(outer, line, strict=True)]
+    return [Stroke(line, "thin"), *arrows, Tag(label, outer[1], (a, b), gap)]
+
+
 @dataclass(frozen=True)
 class LengthMark(_Between):
     """A dimension line between two points, shifted to one side; a length of zero is not drawn.
@@ -162,9 +176,7 @@ class LengthMark(_Between):
         extensions = [Stroke((set_off(spot, 0.2 * ASIDE), set_off(spot, off + 0.25 * ASIDE)), "thin") for spot in spots]
         line = (set_off(spots[0], off), set_off(spots[1], off))
         (x, y), (u, v) = line
-        half = 0.4 * (u - x), 0.4 * (v - y)
-        tag = Tag(self.label, midway(*line), away, way=half)
-        return [*extensions, Stroke(line, "measure", head=True, tail=True), tag]
+        return [*extensions, *measured(line, self.label, away, way=(0.4 * (u - x), 0.4 * (v - y)))]
 
     def _away(self, paper: Paper) -> Spot:
         if self.aside is None:
@@ -187,6 +199,7 @@ class Arrow(Mark):
     start    the point at which the arrow starts
     size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
     asked    whether the problem asks for the vector; then the arrow is emphasised
+    pushes   whether the tip of the arrow is at `start`
     aside    a shift to the left of the arrow, in points, so that the arrow covers no other arrow
     """
 
@@ -194,6 +207,7 @@ class Arrow(Mark):
     value: Position
     size: Any
     asked: bool = True
+    pushes: bool = False
     aside: float = 0.0
 
     @property
@@ -202,18 +216,20 @@ class Arrow(Mark):
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector:
         along = unit(numbers.vector(self.value))
-        return plus(numbers.vector(self.start), along, numbers.of(self.size) * reach)
+        return plus(numbers.vector(self.start), along, 0.0 if self.pushes else numbers.of(self.size) * reach)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
         if not size_of(along):
             return []
         far = paper.numbers.of(self.size) * paper.reach
-        spots = paper.spots(start, plus(start, along, far))
+        spots = paper.spots(start, plus(start, along, -far if self.pushes else far))
         if self.aside:
             x, y = direction(*spots)
             spots = tuple((u - self.aside * y, v + self.aside * x) for u, v in spots)
         pen = "asked" if self.asked else "given"
+        if self.pushes:
+            return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
 
     def in_words(self) -> InWords:

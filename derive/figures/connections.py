@@ -20,7 +20,9 @@ from derive.figures.elements import UNDER
 from derive.figures.links import Link, is_fixed, moving_in, same
 from derive.figures.marks import Mark
 from derive.figures.parts import (
+    BESIDE_SPRING,
     BLOCK,
+    CYLINDER,
     BarMark,
     BlockMark,
     ConnectionMark,
@@ -274,7 +276,7 @@ class Connections:
             yield from self._wire(wire)
         for motor in connections_of(self.system, Motor):
             yield from self._motor(motor)
-        yield from self._dashpots()
+        yield from self._dashpots
 
     # --- surfaces ---
 
@@ -615,12 +617,24 @@ class Connections:
             if sense in (1, -1) and is_fixed(self.system, placed.at):
                 yield Turn(column_of(placed.at), sense * ACROSS, Rational(1, 8), label=motor.torque)
 
-    def _dashpots(self) -> Iterator[Mark]:
-        """Yield the dashpots. A dashpot is drawn beside a spring if both connect the same two places."""
+    @property
+    def _dashpots(self) -> list[DashpotMark]:
+        """The dashpots. A dashpot is drawn beside a spring if both connect the same two places."""
         springs = [{each.start.components, each.end.components} for each in self.system.between]
-        for each in connections_of(self.system, Dashpot):
-            beside = {each.start.components, each.end.components} in springs
-            yield DashpotMark(column_of(each.start), column_of(each.end), beside, label=each.constant)
+        return [
+            DashpotMark(
+                column_of(each.start),
+                column_of(each.end),
+                {each.start.components, each.end.components} in springs,
+                label=each.constant,
+            )
+            for each in connections_of(self.system, Dashpot)
+        ]
+
+    @property
+    def height_of_dashpots(self) -> float:
+        """The height of the dashpots above the springs beside which they are drawn, in points; 0 without them."""
+        return BESIDE_SPRING + CYLINDER[1] / 2 if any(each.beside for each in self._dashpots) else 0.0
 
     # --- particles ---
 

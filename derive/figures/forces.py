@@ -141,7 +141,7 @@ class _Drawn:
         return replace(self, way=-self.way, value=-self.value, label=-self.label)
 
     def arrow(self, size: Expr, aside: float) -> Arrow:
-        return Arrow(column_of(self.at), self.way, size, False, aside, label=self.label, keys=self.keys)
+        return Arrow(column_of(self.at), self.way, size, False, aside=aside, label=self.label, keys=self.keys)
 
     def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
         """Return the start and the end of the arrow."""

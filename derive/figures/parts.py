@@ -28,6 +28,7 @@ PITCH = 5.0  # distance between two turns of a spring
 LEAD = 7.0  # length of each straight end of a spring
 
 CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
+BESIDE_SPRING = 20.8  # distance of a dashpot from a spring between the same places
 
 SHORT = 3  # greatest number of characters in a name that is written on a block
 
@@ -119,7 +120,7 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is beside a spring between the same points
+    beside   whether the dashpot is beside a spring between the same points, on the upper side
     """
 
     beside: bool = False
@@ -130,7 +131,7 @@ class DashpotMark(_Stretched):
         if far < 1e-6:
             return []
         along = direction(*ends)
-        off = -2.6 * CYLINDER[1] if self.beside else 0.0
+        off = 0.0 if not self.beside else BESIDE_SPRING if along[0] >= 0 else -BESIDE_SPRING
         half, wide = CYLINDER[0] / 2, CYLINDER[1] / 2
 
         def spot(way: float, aside: float = 0.0) -> Spot:
@@ -145,7 +146,7 @@ class DashpotMark(_Stretched):
             (spot(left, -wide), spot(right, -wide), spot(right, wide), spot(left, wide)),
             (spot(right), spot(far), ends[1]),
         ]
-        tag = Tag(self.label, spot(middle, -wide if self.beside else wide), (0.0, -1.0 if self.beside else 1.0), 3.0)
+        tag = Tag(self.label, spot(middle, wide if off >= 0 else -wide), (0.0, 1.0), 3.0)
         return [*(Stroke(line, "edge") for line in lines), tag]
 
 

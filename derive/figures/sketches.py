@@ -31,6 +31,7 @@ from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, la
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.no_slip import Rolling
+from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.system import Central, Particle, System
 
 __all__ = ["sketch"]
@@ -367,7 +368,7 @@ class _Scene:
             on_slope = x != 0 and y != 0
             is_carrier = any(each.surface.of == touch.of for each in self.connections.contacts)
             if isinstance(touch.of, Particle) and touch.surface.of is None and not on_slope and not is_carrier:
-                off = BLOCK[1] / 2 + CLEAR
+                off = max(BLOCK[1] / 2, self.connections.height_of_dashpots) + CLEAR
                 return DistanceMark(column_of(start), column_of(at), column_of(touch.normal), off, label=q)
             if on_slope:
                 if isinstance(touch.of, Particle):
@@ -376,8 +377,12 @@ class _Scene:
                 down = touch.at - at
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
-        aside = ImmutableDenseMatrix([0, -1] if y == 0 else [self._free_side(at), 0])
+        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # an inclined plane is below
+        aside = ImmutableDenseMatrix([0, below] if y == 0 else [self._free_side(at), 0])
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
+
+    def _is_inclined(self, surface: Any) -> bool:
+        return isinstance(surface, Plane) and all(tidied(c) != 0 for c in surface.unit_normal.components)
 
     def _touches(self, touch: Any, at: Location) -> bool:
         if touch.of is None:

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
-from derive.figures.annotations import ASIDE
+from derive.figures.annotations import ASIDE, measured
 from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
@@ -275,7 +275,7 @@ class DistanceMark(Mark):
             Stroke((set_off(spot, max(2.4, self.off - 10.0)), set_off(spot, self.off + 3.0)), "thin") for spot in spots
         ]
         line = set_off(spots[0], self.off), set_off(spots[1], self.off)
-        return [*extensions, Stroke(line, "measure", head=True, tail=True), Tag(self.label, midway(*line), away)]
+        return [*extensions, *measured(line, self.label, away)]
 
     def in_words(self) -> InWords | None:
         return self._if_named("length")

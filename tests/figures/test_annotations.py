@@ -10,9 +10,9 @@ from sympy import Rational, Symbol
 
 from derive.algebra.expressions import column
 from derive.figures import arc, arrow, axis_of_rotation, drawing, length_mark, outline, point_mark
-from derive.figures.annotations import AngleMark, Turn
+from derive.figures.annotations import AngleMark, Turn, measured
 from derive.figures.marks import Drawing, Surface
-from derive.figures.pieces import Bullet, Tag
+from derive.figures.pieces import Bullet, Stroke, Tag
 from derive.figures.space import hull, is_within
 from derive.figures.surfaces import Polyhedron
 from derive.mechanics import Cuboid
@@ -118,3 +118,14 @@ def test_the_arrow_round_an_axis_is_seen_beside_the_body(axis: Any) -> None:
     ((ring,), edges) = strokes(pieces, "turn"), strokes(pieces, "edge")
     outer = hull([spot for stroke in edges for spot in stroke.spots])
     assert not any(is_within(spot, outer) for spot in ring.spots)
+
+
+def test_a_dimension_line_without_room_for_its_heads_has_arrows_outside() -> None:
+    long = measured(((0.0, 0.0), (0.0, 30.0)), a, (1.0, 0.0))
+    short = measured(((0.0, 0.0), (0.0, 3.0)), a, (1.0, 0.0))
+    assert [piece.head and piece.tail for piece in long if isinstance(piece, Stroke)] == [True]
+    arrows = [piece for piece in short if isinstance(piece, Stroke) and piece.head]
+    assert [arrow.spots[1][1] for arrow in arrows] == [0.0, 3.0]
+    assert arrows[0].spots[0][1] < 0 and arrows[1].spots[0][1] > 3
+    (label,) = (piece for piece in short if isinstance(piece, Tag))
+    assert label.spot == arrows[1].spots[0]

@@ -13,10 +13,22 @@ from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.figures.annotations import Arrow, LengthMark, Line
 from derive.figures.marks import Drawing, Mark
-from derive.figures.parts import BarMark, BlockMark, HeavyRopeMark, ParticleMark, RopeMark, WedgeMark, WheelMark
+from derive.figures.parts import (
+    BarMark,
+    BlockMark,
+    DashpotMark,
+    HeavyRopeMark,
+    ParticleMark,
+    RopeMark,
+    WedgeMark,
+    WheelMark,
+)  # fmt: skip
+from derive.figures.pieces import Stroke
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle, TableMark
-from derive.figures.surroundings import AngleBetween, CurvedGround, FixedEnd, GroundMark, WayMark
+from derive.figures.surroundings import AngleBetween, CurvedGround, DistanceMark, FixedEnd, GroundMark, WayMark
+from derive.render.drawing.camera import FLAT, Numbers
+from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import Run
 from tests.stock.described import course_with, edited, loaded
 
@@ -384,3 +396,38 @@ def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius(tmp_path: Path) 
     touch = next(mark for mark in of_class(drawn, Line) if str(mark.label) == "a").end
     values = dict(drawn.values)
     assert sum(numeric(c, values) ** 2 for c in touch) < numeric(table.radius, values) ** 2
+
+
+CARTS = """\
+title: Two carts with a spring and a dashpot
+solve: system
+symbols: {m: mass, M: mass, k: spring constant, c: damping constant, d: length}
+given:
+  coordinates: {x: length, y: length}
+  particles: {left: {mass: m, at: [x, 0]}, right: {mass: M, at: [d + y, 0]}}
+  surfaces: {floor: {through: [0, 0], along: [1, 0]}}
+  contacts: [{of: left, on: floor}, {of: right, on: floor}]
+  springs: {constant: k, from: left, to: right, length: d}
+  dashpots: {constant: c, from: left, to: right}
+statement: Two carts.
+parts:
+  - ask: Find the equations of motion.
+    answer: equations_of_motion
+"""
+
+
+@pytest.mark.parametrize("ends", ["from: left, to: right", "from: right, to: left"])
+def test_a_dashpot_beside_a_spring_is_above_it_and_below_the_dimension_lines(ends: str, tmp_path: Path) -> None:
+    text = edited(CARTS, ("{constant: c, from: left, to: right}", f"{{constant: c, {ends}}}"))
+    drawn = drawings(tmp_path, text)["system"]
+    numbers = Numbers(dict.fromkeys(symbols_of("x y d", real=True), 1.0))
+    paper = OnPaper(numbers, FLAT, 60.0)
+    (dashpot,), lengths = of_class(drawn, DashpotMark), of_class(drawn, DistanceMark)
+    spots = [spot for piece in dashpot.pieces(paper) if isinstance(piece, Stroke) for spot in piece.spots]
+    assert min(y for _, y in spots) == 0 and len(lengths) == 2
+    assert all(mark.off > max(y for _, y in spots) for mark in lengths)
+
+
+def test_a_horizontal_displacement_on_a_slope_is_above_the_body(tmp_path: Path) -> None:
+    across = next(mark for mark in of_class(drawings(tmp_path, BALL)["system"], LengthMark) if str(mark.label) == "x")
+    assert list(across.aside) == [0, 1]
