@@ -22,7 +22,7 @@ from derive.figures.positions import column_of
 from derive.figures.space import Spot, Vector, hull, numeric
 from derive.figures.surfaces import Cavity, Circle, Hole, Revolved, ThinRod
 from derive.figures.surroundings import DistanceMark, FixedEnd
-from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, turns_about_axes
+from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, stance_values, turns_about_axes
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.boundary import Boundary, Extruded, Faces, Hollowed, Rim, Round, Segment
 from derive.mechanics.bodies.placed import PlacedBody
@@ -33,6 +33,9 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
+# A top of unknown shape: the height and radius of its cone and the end of its stem, and the length of a shaft, relative
+# to the distance of the centre of mass from the fixed point.
+TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
 STEPS = 24  # number of steps along the side of a round body
 
 
@@ -79,7 +82,9 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     else:
         yield from _axis_to(centre, placed)
     if square != 0 and is_fixed(system, placed.at):
-        yield PointMark(column_of(placed.at)) if in_space and _rolls(system, placed) else _holder(system, placed)
+        yield from (
+            (PointMark(column_of(placed.at)),) if in_space and _rolls(system, placed) else _holder(system, placed)
+        )
     pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
         angles = angle_marks(system, _line_of_centre(placed, sqrt(square), outline))
@@ -176,22 +181,42 @@ def _kept(system: System, value: Expr) -> Expr:
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass."""
+    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass; a symmetric body with
+    Euler angles is drawn as a top, a cone with a stem whose centre of mass is at the same place."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
-    yield ConnectionMark(column_of(placed.at), column_of(centre), label=size)
+    if _is_top(placed):
+        start, way = column_of(placed.at), column_of(centre - placed.at)
+        along = way / size
+        yield Revolved(((Integer(0), Integer(0)), (TOP * size, WIDE * size)), start, along)
+        yield ThinRod(start + TOP * way, start + STEM * way)
+        yield Line(start, start + way, "hidden", label=size)
+    else:
+        yield ConnectionMark(column_of(placed.at), column_of(centre), label=size)
     yield PointMark(column_of(centre), label=placed.body.mass)
 
 
-def _holder(system: System, placed: Any) -> Mark:
-    """In a plane, return a joint. In space, return a point if the rotation is prescribed, a support below an upright
-    body, or a ceiling above a hanging body."""
+def _is_top(placed: Any) -> bool:
+    """Whether a body of unknown shape is symmetric about the axis through its fixed point and its centre of mass."""
+    on_axis = placed.body.middle.position - placed.point.position
+    is_upright = on_axis[0] == on_axis[1] == 0 and numeric(on_axis[2]) > 0
+    return follows_nodes(placed) and getattr(placed.body, "moments", None) is not None and is_upright
+
+
+def _holder(system: System, placed: Any) -> Iterable[Mark]:
+    """Yield a joint in a plane. In space, yield a hinge at the end of a shaft if the rotation about the vertical is
+    prescribed, a support below an upright body, or a ceiling above a hanging body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
-        return FixedEnd(at, downwards(2), True)
-    if TIME in moving_in(system, *way):
-        return PointMark(at)
-    return Support(at) if numeric(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
+        yield FixedEnd(at, downwards(2), True)
+    elif TIME in moving_in(system, *way):
+        if placed.turned.turns[0][0] == 2:
+            size = sqrt(tidied(Add(*(c**2 for c in way))))
+            away = downwards(3) if numeric(way[-1].subs(stance_values(system))) > 0 else -downwards(3)
+            yield BarMark(at, at + SHAFT * size * away)
+        yield FixedEnd(at, 0 * at, True)
+    else:
+        yield Support(at) if numeric(way[-1]) > 0 else FixedEnd(at, downwards(3), True)
 
 
 def with_its_shape(placed: Any) -> Any:
@@ -210,7 +235,9 @@ def _far_end(placed: Any) -> Location:
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
     far = max(ends, key=lambda z: numeric(z - held[2]), default=None)
-    if far is None or numeric(far - held[2]) <= 0:
+    if far is None and _is_top(placed):
+        far = held[2] + STEM * (placed.body.middle.position[2] - held[2])
+    elif far is None or numeric(far - held[2]) <= 0:
         far = placed.body.middle.position[2]
     end: Location = placed.at + placed.seen_in_space(column(0, 0, far - held[2]))
     return end

@@ -551,8 +551,10 @@ def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quant
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}
+    forces = {each.force for each in system.constraints}
     for step in steps:
-        if step.fact(ForceOf) is not None:
+        is_at_rest = step.symbol in forces and isinstance(step.value, Expr) and step.key == f"rest_{step.symbol}"
+        if step.fact(ForceOf) is not None or is_at_rest:
             found.setdefault(step.symbol, step)
         elif step.symbol in found and not isinstance(step.value, Relation):
             letters = explicit(step.value).free_symbols

@@ -25,7 +25,7 @@ from derive.figures.parts import (
 )  # fmt: skip
 from derive.figures.pieces import Stroke
 from derive.figures.space import numeric
-from derive.figures.surfaces import Circle, TableMark
+from derive.figures.surfaces import Circle, Revolved, TableMark
 from derive.figures.surroundings import AngleBetween, CurvedGround, DistanceMark, FixedEnd, GroundMark, WayMark
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
@@ -379,8 +379,7 @@ def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(t
 
 
 def test_in_space_the_forces_are_drawn_before_the_equations_of_motion(tmp_path: Path) -> None:
-    text = (Path(__file__).parents[2] / "problems/library/contacts/rolling_coin.yaml").read_text(encoding="utf-8")
-    drawn = drawings(tmp_path, text)["forces_coin"]
+    drawn = drawings(tmp_path, library("rolling_coin"))["forces_coin"]
     weight, *forces = of_class(drawn, Arrow)
     assert [str(each.label) for each in forces] == ["N", "F_x", "F_y"]
     assert {each.size for each in (weight, *forces)} == {1}
@@ -388,8 +387,7 @@ def test_in_space_the_forces_are_drawn_before_the_equations_of_motion(tmp_path: 
 
 
 def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius(tmp_path: Path) -> None:
-    text = (Path(__file__).parents[2] / "problems/library/contacts/rolling_coin.yaml").read_text(encoding="utf-8")
-    drawn = drawings(tmp_path, text)["system"]
+    drawn = drawings(tmp_path, library("rolling_coin"))["system"]
     labels = {str(mark.label) for mark in drawn.marks if mark.label is not None}
     assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g"}
     (table,) = of_class(drawn, TableMark)
@@ -431,3 +429,40 @@ def test_a_dashpot_beside_a_spring_is_above_it_and_below_the_dimension_lines(end
 def test_a_horizontal_displacement_on_a_slope_is_above_the_body(tmp_path: Path) -> None:
     across = next(mark for mark in of_class(drawings(tmp_path, BALL)["system"], LengthMark) if str(mark.label) == "x")
     assert list(across.aside) == [0, 1]
+
+
+def library(name: str) -> str:
+    (path,) = (Path(__file__).parents[2] / "problems/library").glob(f"*/{name}.yaml")
+    return path.read_text(encoding="utf-8")
+
+
+def test_the_forces_on_a_body_at_rest_are_to_scale(tmp_path: Path) -> None:
+    weight, normal, friction = of_class(drawings(tmp_path, library("block_on_incline"))["forces_block"], Arrow)
+    assert normal.size / weight.size == pytest.approx(cos(0.63), abs=0.02)
+    assert friction.size / weight.size == pytest.approx(sin(0.63), abs=0.02)
+
+
+def test_a_top_of_unknown_shape_is_a_cone_with_the_same_centre_of_mass(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("heavy_top"))["system"]
+    (cone,) = of_class(drawn, Revolved)
+    (apex, tip), (height, _) = cone.profile
+    assert apex == tip == 0 and str(3 * height / 4) == "l"
+    unequal = edited(
+        library("heavy_top"), ("[A, A, C]", "[A, 2*A, C]"), ("  conserved: {phi: p_phi, psi: p_psi}\n", "")
+    )
+    assert not of_class(drawings(tmp_path, unequal.split("parts:")[0] + LAGRANGIAN)["system"], Revolved)
+
+
+LAGRANGIAN = """\
+parts:
+  - ask: Find the Lagrangian.
+    answer: lagrangian
+"""
+
+
+def test_a_rod_on_a_rotating_shaft_hangs_from_the_shaft(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("rod_on_shaft"))["system"]
+    shaft = next(mark for mark in of_class(drawn, BarMark) if type(mark) is BarMark)
+    (hinge,) = of_class(drawn, FixedEnd)
+    assert hinge.joint and list(hinge.at) == list(shaft.start)
+    assert [str(c) for c in shaft.end - shaft.start] == ["0", "0", "3*l/8"]
