@@ -17,7 +17,21 @@ from zlib import crc32
 
 import mpmath
 from mpmath import mp
-from sympy import Derivative, Dummy, E, Expr, Float, I, Integer, Piecewise, Rational, S, Symbol, preorder_traversal
+from sympy import (
+    Derivative,
+    Dummy,
+    E,
+    Expr,
+    Float,
+    I,
+    Integer,
+    MatrixBase,
+    Piecewise,
+    Rational,
+    S,
+    Symbol,
+    preorder_traversal,
+)
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import And, Not, Or
@@ -30,6 +44,8 @@ from derive.algebra.ranges import fulfilling, range_of
 DIGITS = 50
 WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
+
+NEGLIGIBLE = Rational(1, 10**25)  # an entry of a matrix of ordinary numbers below this size is a rounding error
 
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
@@ -188,6 +204,14 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
             return found
         found = True
     return found
+
+
+def generic_rank(matrix: MatrixBase) -> int:
+    """The rank of a matrix for almost all values of its symbols: the largest rank at sampled points."""
+    letters = set[Expr]().union(*map(letters_of, matrix))
+    tried = islice(points(letters, seed_of(*matrix)), 2 if letters else 1)
+    numbers = (matrix.xreplace(dict(point)).evalf(DIGITS) for point in tried)
+    return max(int(each.rank(iszerofunc=lambda x: abs(x) < NEGLIGIBLE)) for each in numbers)
 
 
 def shown(value: Any, figures: int = 6) -> Expr:

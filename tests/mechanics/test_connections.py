@@ -147,6 +147,20 @@ def test_an_edge_of_a_disc_that_is_not_its_lowest_point_is_refused(
     assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("disc-floor-in space"))
 
 
+def test_a_disc_that_is_slightly_nearer_to_the_plane_than_its_gap_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A proof detects any difference; numbers at a few points would not detect a billionth of a billionth."""
+    lowest = touching.lowest
+
+    def farther(of: Any, on: Any) -> Any:
+        place, gap = lowest(of, on)
+        return place, gap + (of.centre - place).components[2] / Integer(10) ** 18
+
+    monkeypatch.setattr(touching, "lowest", farther)
+    assert "not the lowest point" in refused(tmp_path, trial_called("disc-floor-in space"))
+
+
 def test_the_upper_end_of_a_cylinder_is_not_its_place_of_contact(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

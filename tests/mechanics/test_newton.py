@@ -8,16 +8,17 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Integer, Symbol, cos, diff, sin, sqrt, symbols
+from sympy import Integer, Symbol, cos, diff, pi, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit, rate, scalar
-from derive.errors import DeriveError
+from derive.algebra.ranges import Range, within
+from derive.errors import DeriveError, Rejected
 from derive.mechanics.impacts import momentum_laws
 from derive.mechanics.newton import alone, second_law, torque_law
 from derive.mechanics.newton import energy as by_energy
 from derive.mechanics.newton.alone import Alone, Force
-from derive.mechanics.newton.claims import same_equation
+from derive.mechanics.newton.claims import direction, same_equation
 from derive.mechanics.newton.directions import Direction
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
@@ -43,6 +44,23 @@ def test_newtons_laws_give_the_accelerations_and_forces(trial: Trial, tmp_path: 
     numbers, wanted = trial.state(Random(trial.name))
     found = {name: value_at(explicit(steps[key_of(name)].value), numbers) for name in trial.unknowns}
     assert found == pytest.approx({name: wanted[name] for name in trial.unknowns}, rel=1e-6, abs=1e-6)
+
+
+def test_the_sense_of_a_rotation_follows_from_the_ranges_of_its_letters() -> None:
+    c = Symbol("c", real=True)
+    with pytest.raises(Rejected, match="unknown whether the rotation by 1/c"):
+        alone.sense_of(1 / c)
+    with within({c: Range(Integer(-2), Integer(-1))}):
+        assert alone.sense_of(1 / c) == -1
+
+
+def test_a_predicate_of_newtons_laws_tests_an_angle_in_its_range() -> None:
+    """The cosine is positive for an acute angle only."""
+    angle = Symbol("alpha", real=True)
+    for least, greatest, sign in ((0, pi / 2, 1), (pi / 2, pi, -1)):
+        with within({angle: Range(Integer(0) + least, Integer(0) + greatest)}):
+            words, inputs = {"way": "upwards"}, {"coordinate": R, "place": (Integer(0), R * cos(angle)), "moving": [R]}
+            assert direction(Judged(Integer(0), inputs, words=words), "") == (sign == 1)
 
 
 # --- equations of textbooks ------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from derive.algebra.collect import by_rates
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import Relation, TimeRate, as_expr, column, explicit, rate, scalar, stand_in
 from derive.algebra.ranges import strict_sign_within
+from derive.algebra.samples import generic_rank
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
@@ -338,9 +339,7 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     rates = [rate(q) for q in moving]
     still = dict.fromkeys(rates, ZERO)
     rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
-    letters = sorted(rows.free_symbols, key=str)
-    there = {letter: Rational(3 * i + 7, 2 * i + 11) for i, letter in enumerate(letters)}
-    return int(rows.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
+    return generic_rank(rows)
 
 
 def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:

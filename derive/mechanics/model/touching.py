@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import islice
+from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, sin, sqrt, tan
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, pi, sin, tan
-
-from derive.algebra.expressions import Relation, stand_in
+from derive.algebra.expressions import Relation
 from derive.algebra.relation import sides_without_minus
-from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies.boundary import Hollowed, Round
@@ -20,8 +17,6 @@ from derive.steps.signs import sign_for_all, sign_known
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-SAMPLES = 4  # sets of values for which the lowest point of a body is checked
-EXACT = 1e-9
 
 
 def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Location]:
@@ -114,18 +109,30 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 
 
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
-    """Check that the place of contact is on a rim of the body; and numerically, for several values of the symbols, that
-    no place on a rim is nearer to the plane."""
-    u = stand_in("u_rim")
-    rims = [(z, radius, _own(placed, ZERO, ZERO, z)) for z, radius in _rims(placed)]
-    axis = _own(placed, ZERO, ZERO, Integer(1)) - _own(placed, ZERO, ZERO, ZERO)
-    arms = [(place - centre, radius) for _, radius, centre in rims]
-    is_on_rim = any(is_zero(dot(arm, arm) - radius**2) and is_zero(dot(arm, axis)) for arm, radius in arms)
-    above = [plane.distance(_own(placed, radius * cos(u), radius * sin(u), z)) - gap for z, radius, _ in rims]
-    letters = set[Expr]().union(*map(letters_of, above)) - {u}
-    heights = [height.xreplace({u: k * pi / 12}) for height in above for k in range(24)]
-    trials = islice(points(letters, seed_of(gap)), SAMPLES)
-    if not is_on_rim or any(height.xreplace(dict(at)).evalf() < -EXACT for at in trials for height in heights):
+    """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
+
+    The lowest place of a rim with the radius r is nearer to the plane than the centre of the rim by r times the sine of
+    the angle between the rim and the plane. The components of the normal along the axes of the body give this sine.
+    """
+    middle = _own(placed, ZERO, ZERO, ZERO)
+    along, across, axis = (_own(placed, *map(Integer, own)) - middle for own in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    n = plane.normal(place)
+    square = dot(n, along) ** 2 + dot(n, across) ** 2
+    rims = [(radius, _own(placed, ZERO, ZERO, z)) for z, radius in _rims(placed)]
+
+    def is_lowest(radius: Expr, centre: Location) -> bool:
+        arm = place - centre
+        sine = tidied(sqrt(tidied(square)) if is_zero(radius) else -dot(n, arm) / radius)
+        heights = (plane.distance(each) - r * sine - gap for r, each in rims)
+        return (
+            is_zero(dot(arm, arm) - radius**2)
+            and is_zero(dot(arm, axis))
+            and is_zero(sine**2 - square)
+            and sign_known(sine) == 1
+            and all(sign_known(tidied(height)) in (0, 1) for height in heights)
+        )
+
+    if not any(is_lowest(*rim) for rim in rims):
         raise Unverified(Complaint("unverified", "the place of a contact is not the lowest point of the body"))
 
 

@@ -15,19 +15,20 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol, diff, sqrt
 
 from derive.algebra.expressions import Terms, TimeRate, explicit
+from derive.algebra.samples import generic_rank
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody, central_second_moments
 from derive.mechanics.model.dalembert import Load, Reaction
 from derive.mechanics.model.system import System
+from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 Vector = tuple[Expr, ...]
 ZERO = Integer(0)
-SAMPLES = (Rational(7, 11), Rational(13, 9), Rational(4, 7), Rational(17, 12), Rational(5, 13), Rational(23, 19))
 
 
 @dataclass(frozen=True)
@@ -203,7 +204,7 @@ def allows(system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], 
     there    a function that substitutes the coordinates at which the displacement begins
     """
     matrix, column = _displacements(system, wanted, there)
-    return _rank(matrix) == _rank(matrix.row_join(column))
+    return generic_rank(matrix) == generic_rank(matrix.row_join(column))
 
 
 def changes_for(
@@ -222,7 +223,7 @@ def _independent(matrix: ImmutableDenseMatrix) -> list[int]:
     """The indices of rows that are independent and span all rows."""
     rows: list[int] = []
     for i in range(matrix.rows):
-        if _rank(matrix.extract([*rows, i], range(matrix.cols))) > len(rows):
+        if generic_rank(matrix.extract([*rows, i], range(matrix.cols))) > len(rows):
             rows.append(i)
     return rows
 
@@ -238,13 +239,6 @@ def _displacements(
             rows.append([there(diff(value, s)) for s in system.coordinates])
             column.append(there(change))
     return ImmutableDenseMatrix(rows), ImmutableDenseMatrix(column)
-
-
-def _rank(matrix: ImmutableDenseMatrix) -> int:
-    """The rank at a generic point."""
-    letters = sorted(matrix.free_symbols, key=str)
-    there = {letter: SAMPLES[i % len(SAMPLES)] + Rational(i, 29) for i, letter in enumerate(letters)}
-    return int(matrix.xreplace(there).evalf(30).rank(iszerofunc=lambda x: abs(x) < Rational(1, 10**15)))
 
 
 @lru_cache(maxsize=16)
@@ -313,8 +307,14 @@ def is_same(one: Vector, other: Vector) -> bool:
 
 
 def sense_of(turn: Expr) -> Expr:
-    """1 if a rotation is counterclockwise, otherwise -1."""
-    return Integer(-1 if turn.could_extract_minus_sign() else 1)
+    """1 if a rotation is counterclockwise, otherwise -1; reject a rotation whose sense is unknown."""
+    sign = sign_known(turn)
+    if not sign:
+        message = f"it is unknown whether the rotation by {turn} per unit of the coordinate is counterclockwise"
+        raise Rejected(
+            Complaint("method", message, help="give ranges or numbers for the letters that decide this sense")
+        )
+    return Integer(sign)
 
 
 def sum_of(terms: Sequence[Expr]) -> Expr:

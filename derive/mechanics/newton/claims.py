@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sympy import Add, Expr, Integer, Rational, diff
+from sympy import Add, Expr, Integer, diff
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import depends_on_time, explicit, rate
@@ -12,6 +12,7 @@ from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.steps.claims import both as both
 from derive.steps.rule import Judged, Predicate
 from derive.steps.step import is_zero
+from derive.steps.trial_numbers import sign_found
 
 Vector = tuple[Expr, ...]
 SIDEWAYS = {"to_the_right": 1, "to_the_left": -1}
@@ -51,9 +52,7 @@ def _way(facts: Judged, q: Any = None) -> Vector:
 
 
 def _positive(value: Expr) -> bool:
-    """Whether an expression is positive for positive numbers in place of its symbols; angles are acute."""
-    there = {s: Rational(3 + 2 * i, 11 + 2 * i) for i, s in enumerate(sorted(value.free_symbols, key=str))}
-    return bool(value.xreplace(there).evalf(30) > 0)
+    return sign_found(value) == 1
 
 
 def _dot(a: Vector, b: Vector) -> Expr:
