@@ -190,6 +190,7 @@ CONSTRAINT_RATE = Rule(
     shown=Shown(brief=Manner.LEFT_OUT),
 )
 KEPT = ("surface", "rail", "string", "rod", "joint", "friction")  # enforcers that the sentence names
+FORMULA = "formula"  # the word for any other enforcer
 
 
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
@@ -230,7 +231,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         outcome="in_rates" if each.in_rates else "in_coordinates",
         phrase_data=PhraseData(
             formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))},
-            words={"kept": each.enforcer} if each.enforcer in KEPT else {},
+            words={"kept": each.enforcer if each.enforcer in KEPT else FORMULA},
             outcome_data={"of": each},
         ),
         key=key or f"constraint_{each.force.name}",
