@@ -29,7 +29,7 @@ FOUND = -1  # the index of the statement; part (a) has the index 0
 
 @dataclass(frozen=True)
 class Depicted:
-    """A drawing on its page; `number` is the figure number, if there is a caption."""
+    """A drawing on its page; `number` is the figure number, if a drawing of the page has a caption."""
 
     drawing: m.Recorded
     placement: Placement | None
@@ -44,11 +44,12 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the drawings with a caption, in the order of the page."""
-    placed = [(index, d.key) for d in drawings if (index := _index(problem, d, derivation)) is not None]
-    captioned = {p.key for p in problem.drawings if p.caption} | {d.key for d in drawings if _left_out(d)}
-    ordered = sorted(placed, key=lambda entry: entry[0])
-    return {key: n for n, key in enumerate((key for _, key in ordered if key in captioned), 1)}
+    """Return the figure numbers of the drawings, in the order of the page; none if no drawing has a caption."""
+    placed = [(index, d) for d in drawings if (index := _index(problem, d, derivation)) is not None]
+    captioned = {p.key for p in problem.drawings if p.caption}
+    if not any(d.key in captioned or _left_out(d) for _, d in placed):
+        return {}
+    return {d.key: n for n, (_, d) in enumerate(sorted(placed, key=lambda entry: entry[0]), 1)}
 
 
 def depictions(
@@ -76,7 +77,7 @@ def depictions(
             try:
                 alt = alternative(problem, drawing, placement, words)
                 if caption and isinstance(drawing, m.Plot):
-                    caption += _read_off(problem, drawing, placement, words)
+                    caption += _numbers_of_all(problem, drawing, placement, words)
             except Rejected as error:
                 faults += error.complaints
                 continue
@@ -345,17 +346,10 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
     ]
 
 
-def _read_off(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the extrema of a plot with their values, panel by panel, to follow the caption."""
-    curves = curves_of(problem, plot, placement)
-    last = words.labels["and"]
-    told = [
-        filled(words.drawings["read_off"], {"letter": letter, "turns": joined(turns, last)})
-        for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
-        if (turns := _turns(plot, curves, curve, words))
-    ]
-    read = [filled(words.drawings["extrema"], {"told": joined(told, last)})] if told else []
-    return tuple(node for nodes in (*_shared(curves, words), *read) for node in (Text(" "), *nodes))
+def _numbers_of_all(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
+    """Return the numbers that all curves of a plot share, to follow the caption. The plot itself shows its extrema."""
+    told = _shared(curves_of(problem, plot, placement), words)
+    return tuple(node for nodes in told for node in (Text(" "), *nodes))
 
 
 def _mark(mark: m.Mark, words: Phrases) -> tuple[Inline, ...]:

@@ -12,6 +12,10 @@ from derive.render.rendered import Rendered
 from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
+WORDS = (
+    "caption: <<spin>> and <<angular_momentum>> in their true directions, seen obliquely; "
+    "their lengths have no common scale."
+)
 CUBE = {"[a, 2*a, 3*a]": "[a, a, a]"}
 
 
@@ -38,8 +42,8 @@ def test_the_contract_says_where_each_drawing_stands_and_what_it_shows(block: Re
     assert list(found) == ["axes", "vectors"]
     assert (found["axes"]["at"], found["vectors"]["at"]) == ("statement", "c")
     assert found["vectors"]["files"] == ["block-vectors.pdf", "block-vectors.svg"]
-    assert found["vectors"]["number"] == 1
-    assert found["axes"]["number"] is None
+    assert found["axes"]["number"] == 1, "if one drawing has a caption, all drawings are numbered"
+    assert found["vectors"]["number"] == 2
     assert "true directions" in found["vectors"]["caption"]
 
 
@@ -62,7 +66,7 @@ def test_a_terminal_shows_the_words_in_the_place_of_the_drawing(block: Rendered)
     text = " ".join(block.texts["text"].split())
     assert text.index("[figure: A drawing in space of a block") < text.index("(a) Find")
     assert text.index("(c) Find") < text.index("[figure: A drawing in space of a block", 400) < text.index("(d) What")
-    assert "Figure 1. ω⃗ and L⃗ in their true directions" in text
+    assert "Figure 2. ω⃗ and L⃗ in their true directions" in text
 
 
 def test_the_words_follow_the_given(tmp_path: Path) -> None:
@@ -90,11 +94,12 @@ def test_no_number_is_told_that_depends_on_letters(tmp_path: Path) -> None:
 
 def test_prose_may_point_at_a_drawing_by_its_number(tmp_path: Path) -> None:
     edits = {"ask: Find the angle between": "ask: In <<figure vectors>>, find the angle between"}
-    assert "(c) In Figure 1, find" in rendered_once(course_in(tmp_path, edits), "hw9/block").texts["text"]
+    assert "(c) In Figure 2, find" in rendered_once(course_in(tmp_path, edits), "hw9/block").texts["text"]
 
 
 def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> None:
-    (fault,) = faults(tmp_path, {"ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"})
+    edits = {WORDS: "at: c", "ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"}
+    (fault,) = faults(tmp_path, edits)
     assert "error[undefined-name]: no drawing with a caption is called `axes`" in fault
     assert "help: give the drawing a `caption:` under `drawings:`" in fault
 
@@ -200,3 +205,10 @@ def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warnin
     }
     found = rendered_once(course_in(tmp_path, edits), "hw9/block").warnings
     assert [w.code for w in found] == ["unused-letter"]
+
+
+def test_a_caption_does_not_repeat_the_extrema_that_the_plot_shows(tmp_path: Path) -> None:
+    found = drawings(rendered_once(ROOT, "library/rod_on_shaft", only={"json"}))
+    assert found["system"]["number"] == 1 and found["energy"]["number"] == 2
+    assert "minimum" not in found["energy"]["caption"] and "minimum" in found["energy"]["alt"]
+    assert found["energy"]["caption"].endswith("In both, l = 1 m, m = 1 kg and g = 9.8 m/s^2.")
