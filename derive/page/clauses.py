@@ -63,8 +63,7 @@ class Clauses:
         The clause comes first, except if the sentence begins with a small letter and so continues the lines.
         """
         due = self._due(lines)
-        first = sentence[0]
-        if isinstance(first, Text) and first.text.lstrip()[:1].islower():
+        if continues_sentence(sentence):
             clause = self._sentence("here", due)
             return (*sentence, *((Text(" "),) if clause else ()), *clause)
         return (*(self._sentence("where", due)), *((Text(" "),) if due else ()), *sentence)
@@ -98,6 +97,11 @@ class Clauses:
     def _names(self, step: Step) -> dict[str, Any]:
         definition = (Math(step.symbol), Text(" = "), *_in_a_row(step.result))
         return {**names_of_step(step, self.words, None), "definition": definition}
+
+
+def continues_sentence(sentence: Sequence[Inline]) -> bool:
+    """Return whether the words continue a sentence: they begin with a small letter."""
+    return isinstance(sentence[0], Text) and sentence[0].text.lstrip()[:1].islower()
 
 
 def _in_a_row(value: Any) -> tuple[Inline, ...]:

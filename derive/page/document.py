@@ -26,7 +26,7 @@ from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
-from derive.page.clauses import Clauses
+from derive.page.clauses import Clauses, continues_sentence
 from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
 from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn
@@ -339,16 +339,20 @@ class _Writer:
             if beside:
                 self.numbers[step.key] = blocks[-1].groups[-1].number
         else:
-            before = (*self._clause(blocks), *self.clauses.begun(), *before)
+            before = (*self.clauses.begun(), *before)
+            before = (*self._clause(blocks, before), *before)
             self.clauses.said = before
             blocks.extend([Paragraph(before)] if before else [])
             blocks.append(display)
         if after:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
 
-    def _clause(self, blocks: Sequence[Block]) -> tuple[Inline, ...]:
-        """Return a clause that defines the symbols in the lines just shown."""
+    def _clause(self, blocks: Sequence[Block], following: Sequence[Inline] = ()) -> tuple[Inline, ...]:
+        """Return a clause that defines the symbols in the lines just shown; it ends with a comma if the words that
+        follow continue the sentence."""
         told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
+        if told and following and continues_sentence(following) and isinstance(told[-1], Text):
+            told = (*told[:-1], Text(told[-1].text.rstrip(".") + ","))
         return (*told, Text(" ")) if told else ()
 
     def _beside(self, step: Step | None, equations: Equations) -> bool:
@@ -428,8 +432,7 @@ def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
 
 def _goes_on(block: Block) -> bool:
     """Return whether this block continues the sentence before it: its text begins with a small letter."""
-    first = block.nodes[0] if isinstance(block, Paragraph) else None
-    return isinstance(first, Text) and first.text.lstrip()[:1].islower()
+    return isinstance(block, Paragraph) and continues_sentence(block.nodes)
 
 
 def _illustrated(

@@ -145,3 +145,7 @@ def test_only_an_exactly_linear_equation_has_a_frequency_for_every_amplitude(tmp
     assert "To first order" not in hanging and "small oscillations" not in hanging
     pendulum = page(tmp_path / "pendulum", library("pendulums/simple_pendulum"))
     assert "of small oscillations" in pendulum and "on the amplitude, ω" not in pendulum
+
+
+def test_a_definition_within_a_sentence_ends_with_a_comma(tmp_path: Path) -> None:
+    assert "is the mass per unit area, and the component" in page(tmp_path, library("bodies/triangular_plate"))

@@ -8,6 +8,7 @@ import pytest
 from sympy import Expr, ImmutableMatrix, Symbol, sin, sqrt, symbols
 
 from derive.errors import Rejected
+from derive.mechanics.theorems import MULTIPLIERS
 from derive.render.notation.latex import TEX_FUNCTIONS, TEX_OPERATORS, escaped, latex, unit_latex, unprintable
 from derive.render.notation.layout import (
     Applied,
@@ -128,3 +129,10 @@ def test_in_running_text_a_fraction_has_a_stroke_where_it_cannot_be_misread(valu
 def test_in_running_text_a_vector_lies_down() -> None:
     assert latex(Notation().result(ImmutableMatrix([a, 2 * a, 3 * a])), inline=True) == r"a\,(1,\ 2,\ 3)"
     assert latex(Notation().layout(ImmutableMatrix([a / 2, 0, b])), inline=True) == r"(a/2,\ 0,\ b)"
+
+
+def test_lagranges_equation_has_no_stacked_fractions_in_a_sentence() -> None:
+    layout = Notation({}).result(MULTIPLIERS.formula)
+    inline = r"d(\partial L/\partial \dot{q})/dt-\partial L/\partial q=\lambda_{k}\partial f_{k}/\partial q"
+    assert latex(layout, inline=True) == inline
+    assert latex(layout).count(r"\frac") == 4

@@ -15,6 +15,7 @@ from derive.render.notation.layout import (
     GREEK_LETTERS,
     SCRIPT_LETTERS,
     SIGNS,
+    THIN_SPACE,
     Applied,
     Array,
     Bracketed,
@@ -97,15 +98,39 @@ def latex_of_terms(layout: Layout, *, inline: bool = False) -> list[str]:
 
 
 def _with_strokes(layout: Layout) -> Layout:
-    """Write fractions as a/b in running text: R > a/2, dL/dt; a fraction next to another factor is unchanged."""
+    """Write fractions as a/b in running text: R > a/2, dL/dt. A fraction next to another factor is unchanged, except a
+    derivative after a factor: f dg/dx."""
     if isinstance(layout, Fenced):
         return Fenced(_with_strokes(layout.inside), layout.kind)
-    items = [_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))]
+    items = _differentiated([_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))])
     around = (None, *items, None)
-    alone = [all(x is None or _parts_terms(x) for x in (around[i], around[i + 2])) for i in range(len(items))]
+    alone = [
+        all(x is None or _parts_terms(x) for x in ((around[i], around[i + 2]), (around[i + 2],))[_is_derivative(item)])
+        for i, item in enumerate(items)
+    ]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
         return row(*items)  # if one fraction cannot be written a/b, no fraction is changed
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
+
+
+def _is_derivative(item: Layout) -> bool:
+    """Return whether an item is a fraction of differentials, such as dg/dx."""
+    return (
+        isinstance(item, Fraction) and is_differential(first_of(item.below)) and is_differential(first_of(item.above))
+    )
+
+
+def _differentiated(items: list[Layout]) -> list[Layout]:
+    """Write d/dt of a derivative in one line: d(dL/dv)/dt."""
+    found: list[Layout] = []
+    for item in items:
+        if _is_derivative(item) and len(found) > 1 and found[-1] == THIN_SPACE:
+            before = found[-2]
+            if isinstance(before, Fraction) and isinstance(before.above, Upright):
+                found[-2:] = [Row((before.above, Fenced(_with_stroke(item)), STROKE, before.below))]
+                continue
+        found.append(item)
+    return found
 
 
 def _parts_terms(item: Layout) -> bool:
