@@ -282,7 +282,7 @@ class _Isolation:
     def law(self, value: Expr) -> Callable[..., Expr]:
         """Return the unknown as a function of the earlier unknowns, or the value if there is no such formula."""
         formula = self.found.value
-        if formula is None:
+        if formula is None or not self.found.earlier:
             return lambda *_: value
         return lambda *values: formula.xreplace(dict(zip(self.found.earlier, values, strict=True)))
 
