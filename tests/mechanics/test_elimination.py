@@ -100,7 +100,7 @@ def test_a_constraint_is_differentiated_after_its_reason(problem_id: str, reason
 
 def test_another_enforcer_than_that_of_the_constraint_is_refused() -> None:
     of = Constraint(x, Integer(0), N, in_rates=False, forces=(PointForce(N, (Integer(0), Integer(1)), None, None),))
-    facts = Judged(None, {"condition": x, "of": replace(of, enforcer="surface")}, words={"kept": "surface"})
+    facts = Judged(None, {"condition": x, "of": replace(of, enforcer="surface")}, words={"enforcer": "surface"})
     assert names_the_enforcer(facts, "")
     for word in ("string", "friction"):
-        assert not names_the_enforcer(replace(facts, words={"kept": word}), "")
+        assert not names_the_enforcer(replace(facts, words={"enforcer": word}), "")

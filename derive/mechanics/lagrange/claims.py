@@ -362,7 +362,7 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
     """Whether the constraint is enforced by what the sentence names; friction enforces a constraint on velocities."""
-    of, word = facts.inputs["of"], facts.words.get("kept")
+    of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True
     is_own = is_zero(of.residual - facts.inputs["condition"])

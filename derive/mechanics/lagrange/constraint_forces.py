@@ -231,7 +231,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         outcome="in_rates" if each.in_rates else "in_coordinates",
         phrase_data=PhraseData(
             formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))},
-            words={"kept": each.enforcer if each.enforcer in KEPT else FORMULA},
+            words={"enforcer": each.enforcer if each.enforcer in KEPT else FORMULA},
             outcome_data={"of": each},
         ),
         key=key or f"constraint_{each.force.name}",
@@ -328,13 +328,14 @@ def _acceleration(
     found = _solution(problem)
     q = next(q for q in problem.moving if rate(q, 2) == symbol)
     coordinate = Coordinate(q, problem.lagrangian.coordinates[q])
+    value = _gathered(problem, found[symbol])
     together = "generic" if problem.constraints else "unconstrained"
     return establish(
         ACCELERATION,
         symbol,
-        isolation.law(found[symbol]) if isolation else lambda: found[symbol],
+        isolation.law(value) if isolation else lambda: value,
         isolation.inputs if isolation else {},
-        lines=Lines(put_in=None, arranged=lambda _: _gathered(problem, found[symbol])),
+        lines=Lines(put_in=None, arranged=lambda _: value),
         routes={
             "virtual_work": lambda value: _virtual_work(problem, {**found, rate(q, 2): value}),
             "constraint": lambda value: _keeps_holding(problem, {**found, rate(q, 2): value}),
@@ -374,6 +375,7 @@ def _multiplier(
     each: Constraint, problem: _Problem, rates: Sequence[Quantity], isolation: _Isolation | None
 ) -> Quantity:
     found = _solution(problem)
+    value = _gathered(problem, found[each.force])
     length = gradient_length(each, problem.lagrangian)
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
@@ -382,9 +384,9 @@ def _multiplier(
     return establish(
         MULTIPLIER,
         each.force,
-        isolation.law(found[each.force]) if isolation else lambda: found[each.force],
+        isolation.law(value) if isolation else lambda: value,
         isolation.inputs if isolation else {},
-        lines=Lines(put_in=None, arranged=lambda _: _gathered(problem, found[each.force])),
+        lines=Lines(put_in=None, arranged=lambda _: value),
         routes={"virtual_work": lambda value: _virtual_work(problem, {**found, each.force: value})},
         outcome=lambda value: (
             "zero"
