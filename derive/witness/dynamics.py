@@ -14,10 +14,10 @@ Numerical Integration*, section I.4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,12 +25,25 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import TIME, rate
 from derive.witness.description import Description
-from derive.witness.geometry import AROUND, STEP, WEIGHTS, Place, Placed, Reals, State, formulas_of, placed
+from derive.witness.geometry import (
+    AROUND,
+    STEP,
+    WEIGHTS,
+    Place,
+    Placed,
+    Reals,
+    State,
+    complex_steps,
+    copies,
+    formulas_of,
+    placed,
+)
 from derive.witness.tape import Compiled, Tape
 
 NEAR = 1e-4  # step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
 LEAST = 1e-12  # a row of the equations with all entries below this number does not determine an acceleration
 RANK = 1e-9  # singular values below this fraction of the largest count as zero
+Found = TypeVar("Found")
 
 
 class Singular(Exception):
@@ -96,11 +109,25 @@ def _weights(description: Description) -> list[Expr]:
     return found
 
 
+def once_per_state(method: Callable[[Dynamics, State], Found]) -> Callable[[Dynamics, State], Found]:
+    """Keep the result of a method for the last state, because most results of a state need the same derivatives."""
+
+    @wraps(method)
+    def kept(of: Dynamics, state: State) -> Found:
+        last: tuple[State, Found] | None = of.last.get(method.__name__)
+        if last is None or last[0] is not state:
+            last = of.last[method.__name__] = state, method(of, state)
+        return last[1]
+
+    return kept
+
+
 class Dynamics:
     """A description whose symbols have numbers."""
 
     def __init__(self, blueprint: Blueprint, numbers: Mapping[Symbol, float]):
         self.blueprint, self.numbers = blueprint, numbers
+        self.last: dict[str, Any] = {}  # method -> the last state, and the result of the method for this state
         of = blueprint.of
         self.count = len(blueprint.coordinates)
         self._places = blueprint.places.bound(numbers)
@@ -126,6 +153,7 @@ class Dynamics:
         self._conditions = blueprint.conditions.bound(numbers)
         self._lagrangian = blueprint.lagrangian.bound(numbers) if of.lagrangian is not None else None
 
+    @once_per_state
     def placed(self, state: State) -> Placed:
         """The positions of all parts of the description in a state."""
         return placed(self.blueprint.of, self._places, [arm for _, arm, _ in self._bodies], state)
@@ -157,15 +185,15 @@ class Dynamics:
         whole[: self.count, : self.count] = matrix
         whole[: self.count, self.count :] = -gradients.T - given[:, 1:]
         whole[self.count :, : self.count] = gradients
-        right = np.append(forces + given[:, 0], -left)
-        if not (np.all(np.isfinite(whole)) and np.all(np.isfinite(right))):
+        right = np.concatenate([forces + given[:, 0], -left])
+        if not (np.isfinite(whole).all() and np.isfinite(right).all()):
             raise Singular
-        rank = int(np.linalg.matrix_rank(gradients, tol=RANK * (1 + np.max(np.abs(gradients))))) if rows else 0
+        rank = int(np.linalg.matrix_rank(gradients, tol=RANK * (1 + np.abs(gradients).max()))) if rows else 0
         return self._solved(whole, right, rank, rows)
 
     def _solved(self, whole: Reals, right: Reals, rank: int, rows: int) -> Response:
-        scale = np.max(np.abs(whole), axis=1)
-        if np.any(scale < LEAST):
+        scale = np.abs(whole).max(axis=1)
+        if (scale < LEAST).any():
             raise Singular
         whole, right = whole / scale[:, None], right / scale
         if rank == rows:
@@ -217,8 +245,8 @@ class Dynamics:
             slope = float(np.imag(pull(np.array([[distance + 1j * STEP]]))[0, 0])) / STEP
             forces -= (end.jacobian - start.jacobian).T @ way * (slope / distance)
         if self.blueprint.of.energies:
-            points = np.tile(np.append(state.q, state.t).astype(complex)[:, None], (1, self.count))
-            points[: self.count] += 1j * STEP * np.eye(self.count)
+            points = copies(np.concatenate([state.q, [state.t]]), self.count)
+            points[: self.count] += complex_steps(self.count)
             forces -= np.sum(np.imag(self._energies(points)), axis=0) / STEP
         return forces
 
@@ -229,11 +257,13 @@ class Dynamics:
         """
         rows, n = len(self.blueprint.multipliers), self.count
         found = np.zeros((n, 1 + rows))
+        if not (self.blueprint.of.forces or self._drags or self._charges):
+            return found
         here = np.concatenate([state.q, state.v, [state.t], np.zeros(rows)])
-        points = np.tile(here.astype(complex)[:, None], (1, 1 + rows))
+        points = copies(here, 1 + rows)
         if rows:
             points[-rows:, 1:] = np.eye(rows)
-        components = iter(np.real(self._forces(points)))
+        components = iter(self._forces(points).real)
         for force, place in zip(self.blueprint.of.forces, at.forces, strict=True):
             acting = np.array([next(components) for _ in force.components])
             acting[:, 1:] -= acting[:, :1]
@@ -251,30 +281,27 @@ class Dynamics:
         The entry of b is the second time derivative of a condition on coordinates, or the first time derivative of a
         condition on rates.
         """
-        conditions, n = self.blueprint.of.conditions, self.count
-        gradients, left = np.zeros((len(conditions), n)), np.zeros(len(conditions))
-        if not conditions:
-            return gradients, left
         by_places, by_rates, along = self._slopes_of_conditions(state)
-        for i, condition in enumerate(conditions):
-            gradients[i] = by_rates[i] if condition.in_rates else by_places[i]
-            left[i] = along[i, 0] if condition.in_rates else along[i, 1]
-        return gradients, left
+        in_rates = self.blueprint.in_rates
+        return np.where(in_rates[:, None], by_rates, by_places), np.where(in_rates, along[:, 0], along[:, 1])
 
+    @once_per_state
     def _slopes_of_conditions(self, state: State) -> tuple[Reals, Reals, Reals]:
         """The derivatives of the conditions with respect to coordinates, with respect to rates, and along the motion.
 
         The last array holds the first and the second derivative along the motion at constant rates.
         """
         n = self.count
+        if not self.blueprint.of.conditions:
+            return np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 2))
         here = np.concatenate([state.q, state.v, [state.t]])
         along = np.concatenate([state.v, np.zeros(n), [1.0]])
         reach = state.reach
-        points = np.tile(here.astype(complex)[:, None], (1, 2 * n + 7))
-        points[: 2 * n, : 2 * n] += 1j * STEP * np.eye(2 * n)
+        points = copies(here, 2 * n + 7)
+        points[: 2 * n, : 2 * n] += complex_steps(2 * n)
         points[:, 2 * n :] += 1j * STEP * along[:, None]
         points[:, 2 * n + 1 :] += along[:, None] * AROUND * reach
-        slopes = np.imag(self._conditions(points)) / STEP
+        slopes = self._conditions(points).imag / STEP
         second = slopes[:, 2 * n + 1 :] @ WEIGHTS / reach
         return slopes[:, :n], slopes[:, n : 2 * n], np.stack([slopes[:, 2 * n], second], axis=1)
 
@@ -285,7 +312,7 @@ class Dynamics:
         array has the residuals of conditions on rates, and the time derivatives of conditions on coordinates.
         """
         here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)[:, None]
-        residuals = np.real(self._conditions(here))[:, 0]
+        residuals = self._conditions(here).real[:, 0]
         in_rates = self.blueprint.in_rates
         _, _, along = self._slopes_of_conditions(state)
         return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
@@ -320,9 +347,8 @@ class Dynamics:
 
     def _slopes_of_lagrangian(self, state: State, function: Compiled) -> Reals:
         n = self.count
-        here = np.concatenate([state.q, state.v, [state.t]]).astype(complex)
-        points = np.tile(here[:, None], (1, 2 * n))
-        points[: 2 * n] += 1j * STEP * np.eye(2 * n)
+        points = copies(np.concatenate([state.q, state.v, [state.t]]), 2 * n)
+        points[: 2 * n] += complex_steps(2 * n)
         return np.asarray(np.imag(function(points)[0]) / STEP, dtype=np.float64)
 
     def _of_lagrangian(self, state: State, function: Compiled) -> tuple[Reals, Reals]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache, cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -33,10 +34,26 @@ class State:
     v: Reals
     t: float = 0.0
 
-    @property
+    @cached_property
     def reach(self) -> float:
         """The time between the points along the motion that are used for second derivatives."""
-        return PATH / (1 + max(1.0, float(np.max(np.abs(self.v), initial=0.0))))
+        return PATH / (1 + max(1.0, float(np.abs(self.v).max(initial=0.0))))
+
+
+@cache
+def complex_steps(count: int) -> Numbers:
+    """One complex step along each of `count` axes, as columns."""
+    found: Numbers = np.zeros((count, count), dtype=np.complex128)
+    np.fill_diagonal(found, 1j * STEP)
+    found.flags.writeable = False  # all callers share it
+    return found
+
+
+def copies(point: Reals | Numbers, count: int) -> Numbers:
+    """An array whose columns are `count` copies of the point."""
+    found = np.empty((len(point), count), dtype=np.complex128)
+    found[:] = point[:, None]
+    return found
 
 
 @dataclass(frozen=True)
@@ -135,18 +152,18 @@ def _points(state: State) -> Numbers:
     the motion, and three states ahead and three behind, each with a complex step along the motion.
     """
     n = len(state.q)
-    here, along = np.append(state.q, state.t), np.append(state.v, 1.0)
-    points = np.tile(here.astype(complex)[:, None], (1, n + 8))
-    points[:n, 1 : n + 1] += 1j * STEP * np.eye(n)
+    here, along = np.concatenate([state.q, [state.t]]), np.concatenate([state.v, [1.0]])
+    points = copies(here, n + 8)
+    points[:n, 1 : n + 1] += complex_steps(n)
     points[:, n + 1 :] += 1j * STEP * along[:, None]
     points[:, n + 2 :] += along[:, None] * AROUND * state.reach
     return points
 
 
 def _place(vector: Numbers, count: int, reach: float) -> Place:
-    slopes = np.imag(vector) / STEP
+    slopes = vector.imag / STEP
     turning = slopes[:, count + 2 :] @ WEIGHTS / reach
-    return Place(np.real(vector[:, 0]), slopes[:, 1 : count + 1], slopes[:, count + 1], turning)
+    return Place(vector.real[:, 0], slopes[:, 1 : count + 1], slopes[:, count + 1], turning)
 
 
 def _body(body: Body, arm: Reals, rows: Iterator[Numbers], points: int, count: int, reach: float) -> PlacedBody:
@@ -162,7 +179,7 @@ def _axes(body: Body, angles: Sequence[Numbers], points: int) -> list[Numbers]:
     if len(body.axes) == 2:
         c, s = np.cos(angles[0]), np.sin(angles[0])
         return [np.array([c, s]), np.array([-s, c])]
-    columns = [np.tile(np.eye(3, dtype=complex)[:, i : i + 1], (1, points)) for i in range(3)]
+    columns = [copies(axis, points) for axis in np.eye(3)]
     for (axis, _), angle in zip(body.turns, angles, strict=True):
         c, s = np.cos(angle), np.sin(angle)
         j, k = (axis + 1) % 3, (axis + 2) % 3

@@ -21,7 +21,7 @@ from sympy import Expr, Symbol
 from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
 from derive.algebra.ranges import range_of
 from derive.witness.dynamics import Blueprint, Dynamics, Response
-from derive.witness.geometry import STEP, Reals, State
+from derive.witness.geometry import STEP, Reals, State, complex_steps, copies
 from derive.witness.tape import NotComputable, Tape
 
 SALTS = 60  # largest number of sets of numbers that are tried to satisfy the assumptions
@@ -189,44 +189,42 @@ class Trial:
         tape = Tape(residuals, inputs).bound(self.numbers)
         fast = np.array(of_rates, dtype=bool)
 
-        def at(q: Reals, v: Reals, t: float) -> tuple[Reals, Reals]:
+        def at(here: State) -> tuple[Reals, Reals]:
             """The residuals of the given values, and their derivatives with respect to coordinates, rates and time."""
-            n = len(q)
-            here = np.concatenate([q, v, [t]]).astype(complex)
-            points = np.tile(here[:, None], (1, 2 * n + 2))
-            points[:, 1:] += 1j * STEP * np.eye(2 * n + 1)
+            if not residuals:
+                return np.zeros(0), np.zeros((0, len(inputs)))
+            points = copies(np.concatenate([here.q, here.v, [here.t]]), len(inputs) + 1)
+            points[:, 1:] += complex_steps(len(inputs))
             found = tape(points)
-            return np.real(found[:, 0]), np.imag(found[:, 1:]) / STEP
+            return found[:, 0].real, found[:, 1:].imag / STEP
 
-        q, v, t = state.q.copy(), state.v.copy(), state.t
-        n = len(q)
+        n = len(state.q)
         needs_time = any(depends_on_time(each) for each in residuals) or self._depends_on_time
+        here = state
         for _ in range(ROUNDS):
-            here = State(q, v, t)
-            left, slopes = at(q, v, t)
+            left, slopes = at(here)
             violation, _ = self.dynamics.violation(here)
             on_places, _ = self.dynamics.gradients(here)
             residual = np.concatenate([violation, left[~fast]])
-            if not np.all(np.isfinite(residual)):
+            if not np.isfinite(residual).all():
                 raise Contradiction(of_rates=False)
-            if np.max(np.abs(residual), initial=0.0) < EXACT:
+            if np.abs(residual).max(initial=0.0) < EXACT:
                 break
             by_time = slopes[~fast][:, 2 * n :] * float(needs_time)
-            of_conditions = self._by_time(here)[:, None] * float(needs_time)
+            of_conditions = (self._by_time(here) if needs_time else np.zeros(len(violation)))[:, None]
             jacobian = np.block([[on_places, of_conditions], [slopes[~fast][:, :n], by_time]])
             move, *_ = np.linalg.lstsq(jacobian, -residual, rcond=1e-10)
-            size = np.max(np.abs(move))
+            size = np.abs(move).max()
             if size < EXACT:
                 raise Contradiction(of_rates=False)
             move = move * min(1.0, 1.0 / size)
-            q, t = q + move[:n], t + float(move[n])
+            here = State(here.q + move[:n], here.v, here.t + float(move[n]))
         else:
             raise Contradiction(of_rates=False)
-        if not self._allowed(q):
+        if not self._allowed(here.q):
             raise Contradiction(of_rates=False)
         for _ in range(ROUNDS):
-            here = State(q, v, t)
-            left, slopes = at(q, v, t)
+            left, slopes = at(here)
             _, violation = self.dynamics.violation(here)
             _, on_rates = self.dynamics.gradients(here)
             residual = np.concatenate([violation, left[fast]])
@@ -235,14 +233,14 @@ class Trial:
                 momenta, (matrix, _) = self.dynamics.momenta(here), self.dynamics.inertia(here)
                 residual = np.append(residual, [momenta[k] - value for k, value in kept])
                 rows = np.vstack([rows, matrix[[k for k, _ in kept]]])
-            if not np.all(np.isfinite(residual)):
+            if not np.isfinite(residual).all():
                 raise Contradiction(of_rates=True)
-            if np.max(np.abs(residual), initial=0.0) < EXACT:
+            if np.abs(residual).max(initial=0.0) < EXACT:
                 return here
             move, *_ = np.linalg.lstsq(rows, -residual, rcond=1e-10)
-            if np.max(np.abs(move)) < EXACT:
+            if np.abs(move).max() < EXACT:
                 break
-            v = v + move
+            here = replace(here, v=here.v + move)
         raise Contradiction(of_rates=True)
 
     def kept_at(self, state: State) -> State:

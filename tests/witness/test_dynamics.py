@@ -13,6 +13,7 @@ from derive.algebra.expressions import TIME, rate, scalar
 from derive.witness.description import Body, Charge, Condition, Description, Drag, Force, Pair, Particle
 from derive.witness.dynamics import Blueprint, Singular
 from derive.witness.geometry import State
+from derive.witness.tape import Compiled
 from tests.witness.systems import ON_A_STRING, PENDULUM, dynamics, g, l, m, phi, theta, x, y
 
 M, R, w, q, B, b = symbols("M R omega q B b", positive=True)
@@ -130,3 +131,14 @@ def test_of_two_equal_conditions_one_follows_from_the_other() -> None:
     found = dynamics(of).response(at([0.5, 0.5], [1.0, 1.0]))
     assert found.rank == 1
     assert found.a == pytest.approx([-4.5, -4.5], rel=1e-9)
+
+
+def test_the_results_of_one_state_share_their_derivatives(monkeypatch: pytest.MonkeyPatch) -> None:
+    evaluated, call = [], Compiled.__call__
+    monkeypatch.setattr(Compiled, "__call__", lambda self, points: (evaluated.append(points), call(self, points))[1])
+    system, one, other = dynamics(ON_A_STRING), at([0.7, 0.4], [0.0, 2.0]), at([0.7, 0.8], [0.0, 1.0])
+    evaluated.clear()
+    for state in (one, other):
+        system.gradients(state), system.response(state), system.kinetic_energy(state)
+    assert len(evaluated) == 4  # places and conditions of two states
+    assert system.kinetic_energy(one) != pytest.approx(system.kinetic_energy(other))
