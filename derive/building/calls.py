@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from derive.building.cache import Cache, digest, engine_digest
+from derive.building.cache import NO_CACHE, Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
 BETWEEN = "\n\n"  # separates calls: their texts contain no empty line
@@ -20,10 +20,11 @@ ROOM = 2 * 1024 * 1024  # the most characters of stored calls that the last buil
 
 @dataclass
 class Calls:
-    """The texts of calls by their keys: the calls stored by earlier builds, and the calls used by this build."""
+    """The texts of calls by their keys: the calls stored by earlier builds, and the calls used by this build. Without a
+    cache, only the calls of this build are known."""
 
-    cache: Cache
-    key: str
+    cache: Cache = NO_CACHE
+    key: str = ""
     used: dict[str, str] = field(default_factory=dict)
     has_more: bool = False
 
@@ -34,7 +35,7 @@ class Calls:
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
     def get(self, key: str) -> str | None:
-        text = self.earlier.get(key)
+        text = self.used.get(key) or self.earlier.get(key)
         if text is not None:
             self.used[key] = text
         return text

@@ -27,6 +27,8 @@ class Recalling(Protocol):
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any: ...
 
+    def of_another_run(self) -> Recalling: ...
+
 
 @dataclass
 class Call:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from math import acos, cos, pi, sin, sqrt
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ import pytest
 from sympy import Expr, Integer, Rational, Symbol
 
 from derive.algebra.expressions import TIME, Relation, explicit
+from derive.building.calls import Calls
 from derive.errors import DeriveError
 from derive.mechanics.motion import flight
 from derive.steps.step import Quantity
@@ -18,7 +21,8 @@ from derive.witness import runs
 from derive.witness.claim import Claim
 from derive.witness.dynamics import Blueprint
 from tests.courses import ROOT
-from tests.stock.described import complaints, edited, solved
+from tests.stock import described
+from tests.stock.described import edited
 
 SPHERE = (ROOT / "problems" / "library" / "constraints" / "off_a_sphere.yaml").read_text(encoding="utf-8")
 PENDULUM = (ROOT / "problems" / "library" / "contacts" / "slack_pendulum.yaml").read_text(encoding="utf-8")
@@ -43,11 +47,17 @@ def pushed(push: str = "v_0/R", **floor: str) -> str:
 # --- answers from books ---
 
 
-@pytest.fixture(autouse=True)
-def few_simulated_motions(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(autouse=True, scope="module")
+def few_simulated_motions() -> Iterator[None]:
     """Simulate fewer motions than usual, because each takes long."""
-    monkeypatch.setattr(runs, "FLIGHTS", 1)
-    monkeypatch.setattr(runs, "MANY", 2)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runs, "FLIGHTS", 1)
+        patch.setattr(runs, "MANY", 2)
+        yield
+
+
+CALLS = Calls()  # of all tests of this module except those of wrong laws: their problems differ in few lines
+solved, complaints = partial(described.solved, calls=CALLS), partial(described.complaints, calls=CALLS)
 
 
 def test_a_particle_from_rest_hits_the_floor_beyond_the_sphere(tmp_path: Path) -> None:
@@ -200,7 +210,7 @@ LAWS = {
 def test_a_wrong_law_is_refused(law: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     LAWS[law](monkeypatch)
     with pytest.raises(DeriveError) as refused:
-        solved(tmp_path, text)
+        described.solved(tmp_path, text)
     assert {each.code for each in refused.value.complaints} & {"unverified", "contradicts-motion"}
 
 
@@ -210,7 +220,7 @@ def test_a_particle_that_stays_near_the_sphere_is_not_said_to_be_clear(
     """A string goes slack inside its circle: the particle comes back."""
     monkeypatch.setattr(flight, "_time_back", lambda known: None)
     with pytest.raises(DeriveError):
-        solved(tmp_path, PENDULUM)
+        described.solved(tmp_path, PENDULUM)
 
 
 def test_the_witness_follows_the_flight(tmp_path: Path) -> None:

@@ -7,9 +7,12 @@ from typing import Any
 
 import pytest
 
+from derive.building.calls import Calls
 from derive.course.problem import Problem, load_problem, run_solve
 from derive.errors import DeriveError
 from derive.steps.derivation import returned_quantities, with_ancestors
+from derive.steps.memory import Memory
+from derive.steps.record import Run
 from derive.steps.step import Quantity
 from tests.courses import ROOT
 
@@ -49,15 +52,19 @@ def loaded(folder: Path, text: str) -> Problem:
     return load_problem(course_with(folder, text), "trial/one")
 
 
-def solved(folder: Path, text: str) -> dict[str, Quantity]:
-    """Every step by its key."""
-    return with_ancestors(returned_quantities(run_solve(loaded(folder, text))))
+def solved(folder: Path, text: str, calls: Calls | None = None) -> dict[str, Quantity]:
+    """Every step by its key.
+
+    calls   the calls of verbs of other problems, which are not made again; for tests that leave the engine unchanged
+    """
+    run = Run(memory=Memory(Calls() if calls is None else calls))
+    return with_ancestors(returned_quantities(run_solve(loaded(folder, text), run)))
 
 
-def complaints(folder: Path, text: str) -> list[Any]:
+def complaints(folder: Path, text: str, calls: Calls | None = None) -> list[Any]:
     """What is wrong with it, however far one comes."""
     with pytest.raises(DeriveError) as refused:
-        solved(folder, text)
+        solved(folder, text, calls)
     return list(refused.value.complaints)
 
 

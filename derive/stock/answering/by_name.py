@@ -126,9 +126,13 @@ class ByName:
                 return self.again()._derived(name, None)
 
     def _copied_run(self) -> Run:
-        """Return a record without steps, for the same problem."""
+        """Return a record without steps, for the same problem. It has the same store of calls, so that a search derives
+        nothing that the answers need again."""
         run = current_run.get() or Run()
-        return Run(assumed=[*run.assumed], in_words=[*run.in_words], numbers=run.numbers, letters=run.letters)
+        memory = run.memory and run.memory.of_another_run()
+        return Run(
+            assumed=[*run.assumed], in_words=[*run.in_words], numbers=run.numbers, letters=run.letters, memory=memory
+        )
 
     def _derived(self, name: str, place: Place | None) -> tuple[Quantity, ...]:
         if name in self._in_progress:

@@ -10,10 +10,11 @@ from sympy import symbols
 
 from derive.algebra.equality import equal
 from derive.course.problem import run_solve
+from derive.steps import establish
 from derive.steps.derivation import returned_quantities
 from derive.steps.step import Quantity
 from tests.stock.bodies import BLOCK, CONE
-from tests.stock.described import PENDULUM, complaints, edited, loaded, messages
+from tests.stock.described import PENDULUM, complaints, edited, loaded, messages, solved
 
 m_1, m_2, r = symbols("m_1 m_2 r", positive=True)
 
@@ -69,6 +70,16 @@ def test_a_step_on_the_way_has_its_name_whatever_was_asked_for_before(order: tup
     """By hand: m_1 r^2 phi_dot = p_phi."""
     text = TABLE + "".join(f"  - {{ask: Find it., answer: {name}}}\n" for name in order)
     assert len(found(tmp_path, text)["radial_equation"]) == 1
+
+
+def test_the_search_for_a_step_derives_nothing_that_its_answer_derives_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, add = [], establish.record.add
+    monkeypatch.setattr(establish.record, "add", lambda q, case: (made.append(q.key), add(q, case))[1])
+    steps = solved(tmp_path, TABLE + "  - {ask: Find it., answer: rate_phi_by_p_phi}\n")
+    assert made.count("rate_phi_by_p_phi") == made.count("lagrangian") == 1
+    assert {"rate_phi_by_p_phi", "lagrangian"} <= steps.keys()
 
 
 def test_a_part_may_ask_for_a_step_that_nothing_else_leads_to(tmp_path: Path) -> None:
