@@ -256,7 +256,8 @@ def test_nothing_that_is_shipped_names_a_machine() -> None:
 @cache
 @cache
 def verbs() -> dict[str, Any]:
-    """Return every public function of `derive.mechanics` and `derive.steps.numeric` that yields a quantity."""
+    """Return every public function of `derive.mechanics` and `derive.steps.numeric` that yields a quantity by its own
+    rule."""
     modules = [
         derive.steps.numeric,
         *(import_module(f"derive.{name}") for name in VERB_MODULES),
@@ -269,6 +270,7 @@ def verbs() -> dict[str, Any]:
         and function.__module__ == module.__name__
         and not name.startswith("_")
         and "Quantity" in str(inspect.signature(function).return_annotation)
+        and "rule" not in inspect.signature(function).parameters
     }
 
 
@@ -336,12 +338,13 @@ def test_every_phrase_belongs_to_a_rule() -> None:
 
 @cache
 def uses(module: str) -> dict[str, set[str]]:
-    """Return the rules that each top-level function or class of a module passes to `establish`, by their constants."""
+    """Return the rules that each top-level function or class of a module passes to `establish`, or to `observation`,
+    which calls it, by their constants."""
     return {
         node.name: {
             ast.unparse(call.args[0])
             for call in ast.walk(node)
-            if isinstance(call, ast.Call) and ast.unparse(call.func) == "establish"
+            if isinstance(call, ast.Call) and ast.unparse(call.func) in ("establish", "observation")
         }
         for node in tree(module).body
         if isinstance(node, ast.FunctionDef | ast.ClassDef)

@@ -148,6 +148,15 @@ def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], 
 def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
     """Read an expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = Wanted(name, kind, notes)
+    return _read(node, wanted, symbols)
+
+
+def read_end(node: Tree, kind: str) -> Expr:
+    """Read an end of the range of a plot, which may be zero or negative."""
+    return _read(node, Wanted("range", kind, is_end_of_scale=True), {})
+
+
+def _read(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr:
     value = _value(_scalar(node, wanted), wanted, symbols)
     return value.si if isinstance(value, Number) else value
 
@@ -221,6 +230,8 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
     """Reject a value if its letters or their numbers show that its sign is wrong or an angle is out of range. `a - b`
     is allowed, because it may be positive."""
+    if wanted.is_end_of_scale:
+        return
     text = " ".join(scalar.text.split())
     value = value.xreplace(dict(wanted.numbers))
     if about_kind(wanted.kind).positive and not about_kind(wanted.kind).signed and value.is_nonpositive:

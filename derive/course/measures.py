@@ -36,7 +36,7 @@ class Number:
 @dataclass(frozen=True)
 class Wanted:
     """The value that is being read: its name, its kind, its bounds, and notes for messages. A note says, for example,
-    where `solve()` asks for the value."""
+    where `solve()` asks for the value. The end of a scale may have any sign, whatever its kind."""
 
     name: str
     kind: str
@@ -44,6 +44,7 @@ class Wanted:
     one_of_many: bool = False
     bounds: tuple[int, int] | None = None
     numbers: Mapping[Symbol, Expr] = field(default_factory=dict)
+    is_end_of_scale: bool = False
 
     @property
     def must(self) -> str:

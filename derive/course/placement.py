@@ -11,7 +11,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
-from derive.course.given import Measured, read_numbers, read_value
+from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
 from derive.course.written import DrawingKeys
@@ -125,4 +125,4 @@ def _values(
 
 
 def _range(ends: tuple[Tree, ...]) -> Range:
-    return Range(ends[0].place, lambda kind: [read_value("range", end, kind, {}) for end in ends])
+    return Range(ends[0].place, lambda kind: [read_end(end, kind) for end in ends])

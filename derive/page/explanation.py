@@ -117,7 +117,7 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
     value."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
-    return asked | {value.key: asked[key] for key, value in values.items()}
+    return asked | {value.key: asked[key] for key, value in values.items() if key in asked}
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:

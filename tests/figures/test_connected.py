@@ -30,6 +30,7 @@ from derive.figures.surroundings import AngleBetween, CurvedGround, DistanceMark
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import Run
+from tests.mechanics.test_connections import ON_ITS_SIDE, ROPE
 from tests.stock.described import course_with, edited, loaded
 
 BALL = """\
@@ -243,25 +244,14 @@ def test_blocks_with_a_constraint_as_a_formula_are_drawn_where_it_holds(tmp_path
     assert x > 0 and y > 0 and x + y == pytest.approx(l)
 
 
-ROPE = """\
-title: A rope
-solve: system
-symbols: {M: mass, l: length, g: acceleration}
-given:
-  coordinates: {x: positive length}
-  particles: {rope: {mass: M, at: [x - l, 0]}}
+ON_TABLE = """\
   surfaces: {table: {through: [0, 0], along: [1, 0]}}
   contacts: {of: rope, on: table}
-  strings: {from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}
-  gravity: g
-statement: A rope <<M>> <<l>> <<g>>.
-parts:
-  - {ask: Find the acceleration., answer: acceleration_x}
-"""
+  strings"""
 
 
 def test_a_rope_is_drawn_in_place_of_the_particle_with_its_mass(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, ROPE)["system"]
+    drawn = drawings(tmp_path, edited(ROPE, ("  strings", ON_TABLE)))["system"]
     (rope,) = of_class(drawn, HeavyRopeMark)
     assert str(rope.label) == "M" and len(rope.along) == 3
     assert not of_class(drawn, ParticleMark) and not of_class(drawn, BlockMark)
@@ -269,24 +259,8 @@ def test_a_rope_is_drawn_in_place_of_the_particle_with_its_mass(tmp_path: Path) 
     assert str(length.label) == "x" and [list(length.start), list(length.end)] == [[0, 0], [0, -length.label]]
 
 
-CONE = """\
-title: A cone
-solve: system
-symbols: {M: mass, h: length, alpha: 'angle in (0, pi/2)'}
-given:
-  coordinates: {phi: angle, psi: angle}
-  axes: {body: [{z: phi}, {y: pi/2 - alpha}, {z: psi}]}
-  bodies: {cone: {shape: cone, radius: h*tan(alpha), height: h, mass: M, held: apex, turned: body}}
-  surfaces: {table: {through: [0, 0, 0], normal: [0, 0, 1]}}
-  contacts: {of: cone, on: table, friction: rolling}
-statement: A cone <<M>> <<h>> <<alpha>>.
-parts:
-  - {ask: Find the rates., answer: no_slip}
-"""
-
-
 def test_a_cone_lies_on_a_table_that_is_larger_than_the_circle_of_its_contacts(tmp_path: Path) -> None:
-    (table,) = of_class(drawings(tmp_path, CONE)["system"], TableMark)
+    (table,) = of_class(drawings(tmp_path, ON_ITS_SIDE)["system"], TableMark)
     alpha, h = 0.5, 1.3
     values = {letter: {"alpha": alpha, "h": h}[letter.name] for letter in table.radius.free_symbols}
     assert numeric(table.radius.subs(values)) == pytest.approx(1.2 * h / cos(alpha))

@@ -11,9 +11,9 @@ from sympy import Expr, Symbol, sin
 from derive.algebra.expressions import Ratio, Relation, Terms, component_names, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.mechanics.observations import claims
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, Observed, View, numbered, symbols_behind
+from derive.mechanics.observations.view import Observed, View, numbered, observation, symbols_behind
 from derive.mechanics.vibrations.facts import Linear, Mode
-from derive.steps.establish import PhraseData, establish
+from derive.steps.establish import PhraseData
 from derive.steps.rule import CHECK, Rule
 from derive.steps.step import Quantity, is_zero
 
@@ -48,17 +48,14 @@ def _is_rate(q: Quantity) -> bool:
 
 
 def _multiple(of: Quantity, other: Quantity, ratio: Expr, both: Sequence[Symbol]) -> Quantity:
-    return establish(
+    return observation(
         MULTIPLE,
-        None,
         lambda *_: ratio,
         {"of": of, "other": other},
         routes={"product": lambda found: (found * explicit(other.value), explicit(of.value))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"ratio": Relation(Ratio(of.symbol, other.symbol), "=", ratio), **numbered("letter", both)}
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_multiple",
     )
 
@@ -102,19 +99,16 @@ def _is_constant(q: Quantity) -> bool:
 
 def _in_order(falling: Sequence[Quantity], kind: str) -> Quantity:
     most, least = (explicit(q.value) for q in (falling[0], falling[-1]))
-    return establish(
+    return observation(
         ORDER,
-        None,
         lambda *_: tidied(most / least),
         {},
         routes={"product": lambda found: (found * least, most)},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             points_to=numbered("case", falling),
             named={"most": _case(falling[0]), "least": _case(falling[-1])},
             outcome_data={"kind": kind},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{falling[0].key}_greatest",
     )
 
@@ -147,20 +141,17 @@ def familiar(view: View) -> Observed:
 def _familiar(view: View, of: Quantity, part: Expr, known: Expr, symbols: Mapping[str, Symbol]) -> Quantity:
     equations = [q for q in of.ancestors() if isinstance(q.value, Relation)]
     gone = [s for s in view.in_order(symbols_behind(equations)) if view.letters[s] in ("mass", "length")]
-    return establish(
+    return observation(
         FAMILIAR,
-        None,
         lambda *_: part,
         {"of": of, **symbols},
         routes={"product": lambda found: ((found * known) ** 2, explicit(of.value) ** 2)},
         outcome="incline" if "alpha" in symbols else "fall",
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named=numbered("letter", gone),
             points_to=numbered("equation", equations),
             outcome_data={"familiar": known},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_familiar",
     )
 
@@ -204,16 +195,13 @@ def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, A
 
 
 def _unaffected(of: Quantity, shape: Quantity, letter: Symbol, outcome: str, data: Mapping[str, Any]) -> Quantity:
-    return establish(
+    return observation(
         UNAFFECTED,
-        None,
         lambda *_: explicit(of.value),
         {"of": of, "letter": letter},
         routes={"other_value": lambda found: (found.xreplace({letter: 2 * letter}), explicit(of.value))},
         outcome=outcome,
-        lines=ONE_LINE,
         phrase_data=PhraseData(points_to={"shape": shape}, outcome_data=data),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_unaffected",
     )
 
@@ -239,15 +227,12 @@ def circling(view: View) -> Observed:
 
 
 def _circling(first: Quantity, second: Quantity, turning: Expr, rates: tuple[Symbol, Symbol]) -> Quantity:
-    return establish(
+    return observation(
         CIRCLING,
-        None,
         lambda *_: turning,
         {"of": first, "other": second},
         routes={"turned": lambda found: (-found * rates[1], explicit(first.value))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(outcome_data={"rates": rates}),
-        scope=OF_ANY_SUBJECT,
         key=f"{first.key}_circling",
     )
 
@@ -276,15 +261,12 @@ def reduced(view: View) -> Observed:
 
 
 def _reduced(equations: Sequence[Quantity], mass: Expr, masses: Sequence[Symbol], along: Sequence[Symbol]) -> Quantity:
-    return establish(
+    return observation(
         REDUCED,
-        None,
         lambda *_: mass,
         {"of": equations[0], "other": equations[1]},
         routes={"sum": lambda found: (1 / found, 1 / masses[0] + 1 / masses[1])},
-        lines=ONE_LINE,
         phrase_data=PhraseData(outcome_data={"masses": tuple(masses), "accelerations": tuple(along)}),
-        scope=OF_ANY_SUBJECT,
         key=f"{equations[0].key}_reduced",
     )
 
@@ -324,13 +306,11 @@ def _polhode(energy: Quantity, square: Quantity, momentum: Quantity, euler: Sequ
             for name, w in zip(names, spins, strict=True)
         )
     )
-    return establish(
+    return observation(
         POLHODE,
-        None,
         lambda *_: in_momenta,
         {},
         routes={"energy": lambda found: (explicit(found).xreplace(components), value)},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             points_to={"energy": energy, "square": square, "momentum": momentum},
             named={
@@ -339,6 +319,5 @@ def _polhode(energy: Quantity, square: Quantity, momentum: Quantity, euler: Sequ
             },
             outcome_data={"euler": tuple(euler), "spins": tuple(spins), "names": names},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{square.key}_and_energy",
     )

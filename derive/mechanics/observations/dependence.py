@@ -32,17 +32,16 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.lagrange.facts import Energies, ForceOf
 from derive.mechanics.observations import claims
 from derive.mechanics.observations.view import (
-    OF_ANY_SUBJECT,
-    ONE_LINE,
     Observed,
     View,
     numbered,
+    observation,
     simple,
     symbols_behind,
 )
 from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
 from derive.solving.relations import solved_for_letter
-from derive.steps.establish import PhraseData, establish
+from derive.steps.establish import PhraseData
 from derive.steps.rule import CHECK, TRIALS, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
@@ -111,20 +110,17 @@ def _scales(view: View) -> set[Symbol]:
 
 def _free_of(of: Quantity, value: Expr, gone: Sequence[Symbol], behind: Sequence[Quantity]) -> Quantity:
     solved = isinstance(of.value, Relation)
-    return establish(
+    return observation(
         INDEPENDENT,
-        None,
         lambda *_: explicit(value),
         {"of": of},
         routes={"other_value": lambda found: (found.xreplace({s: 2 * s for s in gone}), explicit(value))},
         outcome="angle" if solved else "generic",
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named=numbered("letter", gone),
             points_to=numbered("equation", behind),
             words={"seen": "equation" if solved and of.value.operator == "=" else "condition"},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_independent",
     )
 
@@ -138,16 +134,13 @@ def _weight(view: View, of: Quantity, gone: Sequence[Symbol], behind: Sequence[Q
 
 
 def _only_shifted(of: Quantity, g: Symbol, rest: Quantity, equations: Sequence[Quantity]) -> Quantity:
-    return establish(
+    return observation(
         INDEPENDENT,
-        None,
         lambda *_: explicit(of.value),
         {"of": of, "g": g},
         routes={"other_value": lambda found: (found.xreplace({g: 2 * g}), explicit(of.value))},
         outcome="weight",
-        lines=ONE_LINE,
         phrase_data=PhraseData(named={"letter_1": g}, points_to={"rest": rest, **numbered("equation", equations)}),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_independent",
     )
 
@@ -186,18 +179,15 @@ def _angle_for_all(
     of: Quantity, told: Relation, size: Expr, gone: Sequence[Symbol], behind: Sequence[Quantity]
 ) -> Quantity:
     q = told.left.args[0]
-    return establish(
+    return observation(
         ANGLE,
-        None,
         lambda *_: size,
         {"of": of},
         routes={"put_back": lambda found: (told.left.xreplace({q: found}), told.right)},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"angle": size, "size": _in_degrees(size), **numbered("letter", gone)},
             points_to=numbered("equation", behind),
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_in_degrees",
     )
 
@@ -268,19 +258,16 @@ def _is_told(view: View, place: Relation) -> bool:
 
 def _zero(of: Quantity, place: Relation, outcome: str) -> Quantity:
     at_angle = isinstance(place.right, acos)
-    return establish(
+    return observation(
         ZERO_OF,
-        None,
         lambda *_: place,
         {"of": of},
         routes={"put_in": lambda found: (explicit(of.value).xreplace({found.left: explicit(found.right)}), Integer(0))},
         outcome=f"{outcome}_at_angle" if at_angle else outcome,
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"place": place, **({"size": _in_degrees(place.right)} if at_angle else {})},
             outcome_data={"angle": place.right} if at_angle else {},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_zero",
     )
 
@@ -331,19 +318,16 @@ def _branching(of: Quantity, steps: dict[str, Quantity], border: Relation) -> Qu
         there = {found.left: explicit(found.right)}
         return (curvature.xreplace(there) + (cosine.xreplace(there) - 1) * Symbol("u"), Integer(0))
 
-    return establish(
+    return observation(
         BRANCHES,
-        None,
         lambda *_: border,
         {"of": of},
         routes={"both_vanish": both_vanish},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"border": border},
             points_to=steps,
             outcome_data={"cosine": cosine},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_branches",
     )
 
@@ -380,15 +364,12 @@ def _free_frequency(of: Quantity) -> Expr | None:
 
 
 def _resonance(of: Quantity, inner: Expr, place: Relation, square: Expr) -> Quantity:
-    return establish(
+    return observation(
         RESONANCE,
-        None,
         lambda *_: place,
         {"of": of},
         routes={"denominator": lambda found: (inner.xreplace({found.left: found.right}), Integer(0))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(named={"place": place}, outcome_data={"square": square}),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_resonance",
     )
 
@@ -417,15 +398,12 @@ def anywhere(view: View) -> Observed:
 
 def _anywhere(of: Quantity, place: Relation) -> Quantity:
     residual = explicit(of.value.residual)
-    return establish(
+    return observation(
         ANYWHERE,
-        None,
         lambda *_: place,
         {"of": of},
         routes={"put_in": lambda found: (residual.xreplace({found.left: explicit(found.right)}), Integer(0))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(named={"place": place}),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_anywhere",
     )
 
@@ -456,13 +434,10 @@ def _is_normal_force(of: Quantity) -> bool:
 
 
 def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:
-    return establish(
+    return observation(
         ONE_SIGN,
-        None,
         lambda *_: value / positive,
         {"of": of, "q": q},
-        lines=ONE_LINE,
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_one_sign",
     )
 
@@ -501,15 +476,12 @@ def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
 
 
 def _balanced(of: Quantity, entry: Expr, letter: Symbol, found: Sequence[Expr]) -> Quantity:
-    return establish(
+    return observation(
         BALANCED,
-        None,
         lambda *_: entry,
         {"of": of, "angle": letter},
         routes={"put_in": lambda e: (Add(*(e.xreplace({letter: each}) ** 2 for each in found)), Integer(0))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(named=numbered("place", [Relation(letter, "=", each) for each in found])),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_balanced",
     )
 
@@ -534,13 +506,10 @@ def below(view: View) -> Observed:
 
 
 def _below(of: Quantity, letter: Symbol, apart: Expr) -> Quantity:
-    return establish(
+    return observation(
         BELOW,
-        None,
         lambda *_: apart,
         {"of": of, "letter": letter},
-        lines=ONE_LINE,
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_below",
     )
 
@@ -566,14 +535,11 @@ def flat(view: View) -> Observed:
 
 def _flat(of: Quantity, told: Relation) -> Quantity:
     values = dict(zip(of.symbol, explicit(of.value), strict=True))
-    return establish(
+    return observation(
         FLAT,
-        None,
         lambda *_: told,
         {"of": of},
         routes={"sum": lambda found: (found.left.xreplace(values), found.right.xreplace(values))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(named={"sum": told}),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_flat",
     )

@@ -16,11 +16,11 @@ from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.lagrange.facts import Energies
 from derive.mechanics.observations import claims
 from derive.mechanics.observations.comparisons import linear_equations
-from derive.mechanics.observations.view import OF_ANY_SUBJECT, ONE_LINE, Observed, View, numbered, simple
+from derive.mechanics.observations.view import Observed, View, numbered, observation, simple
 from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
-from derive.steps.establish import PhraseData, establish
+from derive.steps.establish import PhraseData
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, TRIALS, Rule
@@ -99,16 +99,13 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
 
 def _pendulum(of: Quantity, g: Symbol, outcome: str, data: dict[str, Any], known: list[Quantity]) -> Quantity:
     square = _squared(of)
-    return establish(
+    return observation(
         PENDULUM,
-        None,
         lambda *_: tidied(g / square),
         {"of": of, "g": g},
         routes={"pendulum": lambda found: (found * square, g)},
         outcome=outcome,
-        lines=ONE_LINE,
         phrase_data=PhraseData(named=data, words={"seen": _seen(of)}, points_to=numbered("known", known)),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_as_pendulum",
     )
 
@@ -177,20 +174,17 @@ def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -
     if ratio.is_number and outcome == "letters":
         outcome = "rational" if ratio.is_Rational else "irrational"
     special = {"same": _closing(square, 1), "double": _closing(square, 4)} if outcome == "letters" else {}
-    return establish(
+    return observation(
         ORBIT,
-        None,
         lambda *_: ratio,
         {"of": of},
         routes={"squares": lambda found: (found**2 * there**2, explicit(of.value) ** 2)},
         outcome=outcome,
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"on_circle": told, **{role: value for role, value in special.items() if value is not None}},
             points_to={"radius": step},
             outcome_data={"orbital_rate": there},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_and_orbit",
     )
 
@@ -231,19 +225,16 @@ def _ratio(slow: Quantity, fast: Quantity) -> Expr:
 
 
 def _modes(linear: Linear, slow: Quantity, fast: Quantity, ratio: Expr, outcome: str) -> Quantity:
-    return establish(
+    return observation(
         MODES,
-        None,
         lambda *_: ratio,
         {"slow": slow, "fast": fast},
         routes={"squares": lambda found: (found**2 * explicit(slow.value) ** 2, explicit(fast.value) ** 2)},
         outcome=outcome,
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"ratio": Relation(Ratio(fast.symbol, slow.symbol), "=", ratio)},
             outcome_data={"system": (linear.mass, linear.stiffness)},
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{fast.key}_and_{slow.key}",
     )
 
@@ -271,13 +262,11 @@ def one_frequency(view: View) -> Observed:
 def _one_frequency(of: Quantity, step: Quantity) -> Quantity:
     linear = step.needed(Linear)
     motions = [q for q in step.parents if q.fact(OfCoordinate) is not None]
-    return establish(
+    return observation(
         ONE_FREQUENCY,
-        None,
         lambda *_: explicit(of.value) ** 2,
         {"of": of},
         routes={"squares": lambda found: (linear.stiffness, found * linear.mass)},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             outcome_data={
                 "system": (linear.mass, linear.stiffness),
@@ -285,7 +274,6 @@ def _one_frequency(of: Quantity, step: Quantity) -> Quantity:
                 "motions": [explicit(q.value).residual for q in motions],
             }
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_of_all",
     )
 
@@ -349,18 +337,15 @@ def _exact(lagrangian: Quantity, motion: OneCoordinate, mass: Symbol, path: Expr
     q, mu, energy, square = motion.q, motion.mu, motion.energy, motion.square
     s = Symbol(free_letter("s"), real=True)
     harmonic = Relation(Terms(rate(s, 2), square * s), "=", Integer(0))
-    return establish(
+    return observation(
         EXACT,
-        None,
         lambda *_: square,
         {"lagrangian": lagrangian},
         routes={"harmonic": lambda found: ((energy.diff(q) ** 2 / mu).diff(q) / 2, found * energy.diff(q))},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"path": Relation(s, "=", path), "harmonic": harmonic},
             outcome_data={"q": q, "mu": mu, "energy": energy, "square": square, "lowest": motion.lowest, "mass": mass},
         ),
-        scope=OF_ANY_SUBJECT,
         key="exact_oscillation",
     )
 
@@ -390,20 +375,17 @@ def _has_root(value: Expr) -> bool:
 
 def _pair(one: Quantity, other: Quantity, added: Expr, multiplied: Expr) -> Quantity:
     apart = expand((explicit(other.value) - explicit(one.value)) ** 2)
-    return establish(
+    return observation(
         PAIR,
-        None,
         lambda *_: added,
         {"of": one, "other": other},
         routes={"square": lambda found: (found**2 - 4 * multiplied, apart)},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={
                 "sum": Relation(Terms(one.symbol, other.symbol), "=", added),
                 "product": Relation(Factors(one.symbol, other.symbol), "=", multiplied),
             }
         ),
-        scope=OF_ANY_SUBJECT,
         key=f"{one.key}_and_{other.key}",
     )
 
@@ -432,17 +414,14 @@ def longer(view: View) -> Observed:
 def _longer(of: Quantity, letter: Symbol, part: Expr, whole: WholeSwing) -> Quantity:
     there = {letter: explicit(THIRTY_DEGREES)}
     excess = 100 * (part.xreplace(there) - 1)
-    return establish(
+    return observation(
         LONGER,
-        None,
         lambda *_: excess,
         {"letter": letter},
-        lines=ONE_LINE,
         phrase_data=PhraseData(
             named={"percent": rounded_form(excess, 2), "amplitude": Relation(letter, "=", THIRTY_DEGREES)},
             outcome_data={"swing": whole.time},
         ),
         parents=of.parents,
-        scope=OF_ANY_SUBJECT,
         key=f"{of.key}_longer",
     )

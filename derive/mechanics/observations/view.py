@@ -13,13 +13,12 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import Relation, explicit, is_matrix
 from derive.mechanics.lagrange.facts import Energies
-from derive.steps.establish import Lines, Scope
-from derive.steps.step import Quantity
+from derive.steps.establish import Lines, Scope, establish
+from derive.steps.rule import Rule
+from derive.steps.step import Law, Quantity
 from derive.steps.subject import EVERYTHING
 
 Observed = Iterator[Quantity]  # the steps that state the observations of one kind
-ONE_LINE = Lines(put_in=None, result=False, arranged=explicit)
-OF_ANY_SUBJECT = Scope(differ=EVERYTHING)
 
 
 @dataclass(frozen=True)
@@ -58,6 +57,15 @@ class View:
         kinetic = [energies.kinetic for q in self.shown if (energies := q.fact(Energies)) is not None]
         moving = {s for q in kinetic for s in explicit(q.value).free_symbols}
         return [g for g in self.of_kind("acceleration") if g not in moving]
+
+
+def observation(rule: Rule, law: Law, inputs: Mapping[str, Any], **more: Any) -> Quantity:
+    """Return the step of an observation: one line without a symbol, whose inputs may be about any subject.
+
+    more   further arguments of `establish`: its key, routes, outcome and phrase data
+    """
+    lines = Lines(put_in=None, result=False, arranged=explicit)
+    return establish(rule, None, law, inputs, lines=lines, scope=Scope(differ=EVERYTHING), **more)
 
 
 def simple(value: Expr, most: int = 8) -> bool:

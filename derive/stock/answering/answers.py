@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, ClassVar, Generic, TypeVar
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.course.placement import Placement, Range
 from derive.course.stock import Described, told_at
 from derive.course.yaml_tree import Word
@@ -130,12 +130,12 @@ class StockAnswers(Answers[W]):
         return found
 
     def _plot(self, drawing: Placement, answer: Word, against: Word, ends: Range) -> None:
-        """Draw the curve of an answer against a coordinate or a declared letter."""
+        """Draw the curve of an answer against a coordinate, the time or a declared letter."""
         quantities = self.by_name.named(answer)
         if len(quantities) != 1:
             rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
         moving = self.coordinates.get(str(against))
-        kind = moving.kind if moving is not None else drawing.kind_against
+        kind = moving.kind if moving is not None else "time" if against == TIME.name else drawing.kind_against
         letters = {symbol.name: symbol for symbol in explicit(quantities[0].value).free_symbols}
         if kind is None or str(against) not in letters:
             message = f"`{answer}` does not depend on `{against}`, so there is no curve"
