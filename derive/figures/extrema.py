@@ -7,7 +7,7 @@ of the extremum: next to a minimum its values must be greater, next to a maximum
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Any
 
@@ -17,6 +17,7 @@ from derive.errors import Complaint, Rejected, Unverified
 
 STEPS = 1009  # odd and prime: then the centre of a symmetric range is inside a step, not at its end
 MINIMUM, MAXIMUM = "minimum", "maximum"
+NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,8 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
             kind = MINIMUM if slopes[i] < 0 else MAXIMUM
             _confirm(f, at, (upper - lower) / STEPS, kind)
             found.append(Extremum(at, float(f(at)), kind))
+    size = max(abs(float(f(x))) for x in xs) if found else 0
+    found = [each if abs(each.value) > NOISE * size else replace(each, value=0.0) for each in found]
     return tuple(found)
 
 

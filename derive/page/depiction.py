@@ -310,9 +310,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         last = words.labels["and"]
         numbers = _put_in(curve.numbers)
         turns = joined(_turns(plot, curves, curve, words), last)
-        told.append(
-            filled(words.drawings["curve"], {"letter": letter, "numbers": joined(numbers, last), "turns": turns})
-        )
+        own = {"letter": letter, "numbers": joined(numbers, last), "turns": turns, "count": len(curve.extrema)}
+        told.append(filled(words.drawings["curve"], own))
     told += _shared(curves, words)
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
 
@@ -342,7 +341,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
                 "value": told_value(plot, extremum),
             },
         )
-        for extremum in curve.extrema
+        for extremum in curve.marked
     ]
 
 

@@ -22,6 +22,9 @@ from derive.figures.marks import Plot
 DEGREE, DEGREES = pi / 180, "°"
 
 
+MOST_MARKED = 6  # extrema of a curve
+
+
 @dataclass(frozen=True)
 class Curve:
     """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted."""
@@ -32,6 +35,11 @@ class Curve:
     upper: float
     numbers: tuple[Measured, ...]
     extrema: tuple[Extremum, ...]
+
+    @property
+    def marked(self) -> tuple[Extremum, ...]:
+        """Return the extrema to mark: none for an oscillation, whose many marks would hide the curve."""
+        return self.extrema if len(self.extrema) <= MOST_MARKED else ()
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,7 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
                 each.kind == MINIMUM,
                 rf"$\mathrm{{{words.drawings[each.kind]}}}\;\;{_mathtext_of_value(told_value(plot, each))}$",
             )
-            for each in curve.extrema
+            for each in curve.marked
         ),
         numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
     )
