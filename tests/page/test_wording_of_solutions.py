@@ -149,3 +149,13 @@ def test_only_an_exactly_linear_equation_has_a_frequency_for_every_amplitude(tmp
 
 def test_a_definition_within_a_sentence_ends_with_a_comma(tmp_path: Path) -> None:
     assert "is the mass per unit area, and the component" in page(tmp_path, library("bodies/triangular_plate"))
+
+
+def test_a_constraint_on_one_coordinate_keeps_it_constant(tmp_path: Path) -> None:
+    text = " ".join(page(tmp_path, library("contacts/ball_on_belt")).split())
+    assert "By the constraint y = a the coordinate y is constant, so ÿ = 0" in text
+    assert "Differentiating a - y" not in text
+
+
+def test_a_constant_second_derivative_is_shown_once(tmp_path: Path) -> None:
+    assert page(tmp_path, library("oscillations/hanging_mass")).count("d²U/dy²") == 1

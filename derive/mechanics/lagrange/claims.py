@@ -369,7 +369,21 @@ def names_the_enforcer(facts: Judged, outcome: str) -> bool:
     return bool(word == of.enforcer and of.forces and is_own and (word != "friction" or of.in_rates))
 
 
-constraint_rate_in_coordinates: Predicate = negated(constraint_rate_in_rates)
+def _keeps_one_constant(facts: Judged) -> bool:
+    """Whether the constraint is of one coordinate alone, so that its second rate vanishes."""
+    left = explicit(facts.result).left
+    return left in {rate(q, 2) for q in facts.inputs["condition"].free_symbols}
+
+
+def kept_constant(facts: Judged, q: Any) -> bool:
+    """Whether the acceleration of this coordinate is what vanishes."""
+    return bool(explicit(facts.result).left == rate(q, 2))
+
+
+constraint_rate_in_coordinates: Predicate = both(negated(constraint_rate_in_rates), negated(_keeps_one_constant))
+
+
+constraint_rate_of_constant: Predicate = both(negated(constraint_rate_in_rates), _keeps_one_constant)
 
 
 def _is_constrained(facts: Judged) -> bool:

@@ -14,7 +14,18 @@ from sympy.polys.matrices.exceptions import DMError
 
 from derive.algebra.collect import by_accelerations
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import Factors, Relation, Terms, TimeRate, as_expr, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import (
+    Factors,
+    Relation,
+    Terms,
+    TimeRate,
+    as_expr,
+    depends_on_time,
+    explicit,
+    rate,
+    scalar,
+    stand_in,
+)
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes as vanishes_identically
 from derive.algebra.tidy import tidied
@@ -181,12 +192,27 @@ def _told(of: Constraint) -> Relation:
     return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
 
 
+def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
+    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0."""
+    contained = [q for q in moving if of.residual.has(q, rate(q))]
+    if len(contained) != 1 or of.in_rates or depends_on_time(of.residual):
+        return None
+    (q,) = contained
+    slope = derivative(of.residual, q)
+    return Relation(q, "=", tidied(q - of.residual / slope)) if slope in (1, -1) else None
+
+
 CONSTRAINT_RATE = Rule(
     "lagrange.constraint_rate",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    outcomes={"in_rates": claims.constraint_rate_in_rates, "in_coordinates": claims.constraint_rate_in_coordinates},
+    outcomes={
+        "in_rates": claims.constraint_rate_in_rates,
+        "in_coordinates": claims.constraint_rate_in_coordinates,
+        "constant": claims.constraint_rate_of_constant,
+    },
     evidence={"functions_of_time": CHECK},
     statements=[claims.names_the_enforcer],
+    named={"kept": claims.kept_constant},
     shown=Shown(brief=Manner.LEFT_OUT),
 )
 KEPT = ("surface", "rail", "string", "rod", "joint", "friction")  # enforcers that the sentence names
@@ -198,6 +224,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
+    Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate).
     Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -207,6 +234,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         raise Rejected(Complaint("wrong-argument", message))
     each, moving = constraints[number], list(of.coordinates)
     order = 1 if each.in_rates else 2
+
+    fixed = _fixed(each, moving)
 
     def by_time() -> Relation:
         return Relation(by_functions_of_time(each.residual, moving, order), "=", ZERO)
@@ -228,10 +257,11 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
             ),
         ),
         routes={"functions_of_time": compared_with(by_time)},
-        outcome="in_rates" if each.in_rates else "in_coordinates",
+        outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",
         phrase_data=PhraseData(
-            formulas={"constraint": (_told(each), Relation(each.residual, "=", ZERO))},
+            formulas={"constraint": (fixed or _told(each), Relation(each.residual, "=", ZERO))},
             words={"enforcer": each.enforcer if each.enforcer in KEPT else FORMULA},
+            named={"kept": fixed.left} if fixed else {},
             outcome_data={"of": each},
         ),
         key=key or f"constraint_{each.force.name}",

@@ -202,7 +202,8 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
     _check_nothing_else_holds_it(place, outcome)
     told: dict[str, tuple[Any, Any]] = {}
     named: dict[str, Any] = {"state": _state(place), **steady_in(potential, [q])}
-    is_short = int(derivative(place.energy, q, 2).count_ops()) <= SHORT
+    anywhere = derivative(place.energy, q, 2)
+    is_short = anywhere.has(q) and int(anywhere.count_ops()) <= SHORT  # a constant is shown once, at the equilibrium
     level = [slope(potential, by=q)] if place.rest is None and is_short else []
     if level:
         named["place"] = Relation(q, "=", place.values[q])
