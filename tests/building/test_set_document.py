@@ -294,7 +294,7 @@ def test_figures_are_numbered_in_a_row(tmp_path: Path) -> None:
     parts = [rendered_once(root, f"hw9/{name}", draws=True) for name in ("cube", "block")]
     target = tmp_path / "solutions.pdf"
     typeset(set_document(root, problem_set(root, "hw9"), parts), target, chosen_engine(None))
-    assert re.findall(r"Figure(\d)", squeezed(target)) == ["1", "1", "2", "2"]
+    assert re.findall(r"Figure(\d)", squeezed(target)) == ["1", "2", "2", "3", "4", "4"]
 
 
 # --- references ---

@@ -519,7 +519,7 @@ ROLLING = problem(trial_called("disc-floor-in space"))
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("normal: [0, 0, 1]", "normal: [1, 1, 1]", "no horizontal axis is in this surface"),
+        ("normal: [0, 0, 1]", "normal: [1, 1, 1]", "could not be shown to be the lowest point"),
         ("theta: 'angle in (0, pi)'", "theta: angle", "the sign of sin(theta) is unknown"),
         ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "touches a plane"),
         ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),

@@ -189,5 +189,5 @@ parts:
   - {{ask: Find the multiplier., answer: multipliers}}
 """
     found = solved(tmp_path, text)["Lambda"].step
-    assert found.outcome == ("multiplier" if length else "generic")
+    assert found.outcome == ("multiplier" if length else "isolated")
     assert str(dict(found.roles).get("length", "")) == length

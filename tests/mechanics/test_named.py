@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 from sympy import Integer, Symbol, cos, exp, pi, symbols
 
 from derive.algebra.expressions import TIME, Relation, Slope, rate, scalar
+from derive.building.solution import rendered
 from derive.errors import Unverified
 from derive.mechanics import (
     Composite,
@@ -34,8 +36,9 @@ from derive.mechanics.vibrations.facts import SquareOf
 from derive.steps.record import recorded
 from derive.steps.rule import Judged, wrongly_handed_on
 from derive.steps.step import Quantity
-from tests.mutation.runs import RUNS
+from tests.courses import ROOT
 from tests.rules import stated_rightly, wrongly_named
+from tests.stock.described import course_with, edited
 
 M, m, R, l, h, k, K, s = symbols("M m R l h k K s", positive=True)
 x, w = scalar("x"), scalar("w")
@@ -65,9 +68,12 @@ def test_the_moment_about_the_own_axis_of_a_disc_has_the_letter_of_the_axis_of_t
     assert [(str(q.symbol), q.value) for q in across.parents] == [(letter, M * R**2 / 2)]
 
 
-def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_whole() -> None:
+def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_whole(tmp_path: Path) -> None:
     """The rod of the pendulum is along its own z axis, over which the integral goes, and along y of the whole."""
-    page = " ".join(RUNS["library/clock_pendulum"].solved().page.split())
+    text = (ROOT / "problems" / "library" / "bodies" / "clock_pendulum.yaml").read_text(encoding="utf-8")
+    integrated = edited(text, ("{shape: rod, length", "{derive: true, shape: rod, length"))
+    root = course_with(tmp_path, integrated)
+    page = " ".join(rendered(root, "trial/one", only={"text"}).texts["text"].split())
     said = "In coordinates of the rod itself, with the origin at the centre, its moment of inertia about an axis "
     said += "parallel to y through the origin, which in those of the whole body is an axis parallel to z, is"
     assert said in page

@@ -53,7 +53,7 @@ FAST = "      - {omega: 4 rad/s}\n"
     [
         (
             [("    cases:\n" + SLOW + FAST, "    values: {R: 1 m}\n"), (", <<cases>>", "")],
-            42,
+            45,
             "`values` has no effect on the plot `energy`",
             "",
         ),
@@ -68,7 +68,7 @@ FAST = "      - {omega: 4 rad/s}\n"
         ([(FAST, "      - {omega: 2.0 rad/s}\n")], 44, "case ii of the plot `energy` is the same as case i", ""),
         (
             [("    at: c\n", "    at: d\n")],
-            29,
+            35,
             "no plot in part c has `cases`",
             "the plot `energy` is in part d: mention `<<cases>>` there, or move the plot with `at: c`",
         ),

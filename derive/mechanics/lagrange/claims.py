@@ -20,7 +20,7 @@ from sympy import (
 )
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Partial, Relation, bound, explicit, rate
+from derive.algebra.expressions import TIME, Partial, Relation, bound, depends_on_time, explicit, rate
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
@@ -371,8 +371,8 @@ def names_the_enforcer(facts: Judged, outcome: str) -> bool:
 
 def _keeps_one_constant(facts: Judged) -> bool:
     """Whether the constraint is of one coordinate alone, so that its second rate vanishes."""
-    left = explicit(facts.result).left
-    return left in {rate(q, 2) for q in facts.inputs["condition"].free_symbols}
+    left, condition = explicit(facts.result).left, facts.inputs["condition"]
+    return left in {rate(q, 2) for q in condition.free_symbols} and not depends_on_time(condition)
 
 
 def kept_constant(facts: Judged, q: Any) -> bool:

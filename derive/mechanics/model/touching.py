@@ -133,7 +133,8 @@ def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr
         )
 
     if not any(is_lowest(*rim) for rim in rims):
-        raise Unverified(Complaint("unverified", "the place of a contact is not the lowest point of the body"))
+        message = "the place of a contact could not be shown to be the lowest point of the body"
+        raise Unverified(Complaint("unverified", message, help="let a horizontal axis be along the surface"))
 
 
 def _own(placed: PlacedBody, *own: Expr) -> Location:
