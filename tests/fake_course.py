@@ -114,6 +114,10 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
     return f"{key}: {said} {as_json}" if key else [("step", "part"), ("torque", said)]
 
 
+def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
+    """Load nothing: the substitutes need no SymPy, which takes most of the time of a command."""
+
+
 def problem_document(root: Path, problem: Rendered, heading: object) -> str:
     return f"%% derive: {problem.id}\n{problem.latex}\n"
 
@@ -220,7 +224,10 @@ def replace_derivation(monkeypatch: Any) -> None:
         document_page,
         the_document,
     )
-    modules = {"solution": (rendered,), "headline": (headline,), "explain": (explain,), "set_document": documents}
+    modules = {
+        **{"solution": (rendered,), "headline": (headline,), "explain": (explain,)},
+        **{"preload": (preload,), "set_document": documents},
+    }
     for name, functions in modules.items():
         fake = ModuleType(f"derive.building.{name}")
         for function in functions:

@@ -12,6 +12,7 @@ from sympy import Expr, Symbol, diff
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import TIME, Prescribed, Relation, explicit, rate
+from derive.algebra.ranges import known_ranges
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.dynamics import Blueprint, Response, Singular
@@ -139,19 +140,26 @@ class Claim:
         """The system with several sets of numbers, which satisfy the assumptions and the conditions in `also`."""
         for number in range(count):
             try:
-                yield Trial(
-                    self.blueprint, number, [*self.assumed, *also], letters=self.letters_given, momenta=self.momenta
-                )
+                yield self._trial(number, (*self.assumed, *also))
             except NotComputable:
                 return
+
+    def _trial(self, number: int, assumed: tuple[Relation, ...]) -> Trial:
+        """The system with one set of numbers. All steps of the system share it, with the moments that it knows."""
+        letters, momenta = tuple(self.letters_given), tuple(self.momenta.items())
+        known, key = self.blueprint.known, (number, assumed, letters, momenta, tuple(known_ranges().items()))
+        if key not in known:
+            known[key] = Trial(self.blueprint, number, assumed, letters=letters, momenta=self.momenta)
+        found: Trial = known[key]
+        return found
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
         """States of the motion, each with its accelerations and multipliers. A state that does not determine its
         accelerations is left out."""
+        given = tuple(self.states_given if given is None else given)
         for which in range(STATES):
             try:
-                state = trial.state(self.states_given if given is None else given, which)
-                yield state, trial.dynamics.response(state)
+                yield trial.moment(given, which)
             except Contradiction:
                 return
             except (Singular, np.linalg.LinAlgError):

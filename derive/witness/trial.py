@@ -114,6 +114,7 @@ class Trial:
         self.blueprint, self.number = blueprint, number
         self.momenta = {letter: blueprint.coordinates.index(q) for letter, q in (momenta or {}).items()}
         self.numbers = self._drawn(assumed, letters, dict(fixed or {}))
+        self._moments: dict[tuple[tuple[Given, ...], int], tuple[State, Response]] = {}
         self.dynamics: Dynamics = blueprint.with_numbers(self.numbers)
         moving = {*blueprint.coordinates, *blueprint.rates, TIME}
         self._stays = [each for each in assumed if explicit(each.residual).free_symbols & moving]
@@ -162,6 +163,13 @@ class Trial:
             if self._as_assumed(found):
                 return found
         raise last
+
+    def moment(self, given: tuple[Given, ...], which: int) -> tuple[State, Response]:
+        """A state, with its accelerations and multipliers; the tests of several steps use the same moments."""
+        if (given, which) not in self._moments:
+            state = self.state(given, which)
+            self._moments[given, which] = state, self.dynamics.response(state)
+        return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
         """A random state. A small `wide` makes all rates small, and all coordinates without a range or a sign."""

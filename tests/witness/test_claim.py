@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from sympy import Integer, Symbol, cos, sin, symbols
 
-from derive.algebra.expressions import rate
+from derive.algebra.expressions import Relation, rate
+from derive.algebra.ranges import Range, within
 from derive.mechanics import (
     Particle,
     System,
@@ -79,3 +81,18 @@ def test_numbers_agree_relative_to_their_size() -> None:
 def test_nothing_seen_is_no_verdict() -> None:
     assert seen(0, "states") is None
     assert str(symbols("x")) and seen(2, "states").detail == "2 states"  # type: ignore[union-attr]
+
+
+def test_steps_of_one_system_share_a_trial_and_its_moments_if_their_letters_have_the_same_ranges() -> None:
+    L = pendulum()
+    (motion,) = equations_of_motion(L)
+    one = claim(L)
+    other = replace(claim(motion), blueprint=one.blueprint)
+    (trial,) = one.trials(1)
+    assert [*other.trials(1)] == [trial]
+    assert all(a is b for a, b in zip(one.moments(trial), other.moments(trial), strict=True))
+    with within({l: Range(Integer(2), Integer(3))}):
+        (far,) = other.trials(1)
+        assert far is not trial and far.numbers[l] > 2
+    (light,) = replace(other, assumed=[Relation(m, "<", l / 2)]).trials(1)
+    assert light.numbers[m] < light.numbers[l] / 2

@@ -20,7 +20,7 @@ ALLOWED = {
     "derive.algebra.equality": {"Grade", "Verdict"},
     "derive.algebra.expressions": {"TIME", "Prescribed", "Relation", "depends_on_time", "explicit", "rate"},
     "derive.algebra.ordered_roots": {"OrderedRoot"},
-    "derive.algebra.ranges": {"POSITIVE", "range_of"},
+    "derive.algebra.ranges": {"POSITIVE", "known_ranges", "range_of"},
     "derive.steps.rule": {"Judged"},
     "derive.steps.step": {"Fact", "Quantity"},
 }
