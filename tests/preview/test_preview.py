@@ -22,6 +22,7 @@ from derive.preview.server import Pages, Server, server
 from tests.browser import browser_page
 from tests.building.test_workers import is_gone
 from tests.courses import ROOT, course_in
+from tests.waiting import until
 
 
 @pytest.fixture
@@ -73,10 +74,13 @@ def test_an_interrupt_ends_it_cleanly_with_its_worker(preview: Preview) -> None:
     assert preview.ended() == 0
 
 
-def endless(course: Path, before: str = "") -> None:
+def endless(course: Path) -> None:
+    """Let the script of the problem write the file `begun`, and then do nothing for ever."""
     script = course / "problems" / "hw9" / "block.py"
-    lines = f"    {before}\n    while True:\n        pass\n"
-    script.write_text(re.sub(r"(def solve\(.*?\):\n)", rf"\1{lines}", script.read_text(), flags=re.DOTALL))
+    lines = f"    open({str(course / 'begun')!r}, 'w').close()\n    while True:\n        pass\n"
+    script.write_text(
+        re.sub(r"(def solve\(.*?\):\n)", lambda found: found[1] + lines, script.read_text(), flags=re.DOTALL)
+    )
 
 
 @pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -85,7 +89,7 @@ def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
 ) -> None:
     endless(course)
     with preview.asked():
-        time.sleep(2)
+        until((course / "begun").exists)
         (worker,) = preview.workers()
         assert preview.ended(signum) == 0
     assert is_gone(worker)
@@ -95,7 +99,7 @@ def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
 def test_its_worker_ends_with_it_when_it_is_killed(preview: Preview, course: Path) -> None:
     endless(course)
     with preview.asked():
-        time.sleep(2)
+        until((course / "begun").exists)
         (worker,) = preview.workers()
         preview.ended(signal.SIGKILL)
     assert is_gone(worker)

@@ -19,6 +19,7 @@ import pytest
 from derive.errors import BuildFailed
 from derive.preview.asking import Shown
 from derive.preview.server import HOST, MOST, Pages, Server, policy_of, server
+from tests.waiting import until
 
 FAULT = Shown(complaints=("block.yaml:3:1: error[wrong-kind]",))
 
@@ -163,14 +164,6 @@ def opened(served: Server, said: bytes = b"") -> socket.socket:
     return connection
 
 
-def until(what: Callable[[], bool]) -> bool:
-    for _ in range(500):
-        if what():
-            return True
-        time.sleep(0.02)
-    return False
-
-
 def busy(served: Server) -> int:
     """How many are connected."""
     return MOST - served._free._value
@@ -185,7 +178,7 @@ def test_half_a_request_is_not_waited_for_however_it_trickles(served: Server, mo
                 connection.sendall(b"x")
                 time.sleep(0.05)
         assert time.monotonic() - started < 3
-    assert until(lambda: busy(served) == 0)
+    until(lambda: busy(served) == 0)
 
 
 def test_many_who_ask_nothing_hold_few_threads_and_keep_nobody_out_for_long(
@@ -195,8 +188,8 @@ def test_many_who_ask_nothing_hold_few_threads_and_keep_nobody_out_for_long(
     with ExitStack() as many:
         for _ in range(3 * MOST):
             many.enter_context(opened(served, b"GET / HTTP/1.1\r\nHost: loc"))
-        assert until(lambda: busy(served) == MOST)
-        assert until(lambda: busy(served) == 0)
+        until(lambda: busy(served) == MOST)
+        until(lambda: busy(served) == 0)
         assert got(served, "/")[0] == 200
 
 
@@ -209,7 +202,7 @@ def test_a_browser_that_leaves_in_the_middle_is_no_traceback(
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # as one that is killed
         connection.close()
     pages.edited()
-    assert until(lambda: busy(served) == 0)
+    until(lambda: busy(served) == 0)
     assert capfd.readouterr() == ("", "")
 
 

@@ -8,13 +8,13 @@ import re
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 from fake_course import Course
 
 from derive.cli.options import main
 from tests.cli.started import alone, command
+from tests.waiting import until
 
 
 def test_build_ends_with_one_line_per_set(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
@@ -144,12 +144,3 @@ def on_a_terminal(course: Course, environment: dict[str, str], *arguments: str) 
     run.wait()
     os.close(ours)
     return seen.decode()
-
-
-def until(condition: object) -> None:
-    assert callable(condition)
-    for _ in range(4500):
-        if condition():
-            return
-        time.sleep(0.02)
-    raise AssertionError("it never came")
