@@ -53,26 +53,26 @@ FAST = "      - {omega: 4 rad/s}\n"
     [
         (
             [("    cases:\n" + SLOW + FAST, "    values: {R: 1 m}\n"), (", <<cases>>", "")],
-            45,
+            51,
             "`values` has no effect on the plot `energy`",
             "",
         ),
         (
             [("    cases:\n" + SLOW + FAST, ""), (", <<cases>>", "")],
-            36,
+            45,
             "needs a number for `R`, `g`, `m`, `omega`",
             "under the `values` of the problem, or under the `cases` of the drawing",
         ),
-        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 44, "`theta` varies along the horizontal axis", ""),
-        ([(FAST, "      - {omega: 2 rad/s}\n")], 44, "case ii of the plot `energy` is the same as case i", ""),
-        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 44, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 53, "`theta` varies along the horizontal axis", ""),
+        ([(FAST, "      - {omega: 2 rad/s}\n")], 53, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 53, "case ii of the plot `energy` is the same as case i", ""),
         (
             [("    at: c\n", "    at: d\n")],
             35,
             "no plot in part c has `cases`",
             "the plot `energy` is in part d: mention `<<cases>>` there, or move the plot with `at: c`",
         ),
-        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 43,
+        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 52,
          "`M` does not occur in the drawing `energy`, so its value is not used", ""),
     ],
 )  # fmt: skip
