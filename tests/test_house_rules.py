@@ -372,15 +372,22 @@ def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
     }
 
 
-def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collection[str]) -> set[Rule]:
-    """Return the rules that a function passes to `establish`, directly or through functions other than these."""
-    seen.add((module, name))
+@cache
+def rules_and_calls(module: str, name: str) -> tuple[frozenset[Rule], frozenset[str]]:
+    """Return the rules that a function names itself, and the names that it has from elsewhere."""
     nodes = list(ast.walk(FUNCTIONS[module, name]))
     its_own = {n.arg for n in nodes if isinstance(n, ast.arg)}
     its_own |= {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
-    constants = {const: rule for where, const, rule in RECORDS if where == module}
-    found = {rule for const, rule in constants.items() if const in uses(module)[name]}
-    for used in {n.id for n in nodes if isinstance(n, ast.Name)} - its_own - set(but_for):
+    found = {rule for where, const, rule in RECORDS if where == module and const in uses(module)[name]}
+    return frozenset(found), frozenset({n.id for n in nodes if isinstance(n, ast.Name)} - its_own)
+
+
+def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collection[str]) -> set[Rule]:
+    """Return the rules that a function passes to `establish`, directly or through functions other than these."""
+    seen.add((module, name))
+    its_own, names = rules_and_calls(module, name)
+    found = set(its_own)
+    for used in names - set(but_for):
         there = names_from_elsewhere(module).get(used, (module, used))
         if there in FUNCTIONS and there not in seen:
             found |= rules_of(*there, seen, but_for)

@@ -150,10 +150,16 @@ class _Fractions(Expanded):
             terms = {}
         if not terms or is_linear_in_some_letter(terms):
             return Product(S.One, {base: power})
-        places = _places(terms)
+        places = self._by_degree(terms)
         content, found = _polynomial(_polynomials(len(places)), terms, places).factor_list()
         inner = (self.product_in_front(_terms(factor, places), n * power) for factor, n in found)
         return times((Product(Rational(int(content)) ** power, {}), *inner))
+
+    def _by_degree(self, terms: Terms) -> list[int]:
+        """The places of the letters, the lowest degree first. In another order, SymPy may need a thousand times as long
+        to factor a polynomial."""
+        degrees = {place: max((m >> place) & ONES for m in terms) for place in _places(terms)}
+        return sorted(degrees, key=lambda place: (degrees[place], str(self.name(place))))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
         """Replace even powers of `function`, sine or cosine, by the other function of the same angle. An odd power

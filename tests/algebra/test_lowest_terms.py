@@ -200,3 +200,13 @@ def test_a_common_factor_of_many_letters_is_found_without_the_gcd_of_all(monkeyp
 def test_images_modulo_a_prime_do_not_hide_a_factor() -> None:
     assert in_lowest_terms((x**2 - y**2) / (x**2 + 2 * x * y + y**2)) == (x - y) / (x + y)
     assert in_lowest_terms((2 * x + 4 * y) / (6 * x**2 + 12 * x * y)) == 1 / (3 * x)
+
+
+@pytest.mark.parametrize("before", [(x, y, a), (a, y, x), (y, a, x)])
+def test_letters_are_factored_in_the_order_of_their_degrees_whatever_was_read_before(before: tuple[Expr, ...]) -> None:
+    """SymPy may need minutes in a bad order. The order in which letters are first read depends on other problems."""
+    ring = lowest_terms._Fractions()
+    for letter in before:
+        ring.letter(letter)
+    terms = ring.form(x**4 + a * x**2 * y**3 + a**2 + y).terms
+    assert [ring.name(place) for place in ring._by_degree(terms)] == [a, y, x]

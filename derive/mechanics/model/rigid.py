@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from sympy import Add, Expr, ImmutableDenseMatrix, MatAdd, Mul, cos, eye, factor, sin
@@ -106,9 +107,10 @@ def by_squares(value: Expr) -> Expr:
     return min((value, *forms), key=lambda form: (length(form) + _minuses_below(form), len(form.atoms(Add))))
 
 
-def _factored_by_squares(value: Expr) -> list[Expr]:
+@lru_cache(maxsize=64)  # the solutions of linear equations have the same denominator
+def _factored_by_squares(value: Expr) -> tuple[Expr, ...]:
     forms = dict.fromkeys(f(value).expand() for f in _SQUARES) if value.has(sin, cos) else [value]
-    return [factor(form) for form in forms]
+    return tuple(factor(form) for form in forms)
 
 
 def _minuses_below(value: Expr) -> int:
