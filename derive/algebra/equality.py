@@ -24,10 +24,12 @@ from sympy import (
     Basic,
     Expr,
     Float,
+    Function,
     Integer,
     MatrixBase,
     MatrixExpr,
     Mul,
+    Pow,
     Rational,
     cancel,
     cos,
@@ -365,7 +367,8 @@ def _counterexample(left: Expr, right: Expr) -> Verdict | None:
     """Return a point where the second equation holds and the first does not. The second equation is solved for a symbol
     in which it is linear."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
-    for letter in sorted(right.free_symbols, key=lambda s: (not str(s).endswith("dot"), str(s))):
+    curved = {letter for part in right.atoms(Pow, Function) for letter in part.free_symbols}
+    for letter in sorted(right.free_symbols - curved, key=lambda s: (not str(s).endswith("dot"), str(s))):
         slope = right.diff(letter)
         if slope == 0 or slope.has(letter) or letter.is_positive:
             continue

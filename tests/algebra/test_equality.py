@@ -439,6 +439,16 @@ def test_equations_that_say_different_things_are_told_apart_by_a_point() -> None
     assert "where one equation is true, the sides of the other differ by" in verdict.detail
 
 
+def test_for_such_a_point_no_equation_is_differentiated_by_a_letter_that_is_in_a_square(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """For a long equation, the derivatives by all letters take longer than everything else."""
+    by, diff = [], Expr.diff
+    monkeypatch.setattr(Expr, "diff", lambda self, *given: (by.append(given), diff(self, *given))[1])
+    assert equal(Relation(y, "=", 0), Relation(y, "=", rate(x) ** 2)).point
+    assert (y,) in by and (rate(x),) not in by
+
+
 # --- what is divided by, how points are drawn, and whatever comes ---
 
 NOTHING = sin(x) ** 2 + cos(x) ** 2 - 1

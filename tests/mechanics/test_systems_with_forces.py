@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from sympy import Expr, cos, sin, sqrt, symbols
+from sympy.polys.matrices import DomainMatrix
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -239,6 +240,14 @@ def test_constraints_that_repeat_or_contradict_one_another_are_refused() -> None
         found = falling(constraint(x + y, l, force="A"), constraint(x + y, 2 * l, force="B"))
         with pytest.raises(Rejected, match="A, B contradict one another"):
             multipliers(*found)
+
+
+def test_the_matrix_of_the_equations_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """SymPy needs seconds to find the field of the entries of a long matrix."""
+    read, from_matrix = [], DomainMatrix.from_Matrix
+    monkeypatch.setattr(DomainMatrix, "from_Matrix", lambda matrix: (read.append(matrix), from_matrix(matrix))[1])
+    accelerations(*falling(constraint(sum(each.symbol for each in lengths("x", "y")), l, force="A")))
+    assert len(read) == 1
 
 
 def test_a_coordinate_without_inertia_has_no_acceleration() -> None:

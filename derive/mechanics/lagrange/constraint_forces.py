@@ -598,11 +598,10 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     rows = [row.xreplace(problem.known) for row in problem.residuals]
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
     right = ImmutableDenseMatrix([-row.xreplace(dict.fromkeys(unknowns, ZERO)) for row in rows])
-    if _is_singular(matrix):
-        raise _undetermined(problem, matrix)
-    polynomial, names = _without_functions(matrix.row_join(right))
-    whole = DomainMatrix.from_Matrix(Matrix(polynomial)).to_field()
+    whole, names = _in_a_field(matrix.row_join(right))
     count = len(unknowns)
+    if _has_no_inverse(whole[:, :count], names):
+        raise _undetermined(problem, matrix)
     try:
         solved = whole[:, :count].lu_solve(whole[:, count:]).to_Matrix()
     except DMError:
@@ -611,19 +610,21 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
 
 
-def _without_functions(matrix: ImmutableDenseMatrix) -> tuple[ImmutableDenseMatrix, dict[Expr, Dummy]]:
+def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
     """Return the matrix with symbols in place of sines, cosines and roots, so that its entries are rational, and
     a mapping from the replaced functions to these symbols."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
-    return matrix.xreplace(names), names
+    return DomainMatrix.from_Matrix(Matrix(matrix.xreplace(names))).to_field(), names
 
 
 def _is_singular(matrix: ImmutableDenseMatrix) -> bool:
-    polynomial, names = _without_functions(matrix)
-    value = DomainMatrix.from_Matrix(Matrix(polynomial)).to_field()
-    det = value.domain.to_sympy(value.det())
+    return _has_no_inverse(*_in_a_field(matrix))
+
+
+def _has_no_inverse(matrix: DomainMatrix, names: Mapping[Expr, Dummy]) -> bool:
+    det = matrix.domain.to_sympy(matrix.det())
     return vanishes_identically(det.xreplace({dummy: f for f, dummy in names.items()}))
 
 
