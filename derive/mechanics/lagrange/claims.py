@@ -406,7 +406,8 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
     if not equations:
         return True
-    earlier = {s: explicit(q.value) for s, q in facts.inputs["earlier"].items()}
+    named = [q for role, q in facts.quantities.items() if not role.startswith("equation_") and role != "lagrangian"]
+    earlier = {q.symbol: explicit(q.value) for q in named}
     present = {s for q in equations for s in explicit(q.value).free_symbols} - earlier.keys()
     unknowns = [facts.symbol, *(u for u in facts.inputs["unknowns"] if u in present and u != facts.symbol)]
     rows = [explicit(q.value.residual).xreplace(earlier) for q in equations]

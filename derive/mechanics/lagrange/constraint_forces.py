@@ -318,7 +318,10 @@ class _Isolation:
 
     @property
     def pointed(self) -> dict[str, Quantity]:
-        return {f"equation_{i}": each for i, each in enumerate(self.equations, 1)}
+        """Return the equations, and the earlier unknowns if no formula shows them."""
+        hidden = () if self.inputs else self.earlier.values()
+        equations = {f"equation_{i}": each for i, each in enumerate(self.equations, 1)}
+        return {**equations, **{f"earlier_{i}": each for i, each in enumerate(hidden, 1)}}
 
     @property
     def named(self) -> dict[str, Symbol]:
@@ -326,8 +329,7 @@ class _Isolation:
 
     @property
     def outcome_data(self) -> dict[str, Any]:
-        earlier = {q.symbol: q for q in self.earlier.values()}
-        return {"earlier": earlier, "unknowns": self.problem.unknowns, "on_constraints": self.problem.known}
+        return {"unknowns": self.problem.unknowns, "on_constraints": self.problem.known}
 
 
 @lru_cache(maxsize=16)
