@@ -50,7 +50,7 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     vanishing: dict[Symbol, int] = {}  # unknown -> the equation which says that it is zero
     while True:
         known = {*found, *vanishing}
-        several = _fewest(slopes, known, unknowns)
+        several = _fewest(slopes, known, unknowns, residuals)
         if not several:
             return found
         new = [u for u in unknowns if u not in known and any(u in slopes[i] for i in several)]
@@ -68,13 +68,15 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
             found[lead] = Isolated(named, (), earlier, value if length(value) <= LONGEST else None)
 
 
-def _fewest(slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol]) -> tuple[int, ...]:
+def _fewest(
+    slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
+) -> tuple[int, ...]:
     """Return the smallest set of equations with as many new unknowns as equations; empty if there is none.
 
-    Equations with the first of the unknowns come first.
+    Equations with the first of the unknowns come first, and among these the shortest.
     """
     first = {i: [unknowns.index(u) for u in row if u not in known] for i, row in enumerate(slopes)}
-    left = sorted((i for i in first if first[i]), key=lambda i: min(first[i]))
+    left = sorted((i for i in first if first[i]), key=lambda i: (min(first[i]), length(residuals[i])))
     for count in range(1, min(len(left), MOST) + 1):
         for several in combinations(left, count):
             new = sorted({u for i in several for u in slopes[i]} - known, key=str)

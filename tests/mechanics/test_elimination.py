@@ -89,9 +89,9 @@ def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain() -> N
     """The torque about the centre of the rod contains both components of the force at the hinge."""
     text = " ".join(rendered(ROOT, "library/hinge_force", only={"text"}).texts["text"].split())
     assert "and R_y from (2), (4) and (6) and substituting R_x gives" in text
-    (facts,) = [
+    facts = next(
         each for each in judged("library/hinge_force", "lagrange.acceleration") if "earlier_1" in each.quantities
-    ]
+    )
     without = {role: q for role, q in facts.quantities.items() if role != "earlier_1"}
     with deriving(load_problem(ROOT, "library/hinge_force"), Run()):
         assert follows_from_these_equations(facts, "")
