@@ -5,7 +5,7 @@ Equations are numbered here, so every format and every reference has the same nu
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.placement import STATEMENT
 from derive.course.problem import Problem
-from derive.course.prose import latex_in
+from derive.course.prose import TexFormula, latex_in
 from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
@@ -114,7 +114,7 @@ class _Writer:
         self.shown_in: dict[str, str] = {}
         self.faults: list[Complaint] = []
         self.dimensions = dict(like.dimensions) if like else self._dimensions()
-        self.formulas = Formulas(problem, self.dimensions)
+        self.formulas = Formulas(problem, self.dimensions, [*derivation.steps, *values.values()])
         self.references = References(
             problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
         )
@@ -146,7 +146,8 @@ class _Writer:
         asked = [node for part in parts for node in part.ask]
         statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
-        strategy, note = (self._told(prose.pieces) if prose else () for prose in (problem.strategy, problem.note))
+        strategy = self._told(problem.strategy.pieces) if problem.strategy else ()
+        note = self._told(problem.note.pieces, formula=self.formulas.in_note) if problem.note else ()
         self.references.check(self.numbers, self.symbols)
         title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
         self.faults += self.formulas.faults
@@ -194,10 +195,15 @@ class _Writer:
         could_stand = self.selection.could_stand
         return set(filter(could_stand, letters)), set(filter(could_stand, numbers))
 
-    def _told(self, pieces: Any, names: Mapping[str, Any] | None = None) -> tuple[Inline, ...]:
+    def _told(
+        self,
+        pieces: Any,
+        names: Mapping[str, Any] | None = None,
+        formula: Callable[[TexFormula], Inline] | None = None,
+    ) -> tuple[Inline, ...]:
         names = {**self.page_names, **(names or {})}
         self.references.note(pieces, names)
-        return told(pieces, names, self._unknown, self.references.node, self.formulas.node)
+        return told(pieces, names, self._unknown, self.references.node, formula or self.formulas.node)
 
     def _unknown(self, name: str, place: Place) -> None:
         help_line = (

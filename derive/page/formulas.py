@@ -1,21 +1,24 @@
 """The formulas in an author's prose: read in the letters of the problem, so that letters and dimensions are checked.
 
-A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. A formula
-that cannot be read is printed if it has only commands that may be quoted, and its author is warned.
+A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. The author
+is warned if a note gives the symbol of a result a value that no step of the page derives; this happens if the note
+remains while the problem changes. A formula that cannot be read is printed if it has only commands that may be quoted,
+and its author is warned too.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import islice, pairwise, product
 from typing import TYPE_CHECKING, Any
 
-from sympy import Integer, MatrixSymbol, Symbol, oo
+from sympy import Expr, Integer, MatrixBase, MatrixSymbol, Symbol, oo
 
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.expressions import AXES, TIME, scalar
+from derive.algebra.equality import equal
+from derive.algebra.expressions import AXES, TIME, Relation, bound, explicit, rate, scalar
 from derive.algebra.kinds import named
 from derive.course.expression import Declared
 from derive.course.problem import Problem
@@ -23,11 +26,14 @@ from derive.course.prose import TexFormula
 from derive.course.transcript import Transcript
 from derive.errors import Complaint, Rejected
 from derive.page.wording import Math, Text
+from derive.steps.chain import short
+from derive.steps.step import Step
 
 if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
+MOST_COMBINATIONS = 16  # of the values of several results in one formula
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
 _LETTER = re.compile(
     r"(\\d*dot|(?P<arrow>\\(vec|overrightarrow|boldsymbol|bm|mathbf)))?[{ ]*(\\[A-Za-z]+|[A-Za-z])\}?"
@@ -50,23 +56,30 @@ class Formulas:
     """Reads the formulas of one page and collects their errors and warnings.
 
     known   the dimensions of all symbols of the page; None for a symbol whose dimension is unknown
+    steps   the steps of the page
     """
 
-    def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None]):
+    def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None], steps: Iterable[Step] = ()):
         self.letters = _letters(problem, known)
         self.unknown = {symbol for symbol, dimension in known.items() if dimension is None}
         self.scalars = {*known, *(letter.symbol for letter in problem.letters)}
         self.vectors = {name.name: name for name in known if isinstance(name, MatrixSymbol)}
         self.numbers = {measured.symbol: measured for measured in problem.measured}
+        self.given = {letter.symbol for letter in problem.symbols.values()}
+        self.results = {symbol: values for symbol, values in _results(steps).items() if symbol not in self.given}
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
 
-    def node(self, formula: TexFormula) -> Math | Text:
+    def in_note(self, formula: TexFormula) -> Math | Text:
+        """Return a formula of the note, which must agree with the results of the page."""
+        return self.node(formula, is_of_note=True)
+
+    def node(self, formula: TexFormula, is_of_note: bool = False) -> Math | Text:
         """Return the formula for the page; after an error, its characters."""
         from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
 
         try:
-            read = self._read(formula)
+            read = self._read(formula, is_of_note)
         except Rejected as error:
             is_printable = self._complain(formula, error.complaints)
             return Math(Transcript(quoted_formula(formula.tex))) if is_printable else Text(formula.tex)
@@ -83,7 +96,7 @@ class Formulas:
         vector = self.vectors.get(symbol.name)
         return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
-    def _read(self, formula: TexFormula) -> ReadMath:
+    def _read(self, formula: TexFormula, is_of_note: bool) -> ReadMath:
         from derive.course.latex import read_latex
         from derive.course.latex.quoting import Unquotable, quoted_formula
 
@@ -100,6 +113,9 @@ class Formulas:
                 if not self._has_unknown(read):
                     _compare(left, right)
                 self._check_number(left, right, mark)
+                if is_of_note and mark == "=":
+                    self._check_result(left, right)
+                    self._check_result(right, left)
         try:
             quoted_formula(formula.scalar.text)
         except Unquotable as error:
@@ -114,6 +130,30 @@ class Formulas:
             message = f"`{left.text}` is {known.number} {known.unit}".rstrip() + f", so it is not `{right.text}`"
             help_line = f"write `<<{one.name}>>`, which is printed with its number"
             raise Rejected(Complaint("wrong-number", message, right.place, (), help_line))
+
+    def _check_result(self, left: Side, right: Side) -> None:
+        """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
+
+        If the right side is another symbol, the equation is a condition, such as that of resonance. Symbols that are
+        neither given nor derived, such as a rate of steady motion, cannot be compared.
+        """
+        one, other = left.branches[0][0][0], right.branches[0][0][0]
+        values = self.results.get(one, ())
+        said = list(self._in_givens(other))
+        is_derived = any(equal(one, other) for value in values for one in self._in_givens(value) for other in said)
+        known = {*self.results, *self.given}.union(*(value.free_symbols for value in values))
+        if not values or is_derived or isinstance(other, Symbol) or not explicit(other).free_symbols <= known:
+            return
+        message = f"`{left.text} = {right.text}` is printed, but the page derives {one} = {short(values[-1])}"
+        help_line = "correct the note; if this formula is about a special case, you can ignore the warning"
+        self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
+
+    def _in_givens(self, value: Any) -> Iterator[Any]:
+        """Yield a value with the symbols of results replaced by each combination of their values."""
+        symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
+        for values in islice(product(*(self.results[symbol] for symbol in symbols)), MOST_COMBINATIONS):
+            known = dict(zip(symbols, values, strict=True))
+            yield explicit(bound(explicit(value), known)).xreplace(known)
 
     def _has_unknown(self, read: ReadMath) -> bool:
         entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
@@ -139,6 +179,25 @@ class Formulas:
         help_line = first.help if first.code == "ambiguous" else None
         self.warnings[Complaint("unread-formula", message, first.place, (), help_line, severity="warning")] = None
         return True
+
+
+def _results(steps: Iterable[Step]) -> dict[Any, list[Any]]:
+    """Return symbol -> every value that the steps derive for it; coordinates and rates vary, so they are left out."""
+    found: dict[Any, list[Any]] = {}
+    steps = list(steps)
+    varying = {each for step in steps for q, _ in step.coordinates for each in (q, rate(q))}
+    for step in steps:
+        symbol, value = step.symbol, explicit(step.result)
+        if isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase):
+            pairs = list(zip(symbol, value, strict=True))
+        elif symbol is None and isinstance(value, Relation) and value.operator == "=":
+            pairs = [value.sides]
+        else:
+            pairs = [(symbol, value)]
+        for name, its_value in pairs:
+            if isinstance(name, Symbol) and isinstance(its_value, Expr) and its_value not in found.get(name, ()):
+                found.setdefault(name, []).append(its_value)
+    return {name: values for name, values in found.items() if name not in varying}
 
 
 def _unquotable(formula: TexFormula, error: Any) -> Complaint:

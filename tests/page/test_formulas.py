@@ -10,6 +10,7 @@ import pytest
 from sympy import MatrixSymbol, Symbol
 
 from derive.algebra.kinds import dimension_of_kind
+from derive.building.solution import rendered
 from derive.building.solved import Solved
 from derive.course.latex.vocabulary import KNOWN, ONLY_PRINTED
 from derive.course.problem import Problem, load_problem
@@ -30,6 +31,7 @@ from derive.render.notation.text import in_one_line
 from derive.render.printing.text_page import inline_text
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once
+from tests.stock.described import course_with, edited
 
 WORDS = phrases(ROOT / "templates")
 TOP = load_problem(ROOT, "hw9/top")
@@ -190,3 +192,27 @@ def _values(document: Document) -> list[object]:
     folded = [each for part in document.parts for each in part.blocks if isinstance(each, Folded)]
     nodes = [node for each in folded for block in each.blocks if isinstance(block, Paragraph) for node in block.nodes]
     return [v for node in nodes if isinstance(getattr(node, "expr", None), Transcript) for v in node.expr.values]
+
+
+YOYO = (ROOT / "problems" / "library" / "rolling" / "yoyo.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("edits", "said"),
+    [
+        ((), None),
+        ((("shape: disc", "shape: hoop"),), r"`\ddot y = \frac{2}{3}g` is printed, but the page derives y_ddot = g/2"),
+        (((r"\frac{2}{3}g", r"\frac{2}{3}g\cos\phi"),), None),  # a symbol that the result does not contain
+    ],
+)
+def test_a_note_that_remained_while_the_problem_changed_is_reported(
+    tmp_path: Path, edits: tuple[tuple[str, str], ...], said: str | None
+) -> None:
+    warnings = rendered(course_with(tmp_path, edited(YOYO, *edits)), "trial/one", only={"text"}).warnings
+    assert [each.message for each in warnings if each.code == "differs-from-result"] == ([said] if said else [])
+
+
+def test_no_note_of_the_library_contradicts_its_page() -> None:
+    """With the formulas of three notes that name results by their symbols."""
+    for name in ("power_law", "yoyo", "driven_oscillator"):
+        assert not rendered(ROOT, f"library/{name}", only={"text"}).warnings
