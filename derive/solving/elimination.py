@@ -47,7 +47,7 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
-    vanishing: dict[Symbol, int] = {}  # unknown -> the equation which says that it is zero
+    vanishing: dict[Symbol, tuple[int, ...]] = {}  # unknown -> the equations which say that it is zero
     while True:
         known = {*found, *vanishing}
         several = _fewest(slopes, known, unknowns, residuals)
@@ -55,7 +55,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
             return found
         new = [u for u in unknowns if u not in known and any(u in slopes[i] for i in several)]
         lead = new[0]
-        named = tuple(sorted({*several, *(n for u, n in vanishing.items() if any(u in slopes[i] for i in several))}))
+        zero = [n for u, them in vanishing.items() if any(u in slopes[i] for i in several) for n in them]
+        named = tuple(sorted({*several, *zero}))
         earlier = tuple(u for u in found if any(u in slopes[i] for i in several))
         if len(new) > 1:
             found[lead] = Isolated(named, tuple(new[1:]), earlier)
@@ -63,7 +64,7 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
         row = residuals[several[0]].xreplace(dict.fromkeys(vanishing, ZERO))
         value = tidied(-row.xreplace({lead: ZERO}) / slopes[several[0]][lead])
         if value == 0:
-            vanishing[lead] = several[0]
+            vanishing[lead] = named
         else:
             found[lead] = Isolated(named, (), earlier, value if length(value) <= LONGEST else None)
 
@@ -80,9 +81,14 @@ def _fewest(
     for count in range(1, min(len(left), MOST) + 1):
         for several in combinations(left, count):
             new = sorted({u for i in several for u in slopes[i]} - known, key=str)
-            if len(new) == count and _is_regular(slopes, several, new):
+            if len(new) == count and _are_coupled(slopes, several, new) and _is_regular(slopes, several, new):
                 return several
     return ()
+
+
+def _are_coupled(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
+    """Whether several equations have each unknown in common with another one, so that it can be eliminated."""
+    return len(several) == 1 or all(len([i for i in several if u in slopes[i]]) > 1 for u in new)
 
 
 def _is_regular(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:

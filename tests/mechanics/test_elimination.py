@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sympy import Integer, symbols
+from sympy import Integer, Symbol, symbols
 
 import derive.steps.establish as establishing
 from derive.building.solution import derived, rendered
@@ -18,6 +18,7 @@ from derive.solving.elimination import isolated_in_order
 from derive.steps.record import Run
 from derive.steps.rule import Judged
 from tests.courses import ROOT
+from tests.stock.described import course_with
 
 x, y, N, S = symbols("x_ddot y_ddot N S", real=True)
 M, m, g, mu = symbols("M m g mu", positive=True)
@@ -101,7 +102,8 @@ def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain() -> N
 @pytest.mark.parametrize(
     ("problem_id", "reason"),
     [
-        ("library/yoyo", "The length of the string is constant, "),
+        ("library/yoyo", "The string does not slip, "),
+        ("library/atwood", "The length of the string is constant, "),
         ("library/race", "At the contact the body and the surface have the same velocity, "),
         ("library/rough_cylinder", "At the contact the body and the surface have the same velocity, "),
     ],
@@ -117,3 +119,40 @@ def test_another_enforcer_than_that_of_the_constraint_is_refused() -> None:
     assert names_the_enforcer(facts, "")
     for word in ("string", "friction"):
         assert not names_the_enforcer(replace(facts, words={"enforcer": word}), "")
+
+
+def test_equations_that_an_acceleration_of_zero_links_are_all_named() -> None:
+    """A block on a block on the floor: Y'' = 0 and Y'' - y'' = 0 give y'' = 0, and m y'' = P - m g gives P."""
+    Y, P = symbols("Y_ddot P", real=True)
+    found = isolated_in_order([m * y - P + m * g, M * Y - N + P + M * g, Y, Y - y], [y, Y, N, P])
+    assert found[P].equations == (0, 2, 3) and found[P].value == m * g
+    assert found[N].equations == (1, 2) and found[N].earlier == (P,)
+
+
+def test_an_unknown_of_one_equation_is_not_eliminated() -> None:
+    """The second equation gives x'' if a does not vanish, which is unknown; the first one alone contains S."""
+    a = Symbol("a", real=True)
+    assert isolated_in_order([m * x - S, a * x - g * a], [x, S]) == {}
+
+
+BLOCKS = """\
+title: Two blocks
+solve: system
+method: newton
+symbols: {m: mass, M: mass, g: acceleration, h: length}
+given:
+  coordinates: {x: length, y: length, X: length, Y: length}
+  particles: {upper: {mass: m, at: [x, y]}, lower: {mass: M, at: [X, Y]}}
+  gravity: g
+  surfaces: {floor: {through: [0, 0], along: [1, 0]}, top: {through: lower, along: [1, 0], of: lower}}
+  contacts: [{of: upper, on: top, normal: P}, {of: lower, on: floor, normal: N}]
+statement: A particle of mass <<m>> lies on one of mass <<M>>.
+parts:
+  - ask: Find the forces.
+    answer: [N, P]
+"""
+
+
+def test_a_block_on_a_block(tmp_path: Path) -> None:
+    text = " ".join(rendered(course_with(tmp_path, BLOCKS), "trial/one", only={"text"}).texts["text"].split())
+    assert "P = m g" in text and "(M + m) g" in text, text

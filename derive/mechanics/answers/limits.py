@@ -26,7 +26,7 @@ from derive.mechanics.answers import claims
 from derive.mechanics.answers.approximate import equation_in_limit
 from derive.mechanics.in_results import Letter, Value, in_results
 from derive.mechanics.motion.claims import arrives_as_told
-from derive.mechanics.motion.turning_points import arrivals, common_condition
+from derive.mechanics.motion.turning_points import arrivals, common_condition, words_of
 from derive.solving.leading import beginnings, entry_by_entry, rest_vanishes, terms_by_arithmetic, to_that_order
 from derive.solving.relations import conditions_told
 from derive.solving.unknowns import letter_of, meaning, unknown_of
@@ -149,6 +149,7 @@ def limiting_case(
                 **({"place": aim} if aim not in (oo, -oo) else {}),
                 **({"bound": value} if solved is not None and of.value.operator != "=" else {}),
             },
+            words=words_of(come),
             formulas=conditions_told(reached=common_condition(of, come)),
             outcome_data={"to": place, "value": value, "x": x, "arrivals": come},
         ),

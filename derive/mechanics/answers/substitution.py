@@ -31,7 +31,7 @@ from derive.mechanics.in_results import Values, in_results
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
 from derive.mechanics.motion.claims import arrives_as_told, comes_there, turned_first
-from derive.mechanics.motion.turning_points import arrivals, common_condition
+from derive.mechanics.motion.turning_points import arrivals, common_condition, words_of
 from derive.solving.defined import check_defined
 from derive.solving.presentation import presented, without_positive
 from derive.solving.relations import conditions_told
@@ -134,6 +134,7 @@ def put_in(
         key=key or _key_for(of, rests, there),
         kind=of.step.kind,
         phrase_data=PhraseData(
+            words=words_of(come),
             formulas=conditions_told(reached=common_condition(of, come)),
             named={
                 **{f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},

@@ -374,7 +374,7 @@ def _acceleration(
         },
         outcome=lambda value: "zero" if value == 0 else isolation.outcome if isolation else together,
         phrase_data=PhraseData(
-            formulas=told_of_divisors([found[rate(p, 2)] for p in problem.solved]),
+            formulas=told_of_divisors([value] if isolation else [found[rate(p, 2)] for p in problem.solved]),
             points_to={"lagrangian": problem.lagrangian, **(isolation.pointed if isolation else {})},
             named=isolation.named if isolation else {},
             outcome_data=isolation.outcome_data if isolation else {},

@@ -84,7 +84,16 @@ def _is_negative(root: Expr) -> bool:
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place just under the stated condition, and the place lies ahead of
-    the start if the result keeps the sign that a rate has at the start."""
+    the start if the result keeps the sign that a rate has at the start.
+
+    A sentence with a condition also says so if contact or a taut string has to last until the motion is there.
+    """
+    kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
+    one_sided = {"surface": "contact", "string": "taut"}
+    ends = {one_sided[each.enforcer] for fact in kept for each in fact.constraints if each.enforcer in one_sided}
+    conditional = any(come.reached is not None for come in facts.inputs["arrivals"])
+    if conditional and bool(ends) != (facts.words.get("lasts") in ends):
+        return False
     return all(
         (come.is_found or _is_reached_just_where(come, facts.inputs.get("reached")))
         and (not come.sense or _side(come) == ({-1} if come.turned else {1}))
@@ -124,6 +133,8 @@ def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
 
     def is_reached(point: Point) -> bool | None:
         sign = sign_at(value, point)
+        if sign == 0 and told is not None and told.operator == ">":
+            return None  # the motion may only approach the place
         return None if sign is None else sign >= 0
 
     conditions = [] if told is None else [with_numbers(told)]

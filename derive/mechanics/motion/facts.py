@@ -63,6 +63,7 @@ class Arrival:
     is_found   whether the place was derived from this motion; then `reached` is None
     sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0
     turned     whether the motion turns back before it comes to the place, so that the rate has the opposite sign there
+    lasts      what may end before the motion comes to the place: "contact", "taut" (a string), or "" for neither
     """
 
     begun: ByEnergy
@@ -73,6 +74,7 @@ class Arrival:
     is_found: bool
     sense: int = 0
     turned: bool = False
+    lasts: str = ""
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
+from derive.mechanics.model.constraint import Constrained
 from derive.mechanics.motion.facts import Arrival, ByEnergy, SignedRate
 from derive.solving.relations import positive
 from derive.solving.unknowns import left_over, letter_of, mark_for, meaning, with_unknown
@@ -83,9 +84,10 @@ def _arrival(
 ) -> Arrival:
     condition = condition_to_reach(of, speed, unknown, place, there)
     is_found = any(each.rests_on(speed) for each in others)
-    reached = None if is_found or condition is None else Relation(condition.left, ">=", condition.right)
+    operator = ">=" if _may_turn_at(explicit(speed.value), unknown, place) else ">"
+    reached = None if is_found or condition is None else Relation(condition.left, operator, condition.right)
     begun = speed.needed(ByEnergy)
-    come = Arrival(begun, explicit(speed.value), unknown, place, reached, is_found)
+    come = Arrival(begun, explicit(speed.value), unknown, place, reached, is_found, lasts=_may_end(speed))
     ancestors = (each for quantity in (of, *others) for each in quantity.ancestors())
     root = next((each for each in ancestors if each.fact(SignedRate) and each.rests_on(speed)), None)
     if root is None or is_zero(begun.start_rate):
@@ -102,6 +104,33 @@ def _arrival(
         )
         raise Rejected(Complaint("sign-of-rate", message, help=f"substitute this place in `{root.key}` first"))
     return replace(come, sense=sense, turned=True)
+
+
+def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
+    """Return the term `lasts` for a sentence with the condition under which the motion comes to these places."""
+    lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
+    return {"lasts": lasting} if lasting else {}
+
+
+def _may_end(speed: Quantity) -> str:
+    """Return what the motion needs besides its energy: contact with a surface that cannot pull, or a taut string."""
+    kept = [fact for each in speed.ancestors() if (fact := each.fact(Constrained)) is not None]
+    enforcers = {each.enforcer for fact in kept for each in fact.constraints}
+    return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""
+
+
+def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
+    """Whether a motion whose rate vanishes at the place comes to the place, where it turns back.
+
+    If the slope of f = q_dot^2 vanishes there too, the place is an unstable equilibrium, and the motion only approaches
+    it. A motion with f = 0 at infinity, such as that with the escape velocity, does go to infinity.
+    """
+    if place in (oo, -oo):
+        return True
+    mark = mark_for(unknown)
+    slope = tidied(diff(with_unknown(squared, unknown, mark), mark).xreplace({mark: place}))
+    at_end = isinstance(unknown, sin | cos) and abs(place) == 1
+    return not at_end and sign_known(slope) in (1, -1)
 
 
 def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | None:
