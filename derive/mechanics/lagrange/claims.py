@@ -411,7 +411,7 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     present = {s for q in equations for s in explicit(q.value).free_symbols} - earlier.keys()
     unknowns = [facts.symbol, *(u for u in facts.inputs["unknowns"] if u in present and u != facts.symbol)]
     rows = [explicit(q.value.residual).xreplace(earlier) for q in equations]
-    rows = [explicit(row.xreplace(dict(facts.inputs["on_constraints"]))) for row in rows]
+    rows = [explicit(row.xreplace(_values_by_constraints(facts))) for row in rows]
     letters = {s for row in [*rows, explicit(facts.result)] for s in letters_of(row)} - {*unknowns}
     zero = dict.fromkeys(unknowns, Integer(0))
 
@@ -432,6 +432,24 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
         return bool(abs(apart) <= (abs(found) + abs(number)) / 10**12)
 
     return everywhere(trial_points(letters, *assumptions_about(letters), tried=4), gives)
+
+
+def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:
+    """Return the values of the coordinates, and of their rates, that the sentence takes from constraints."""
+    fixed = [explicit(told) for role, told in facts.inputs.items() if role.startswith("fixed_")]
+    moving = facts.inputs["moving"]
+    rates = {rate(told.left): by_functions_of_time(told.right, moving, 1) for told in fixed}
+    return {**{told.left: told.right for told in fixed}, **rates}
+
+
+def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
+    """Whether a constraint on the coordinates holds identically for the stated value of a coordinate.
+
+    Values of other coordinates may have been substituted in this value.
+    """
+    values = {s: v for s, v in _values_by_constraints(facts).items() if s in facts.inputs["moving"]}
+    about = [each for each in facts.inputs["constraints"] if each.has(told.left)]
+    return any(is_zero(explicit(each).xreplace(values)) for each in about)
 
 
 def eliminated(facts: Judged) -> bool:

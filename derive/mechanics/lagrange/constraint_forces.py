@@ -324,12 +324,21 @@ class _Isolation:
         return {**equations, **{f"earlier_{i}": each for i, each in enumerate(hidden, 1)}}
 
     @property
-    def named(self) -> dict[str, Symbol]:
-        return {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
+    def named(self) -> dict[str, Any]:
+        """Return the eliminated unknowns, and the constraints by which values replace coordinates in the equations."""
+        eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
+        present = {s for each in self.equations for s in explicit(each.value).free_symbols}
+        known = self.problem.known
+        used = [q for q in self.problem.moving if q in known and present & {q, rate(q)}]
+        return {**eliminated, **{f"fixed_{i}": Relation(q, "=", known[q]) for i, q in enumerate(used, 1)}}
 
     @property
     def outcome_data(self) -> dict[str, Any]:
-        return {"unknowns": self.problem.unknowns, "on_constraints": self.problem.known}
+        return {
+            "unknowns": self.problem.unknowns,
+            "moving": self.problem.moving,
+            "constraints": [each.residual for each in self.problem.constraints if not each.in_rates],
+        }
 
 
 @lru_cache(maxsize=16)
@@ -350,7 +359,7 @@ ACCELERATION = Rule(
     },
     evidence={"virtual_work": ROUTE, "constraint": CHECK},
     statements=[claims.a_second_rate, claims.follows_from_these_equations, says_what_it_divides_by],
-    named={"eliminated": claims.is_in_these_equations},
+    named={"eliminated": claims.is_in_these_equations, "fixed": claims.follows_from_a_constraint},
 )
 
 
@@ -399,7 +408,7 @@ MULTIPLIER = Rule(
     },
     evidence={"virtual_work": ROUTE},
     statements=[claims.follows_from_these_equations, says_what_it_divides_by],
-    named={"eliminated": claims.is_in_these_equations},
+    named={"eliminated": claims.is_in_these_equations, "fixed": claims.follows_from_a_constraint},
 )
 
 
