@@ -38,8 +38,12 @@ def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps
     except (ValueError, ZeroDivisionError, OverflowError, TypeError):
         found = []
     if not found or not all(isfinite(y) for _, y in found):
-        raise Rejected(Complaint("drawing", f"the curve of {expr} is not real and finite over its whole range"))
+        raise _not_real(expr)
     return found
+
+
+def _not_real(expr: Expr) -> Rejected:
+    return Rejected(Complaint("drawing", f"the curve of {expr} is not real and finite over its whole range"))
 
 
 def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[Extremum, ...]:
@@ -54,6 +58,8 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
 
     every = [lower + (upper - lower) * i / STEPS for i in range(STEPS + 1)]
     xs = [x for x in every if isfinite(slope(x))]
+    if not xs:
+        raise _not_real(expr)
     slopes = [slope(x) for x in xs]
     found = []
     for i in range(len(xs) - 1):

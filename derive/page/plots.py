@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, Symbol, pi
+from sympy import Expr, Symbol, nan, oo, pi, zoo
 
 from derive.algebra.expressions import explicit
 from derive.course.given import Measured
@@ -112,6 +112,10 @@ def _curve(
             Complaint("drawing", f"the plot `{plot.key}` needs a number for {listed}", place, help=help_line)
         )
     expr = plot.expr.xreplace({letter: value for letter, value in numbers.items() if letter != plot.variable})
+    if expr.has(nan, zoo, oo):
+        message = f"the plot `{plot.key}` has no curve for these numbers, because a denominator vanishes"
+        place = placement.place if placement else problem.place_of("solve")
+        raise Rejected(Complaint("drawing", message, place, help="change a number, for example at a resonance"))
     ends = float(lower), float(upper)
     return Curve(expr, plot.variable, *ends, own, extrema(expr, plot.variable, *ends))
 

@@ -8,6 +8,7 @@ import pytest
 from sympy import cos, symbols
 
 from derive.building.solution import rendered
+from derive.errors import DeriveError
 from derive.figures.extrema import extrema
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited
@@ -36,3 +37,32 @@ def test_the_end_of_a_range_has_a_unit_of_its_kind(tmp_path: Path) -> None:
 def test_a_value_at_an_extremum_that_is_zero_up_to_rounding_is_zero() -> None:
     found = extrema((3 * cos(x) - 1) ** 2 / 4, x, 0.3, 2)
     assert [(each.kind, each.value) for each in found] == [("minimum", 0.0)]
+
+
+DRIVEN = """\
+title: A driven cart
+solve: system
+symbols: {m: mass, k: spring constant, F_0: force, omega: angular speed}
+given:
+  coordinates: {x: length}
+  particles: {cart: {mass: m, at: [x, 0]}}
+  potential: k*x**2/2
+  forces: {components: [F_0*cos(omega*t), 0], at: cart}
+  results: {motion: {solution: motion_x, for: x, start: 0}}
+drawings:
+  growth:
+    plot: motion
+    against: t
+    range: [0 s, 9 s]
+    cases: [{m: 1 kg, k: 4 N/m, F_0: 1 N, omega: 2 rad/s}]
+statement: A cart of mass <<m>>, driven by $F_0\\cos\\omega t$.
+parts:
+  - ask: Find the motion.
+    answer: motion
+"""
+
+
+def test_numbers_at_which_a_curve_has_no_value_are_reported(tmp_path: Path) -> None:
+    """At resonance, the solution for other frequencies has a vanishing denominator."""
+    with pytest.raises(DeriveError, match="has no curve for these numbers"):
+        page(tmp_path, DRIVEN)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Symbol
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.collect import by_accelerations, by_rates
 from derive.algebra.derivatives import derivative
@@ -23,6 +24,7 @@ from derive.algebra.expressions import (
     rate,
     scalar,
 )
+from derive.algebra.ranges import where_positive
 from derive.errors import Complaint, Rejected, Spelled, did_you_mean
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
@@ -115,42 +117,44 @@ def put_in(
     result = arranged(value, list(moving))
     _check_holds(of, result)
     name = _name(of, symbol)
-    return establish(
-        PUT_IN,
-        name,
-        lambda *_: value,
-        {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
-        lines=Lines(
-            law=Level.FULL,
-            put_in=None,
-            arranged=lambda _: result,
-            means={} if name is None or isinstance(name, Symbol | MatrixSymbol) else meaning(name, result),
-        ),
-        routes={
-            "at_once": lambda found: (-found if turned else found, _at_once(explicit(of.value), told)),
-            **({"found_before": compared_with(lambda: again.value)} if again is not None else {}),
-        },
-        outcome="again" if again is not None else "turned" if turned else _outcome(result, rests),
-        key=key or _key_for(of, rests, there),
-        kind=of.step.kind,
-        phrase_data=PhraseData(
-            words=words_of(come),
-            formulas=conditions_told(reached=common_condition(of, come)),
-            named={
-                **{f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
-                **({"place": Relation(turned[0].unknown, "=", turned[0].place)} if turned else {}),
+    # |q_dot| is real only where its square is positive
+    with where_positive(result**2) if isinstance(name, Abs) else nullcontext():
+        return establish(
+            PUT_IN,
+            name,
+            lambda *_: value,
+            {"original": of, **{f"other_{i + 1}": quantity for i, quantity in enumerate(rests)}},
+            lines=Lines(
+                law=Level.FULL,
+                put_in=None,
+                arranged=lambda _: result,
+                means=_means(name, result),
+            ),
+            routes={
+                "at_once": lambda found: (-found if turned else found, _at_once(explicit(of.value), told)),
+                **({"found_before": compared_with(lambda: again.value)} if again is not None else {}),
             },
-            outcome_data={
-                "replaced": [letter_of(target) for target, _ in told],
-                "arrivals": come,
-                **({"found": again.value} if again is not None else {}),
-            },
-            points_to={"found": again} if again is not None else {},
-        ),
-        parents=[*([again] if again is not None else []), *approximations_among(*given.values(), *values.values())],
-        facts=[*_kept_facts(of, rests, there, told), *_at_one_moment(of, rests, there, result)],
-        scope=Scope(differ=EVERYTHING, case_of=of),
-    )
+            outcome="again" if again is not None else "turned" if turned else _outcome(result, rests),
+            key=key or _key_for(of, rests, there),
+            kind=of.step.kind,
+            phrase_data=PhraseData(
+                words=words_of(come),
+                formulas=conditions_told(reached=common_condition(of, come)),
+                named={
+                    **{f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
+                    **({"place": Relation(turned[0].unknown, "=", turned[0].place)} if turned else {}),
+                },
+                outcome_data={
+                    "replaced": [letter_of(target) for target, _ in told],
+                    "arrivals": come,
+                    **({"found": again.value} if again is not None else {}),
+                },
+                points_to={"found": again} if again is not None else {},
+            ),
+            parents=[*([again] if again is not None else []), *approximations_among(*given.values(), *values.values())],
+            facts=[*_kept_facts(of, rests, there, told), *_at_one_moment(of, rests, there, result)],
+            scope=Scope(differ=EVERYTHING, case_of=of),
+        )
 
 
 def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
@@ -415,12 +419,19 @@ def _name(of: Quantity, symbol: str | None) -> Any:
         return None
     if symbol is not None:
         return scalar(symbol)
-    if isinstance(of.value, MatrixBase) or isinstance(of.symbol, Symbol):
+    if isinstance(of.value, MatrixBase) or isinstance(of.symbol, Symbol | Abs):
         return of.symbol
     try:
         return unknown_of("put_in", of.symbol)
     except Rejected:
         return scalar(of.key)
+
+
+def _means(name: Any, result: Any) -> dict[Any, Any]:
+    """Return the value of the symbol inside the name of the result; the magnitude |q_dot| is that of its own value."""
+    if isinstance(name, Abs):
+        return {name.args[0]: result}
+    return {} if name is None or isinstance(name, Symbol | MatrixSymbol) else dict(meaning(name, result))
 
 
 def _key_for(of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement]) -> str:
