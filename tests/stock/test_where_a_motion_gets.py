@@ -351,3 +351,11 @@ def test_a_contact_is_not_followed_from_another_start_than_the_motion(tmp_path: 
     (found,) = complaints(tmp_path, edited(sphere, ("cos(theta), start: 1}", "cos(theta), start: 9/10}")))
     assert found.code == "contradiction"
     assert "from cos(theta) = 1, not from 9/10" in found.message
+
+
+def test_an_unstable_equilibrium_is_approached_and_not_reached(tmp_path: Path) -> None:
+    """A pendulum with just the energy of the upper position; from any other start the speed there is not zero."""
+    quoted = ("How fast is it at the top?", '"How fast?"'), ("Where does it stop?", '"Where?"')
+    exact = edited(SWUNG, *quoted, ("start_rate: u/l", "start_rate: 2*sqrt(g/l)"))
+    code, _, said = refused(tmp_path, exact)
+    assert code == "not-reached" and "does not reach theta = pi in a finite time" in said

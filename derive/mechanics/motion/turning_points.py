@@ -45,11 +45,17 @@ def condition_to_reach(
     start and the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
     Errors: the motion turns back before the place, always or for some values of the symbols.
     """
-    q = speed.needed(ByEnergy).coordinate
+    begun = speed.needed(ByEnergy)
+    q = begun.coordinate
+    if place not in (oo, -oo) and is_zero(unknown.xreplace({q: begun.start}) - place):
+        return None  # the motion starts at the place
     there = tidied(_put(explicit(speed.value), unknown, place) if there is None else there)
     if sign_known(there) == -1:
         message = f"`{of.key}`: the motion does not reach {unknown} = {place}, since {rate(q)}**2 would be negative"
         raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
+    if is_zero(there) and not _may_turn_at(explicit(speed.value), unknown, place):
+        message = f"`{of.key}`: the motion does not reach {unknown} = {place} in a finite time"
+        raise Rejected(Complaint("not-reached", message, help="this place is an equilibrium; the motion approaches it"))
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
         message = f"`{of.key}`: the motion need not reach {unknown} = {place}: on the way {rate(q)}**2 can be negative"
         raise Rejected(Complaint("not-reached", message, help="state with `assume:` when the motion reaches the place"))

@@ -132,6 +132,9 @@ def _one(
         (matrix, [rate(s.symbol, n) if n else s.symbol for s in eta])
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
+    if any(matrix[i, j].has(nan, zoo) for matrix, _ in ordered for j in range(len(eta))):
+        message = f"`{key}`: the equation of motion has no derivative at the equilibrium"
+        raise Rejected(Complaint("no-value", message, help="a force such as sqrt(x_dot**2) has a corner there"))
     common = linear.common(i)
     terms = [
         with_squares(spread(tidied(matrix[i, j] / common))) * s
