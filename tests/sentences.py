@@ -1,55 +1,91 @@
-"""Sentences of the project drawn at random, for a reader to judge: `python -P -m tests.sentences NUMBER SEED`.
+"""`python -P -m tests.sentences 200 --seed 7` draws sentences at random, for a reader who has not seen the project.
 
-A sentence comes from the documentation, the phrases, or a docstring, comment or message of the code. A reader who has
-not seen the project marks each sentence as clear at first reading, to be read twice, or wrong.
+The sentences are those of the documents, the docstrings, the comments and the longer strings of the code. Each one is
+listed with its file and line, so that the reader can look at the lines around it.
 """
 
 from __future__ import annotations
 
+import argparse
+import ast
+import io
 import random
 import re
-import sys
+import tokenize
 from collections.abc import Iterator
-from inspect import cleandoc
+from itertools import pairwise
 from pathlib import Path
 
 from tests.courses import ROOT
-from tests.style import PROSE, files, texts_of_code
+from tests.style import PROSE, files
 
-FEWEST_WORDS = 5
-# parts of a docstring: the meaning of an argument, with its indented lines, and what follows a label
-ARGUMENT = r"^(\w[\w., ]*?)[ ]{2,}(\S.*(?:\n[ ]+.*)*)$"
-LABEL = r"^(?=(?:Second routes?|Checks?|Outcomes|Errors|Source|Witness): )"
-
-
-def paragraphs(path: Path) -> Iterator[str]:
-    if path.suffix == ".py":
-        for _, text in texts_of_code(path):
-            apart = re.sub(ARGUMENT, r"\n\1: \2\n", cleandoc(text), flags=re.MULTILINE)
-            for part in re.split(r"\n\s*\n", re.sub(LABEL, "\n", apart, flags=re.MULTILINE)):
-                yield re.sub(r"^#:?\s*", "", part)
-    else:
-        without_code = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-        yield from re.split(r"\n\s*\n|\n(?=[-|*#] ?)|(?<=\w): (?=['\"])", without_code)
+END = re.compile(r"(?<=[.?!:])\s+(?=[A-Z`$<])")
+GENERATED = ("docs/errors.md", "docs/yaml.md", "docs/rules.md", "docs/gallery.md", "NOTATION.md")
+SHORTEST = 4  # words
 
 
-def sentences(path: Path) -> Iterator[str]:
-    for paragraph in paragraphs(path):
-        for sentence in re.split(r"(?<=[.!?])\s+(?=[A-Z`])", " ".join(paragraph.split())):
-            words = re.findall(r"[A-Za-z]{2,}", sentence)
-            if len(words) >= FEWEST_WORDS and sentence[0] not in "|$<{\\" and "://" not in sentence:
-                yield sentence
+def _comments(source: str) -> Iterator[tuple[int, str]]:
+    """Yield the first line and the text of each run of comment lines."""
+    tokens = [each for each in tokenize.generate_tokens(io.StringIO(source).readline) if each.type == tokenize.COMMENT]
+    first, lines = 0, list[str]()
+    for before, token in pairwise([None, *tokens]):
+        follows = before is not None and token is not None and token.start == (before.start[0] + 1, before.start[1])
+        if lines and not follows:
+            yield first, " ".join(lines)
+            lines = []
+        if token is not None:
+            first = first if lines else token.start[0]
+            lines.append(token.string.lstrip("# "))
+    if lines:
+        yield first, " ".join(lines)
 
 
-def drawn(number: int, seed: int) -> list[str]:
-    """Return this number of different sentences, each with its file."""
-    found = [
-        f"{path.relative_to(ROOT)}: {each}"
-        for path in files("derive", "tools", "problems", *PROSE)
-        for each in sentences(path)
-    ]
-    return random.Random(seed).sample(sorted(set(found)), number)
+def _strings(source: str) -> Iterator[tuple[int, str]]:
+    """Yield each string with its line; "…" is in the place of the values of an f-string."""
+    tree = ast.parse(source)
+    inside = {id(part) for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in node.values}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            text = "".join(str(part.value) if isinstance(part, ast.Constant) else "…" for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in inside:
+            text = node.value
+        else:
+            continue
+        if text.count(" ") >= SHORTEST:
+            yield from _paragraphs(text, node.lineno)
+
+
+def _paragraphs(text: str, line: int = 1) -> Iterator[tuple[int, str]]:
+    """Yield the line and the text of each paragraph; lists are split into their items, blocks of code left out."""
+    text = re.sub(r"```.*?```", lambda found: "\n" * found[0].count("\n"), text, flags=re.S)
+    start = 0
+    for gap in [*re.finditer(r"\n\s*(?:\n|(?=[-*|] |\S+(?:, \S+)* {2,}\S))", text), None]:
+        piece = text[start : gap.start() if gap else None]
+        if piece.strip() and not piece.lstrip().startswith(("|", "#", ">>>", "$")):
+            yield line + text[:start].count("\n"), " ".join(piece.split())
+        start = gap.end() if gap else start
+
+
+def sentences(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield the line of its paragraph, and the text, of each sentence of a file."""
+    source = path.read_text(encoding="utf-8")
+    texts = [*_comments(source), *_strings(source)] if path.suffix == ".py" else [*_paragraphs(source)]
+    for line, text in texts:
+        for sentence in END.split(text):
+            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= SHORTEST:
+                yield line, sentence
+
+
+def main() -> None:
+    options = argparse.ArgumentParser(description="Draw sentences of the project at random.")
+    options.add_argument("count", type=int)
+    options.add_argument("--seed", type=int, required=True)
+    asked = options.parse_args()
+    written = [path for path in files("derive", *PROSE) if str(path.relative_to(ROOT)) not in GENERATED]
+    drawn = [(path, line, text) for path in written for line, text in sentences(path)]
+    for path, line, text in random.Random(asked.seed).sample(drawn, asked.count):
+        print(f"{path.relative_to(ROOT)}:{line}: {text}")
 
 
 if __name__ == "__main__":
-    print(*drawn(int(sys.argv[1]), int(sys.argv[2])), sep="\n")
+    main()
