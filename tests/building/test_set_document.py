@@ -262,6 +262,24 @@ def test_the_sheet_has_the_questions_and_nothing_that_is_derived(course: Path, s
     assert len(PdfReader(target).pages) == 1
 
 
+def test_a_sheet_has_each_question_once_wherever_its_drawing_has_no_room(tmp_path: Path) -> None:
+    """Passages beside a drawing are put together first; without room for the drawing they are set below it."""
+    root = course_in(tmp_path)
+    solution = rendered_once(root, "hw9/block", draws=True)
+    tex = sheet_document(root, problem_set(root, "hw9"), [solution])
+    drawings = [each for each in solution.files if each[0].endswith(".pdf")]
+    asked = ["inertiatensorabout", "kineticenergy,ingeneral", "anglebetween", "torquemust"]
+    places = set()
+    for height in (0, 9, 12, 15, 18):
+        target = tmp_path / f"{height}.pdf"
+        above = Tex(tex.replace(r"\drawingbeside{block", rf"\vspace*{{{height}cm}}\drawingbeside{{block"))
+        typeset(above, target, chosen_engine(None), included=drawings)
+        text = squeezed(target)
+        assert [text.count(question) for question in asked] == [1] * len(asked), height
+        places.add(text.index("Figure1") < text.index(asked[0]))
+    assert places == {True, False}, "the drawing is beside the questions, and above them"
+
+
 def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:
     root = course_in(tmp_path, {"What torque must": "With <<spin>> from <<eq spin>>, what torque must"})
     solution = rendered_once(root, "hw9/block")
