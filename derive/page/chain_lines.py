@@ -178,7 +178,7 @@ def conditions_of(step: Step) -> tuple[ChainLine, ...]:
     if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:
         lower, upper = found  # 2 g l < v^2 < 5 g l
         found = [Relation(Relation(lower.right, MIRRORED[lower.operator], lower.left), upper.operator, upper.right)]
-    return tuple(ChainLine(each.left, each.word, each.right) for each in found)
+    return tuple(ChainLine(each.left, each.word, each.right, beside=True) for each in found)
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:

@@ -122,6 +122,7 @@ class _Writer:
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
         self.told_before = ""  # the key of a step that shares the sentence of the step before
+        self.framed: set[str] = set()  # steps whose result is framed as an answer
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self.page_names = page_names(problem, derivation, words)
@@ -332,7 +333,8 @@ class _Writer:
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
-        count = results(step, lines) if framed and not again else 0
+        count = results(step, lines) if framed and again not in self.framed else 0
+        self.framed |= {step.key} if count else set()
         conditions = conditions_of(step) if count else ()
         lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)

@@ -174,10 +174,12 @@ def framed(*lines: ChainLine) -> list[str]:
     return chain(solution(page(replace(display("mass"), groups=(Equations("mass", lines, 1, framed=1),)))))
 
 
-def test_a_result_that_stands_alone_is_framed_with_its_left_side_and_else_by_itself() -> None:
+def test_a_short_result_is_framed_with_its_left_side_and_a_long_one_by_itself() -> None:
     assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
     (row,) = framed(ChainLine(T, "equals", M + a), ChainLine(None, "equals", M * a))
-    assert row == r"\row{T}{= M+a = \inframe{Ma}}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"
+    assert row == r"\framedrow{T}{T = M+a = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"
+    (row,) = framed(ChainLine(T, "equals", sum(symbols("b_:8"))), ChainLine(None, "equals", M * a))
+    assert row.startswith(r"\row{T}{= b_{0}") and r"\inframe{Ma}}{.}" in row
 
 
 def test_a_long_result_is_in_one_frame_of_several_lines() -> None:

@@ -44,9 +44,9 @@ def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -
         ChainLine(None, "equals", c),
         ChainLine(None, "approx", 2 * a, numeric=True),
     )
-    for framed, whole in ((0, False), (1, False), (2, False), (3, True)):
+    for framed, whole in ((0, False), (1, True), (2, True), (3, True)):
         (line,) = printed_lines(Equations("T", chain, 7, framed), NOTATION)
-        assert (line.framed, line.frames_all) == (framed, whole)
+        assert (line.framed, line.frames_all) == (len(line.sides) if framed else 0, whole)
     apart = printed_lines(Equations("T", chain, 7, 2), NOTATION, 4)
     assert [(line.framed, line.frames_all) for line in apart] == [(0, False), (1, False), (1, False)]
 
@@ -63,9 +63,12 @@ def test_a_mere_number_or_letter_is_framed_with_its_left_side(nothing: Any) -> N
         assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
         assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(nothing)),)
         assert lines[-1].reason and not any(line.reason for line in lines[:-1])
-    for other in (2 * LETTERS[1], ImmutableDenseMatrix([LETTERS[1], 0])):
-        (line,) = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", other)), 7, 1), NOTATION)
-        assert not line.frames_all
+    (line,) = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", 2 * LETTERS[1])), 7, 1), NOTATION)
+    assert line.frames_all and len(line.sides) == 2
+    (line,) = printed_lines(
+        Equations("T", (replace(chain[0], right=LONG), ChainLine(None, "equals", 2 * LETTERS[1])), 7, 1), NOTATION, 999
+    )
+    assert line.framed == 1 and not line.frames_all, "a long line has only its result in the frame"
     vector = ImmutableDenseMatrix([0, 0, 0])
     *_, last = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", vector)), 7, 1), NOTATION)
     assert last.frames_all
@@ -121,10 +124,10 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
     """The number alone is no answer to what a letter must exceed."""
-    S, (a, b, c) = Symbol("S"), LETTERS[:3]
+    S, c = Symbol("S"), LETTERS[2]
     for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
-        chain = (ChainLine(S, relation, a * b), ChainLine(None, "approx", 2 * c, numeric=True))
-        (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION)
+        chain = (ChainLine(S, relation, LONG), ChainLine(None, "approx", 2 * c, numeric=True))
+        (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
         assert line.frames_all == whole
-        (plain,) = printed_lines(Equations("S", chain, 7), NOTATION)
+        (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0

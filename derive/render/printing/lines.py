@@ -17,8 +17,9 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-MOST_SIDES = 4  # the most sides on one line of a chain
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
+FRAMED_WIDTH = 36.0  # width of the longest line of several sides that is framed as a whole
+MOST_SIDES = 4  # the most sides on one line of a chain
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,8 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         goes_on = left is None or left == begun and line.relation == "equals"
         begun = begun if left is None else left
         if last and left is not None and line.beside and _has_room(last, left, side[1], line.reason, limit):
-            packed[-1] = replace(last, sides=(*last.sides, ("next", left), side), reason=line.reason)
+            sides = (*last.sides, ("next", left), side)
+            packed[-1] = replace(last, sides=sides, reason=line.reason, framed=len(sides) if last.framed else 0)
             continue
         if last and not goes_on:
             packed.append(Printed(left, (side,), line.reason, framed=framed))
@@ -77,7 +79,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
     packed = _with_bare_value_framed(packed, begun) if equations.frames_bare_value else packed
-    packed = _with_condition_framed(packed) if equations.framed else packed
+    packed = [*packed[:-1], _framed_whole(packed[-1])] if equations.framed else packed
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
 
@@ -101,11 +103,10 @@ def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
-def _with_condition_framed(packed: list[Printed]) -> list[Printed]:
-    """Frame an inequality with its left side, because the number alone is not an answer."""
-    *others, last = packed
-    is_condition = last.left is not None and last.sides[0][0] in INEQUALITIES
-    return [*others, replace(last, framed=len(last.sides))] if is_condition else packed
+def _framed_whole(line: Printed) -> Printed:
+    """Frame an inequality, and a short line, with the left side: half an equation, such as "= 0", is not an answer."""
+    whole = line.left is not None and (line.sides[0][0] in INEQUALITIES or line.width <= FRAMED_WIDTH)
+    return replace(line, framed=len(line.sides)) if whole else line
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:

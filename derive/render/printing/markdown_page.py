@@ -57,7 +57,7 @@ class MarkdownPage:
     def end(self) -> Iterator[str | Illustration]:
         """Yield the text after the last part."""
         if self.document.note:
-            yield self.paragraph(self.document.note)
+            yield f"**{text_markdown(self.words.labels['note'])}** {self.inline(self.document.note)}"
         if self.document.closing:
             yield f"---\n\n**{text_markdown(self.words.labels['checked'])}** {self.inline(self.document.closing)}"
 

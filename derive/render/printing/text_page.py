@@ -62,17 +62,19 @@ class _Page:
         title = self._with_worth(self._inline(self.document.title), self.words.worth(self.document.points))
         blocks = [title, "=" * PAGE_COLUMNS, self._wrapped(self.document.statement)]
         blocks += [line for i in self.document.illustrations if i.at == STATEMENT for line in ("", self._drawing(i))]
-        if self.document.strategy:
-            heading = Text(self.words.labels["strategy"] + " ")
-            blocks += ["", self._wrapped((heading, *self.document.strategy))]
+        blocks += self._headed("strategy", self.document.strategy)
         for part in self.document.parts_shown:
             blocks += ["", self._part(part)]
         blocks += ["", self._part(self.document.limits)] if self.document.limits else []
-        blocks += ["", self._wrapped(self.document.note)] if self.document.note else []
+        blocks += self._headed("note", self.document.note)
         if self.document.closing:
             checked = Text(self.words.labels["checked"] + " ")
             blocks += ["", "-" * PAGE_COLUMNS, self._wrapped((checked, *self.document.closing))]
         return "\n".join(blocks) + "\n"
+
+    def _headed(self, label: str, prose: Sequence[Inline]) -> list[str]:
+        """Return a paragraph that begins with its heading, or nothing if there is no text."""
+        return ["", self._wrapped((Text(self.words.labels[label] + " "), *prose))] if prose else []
 
     def _part(self, part: PartPage) -> str:
         label = f"({part.label}) " if part.label else ""
