@@ -106,7 +106,8 @@ def _diagram(
     arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
     angles = _angles(system, of, [(each, share * reach) for each, share in zip(drawn, shares, strict=True)])
     values = {**scene.values, **stance_values(system)}
-    return drawing(key, [*_outline(of), *arrows, *angles], values=values, leads_to=leads_to)
+    marks, mass = [*_outline(of), *arrows, *angles], explicit(_mass(of))
+    return drawing(key, marks, values=values, leads_to=leads_to, forces_on=mass)
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
@@ -289,9 +290,13 @@ def _outline(of: Any) -> Iterator[Mark]:
 
 def _weight(system: System, of: Any) -> Iterator[_Drawn]:
     if system.weights:
-        centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
-        weight = explicit(mass) * system.gravity
+        centre = of.centre if isinstance(of, PlacedBody) else of.at
+        weight = explicit(_mass(of)) * system.gravity
         yield _Drawn(centre, downwards(len(centre.components)), weight, weight)
+
+
+def _mass(of: Any) -> Any:
+    return of.body.mass if isinstance(of, PlacedBody) else of.mass
 
 
 def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> list[_Drawn]:

@@ -113,6 +113,7 @@ class Drawing:
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
     left_out      conditions of the system that the drawing does not show
     leads_to      the keys of steps that the drawing precedes, as a force diagram precedes Newton's laws
+    forces_on     the mass of the body whose force diagram this is; None in any other drawing
     """
 
     key: str
@@ -122,6 +123,7 @@ class Drawing:
     values: tuple[tuple[Any, Any], ...] = ()
     left_out: tuple[Any, ...] = ()
     leads_to: tuple[str, ...] = ()
+    forces_on: Any = None
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -47,6 +47,7 @@ def drawing(
     values: Mapping[Any, Any] | None = None,
     left_out: Sequence[Any] = (),
     leads_to: Sequence[str] = (),
+    forces_on: Any = None,
 ) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
@@ -56,6 +57,7 @@ def drawing(
              by default "plane" if a position has two components
     values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`
     left_out   conditions that the drawing does not show; a caption states them
+    forces_on  the mass of the body whose forces the drawing shows; a caption states it
     leads_to the keys of steps before which the drawing is placed, by default after the steps that it shows
     """
     if view not in (SPACE, PLANE, None):
@@ -67,7 +69,9 @@ def drawing(
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
-    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(left_out), tuple(leads_to))
+    found = Drawing(
+        key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(left_out), tuple(leads_to), forces_on
+    )
     noted(found)
     return found
 

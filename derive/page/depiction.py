@@ -29,7 +29,7 @@ FOUND = -1  # the index of the statement; part (a) has the index 0
 
 @dataclass(frozen=True)
 class Depicted:
-    """A drawing on its page; `number` is the figure number, if a drawing of the page has a caption."""
+    """A drawing on its page; `number` is the figure number, if the drawing has a caption."""
 
     drawing: m.Recorded
     placement: Placement | None
@@ -44,11 +44,10 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the drawings, in the order of the page; none if no drawing has a caption."""
-    placed = [(index, d) for d in drawings if (index := _index(problem, d, derivation)) is not None]
+    """Return the figure numbers of the drawings with a caption, in the order of the page."""
     captioned = {p.key for p in problem.drawings if p.caption}
-    if not any(d.key in captioned or _left_out(d) for _, d in placed):
-        return {}
+    shown = [d for d in drawings if d.key in captioned or _left_out(d) or _is_of_forces(d)]
+    placed = [(index, d) for d in shown if (index := _index(problem, d, derivation)) is not None]
     return {d.key: n for n, (_, d) in enumerate(sorted(placed, key=lambda entry: entry[0]), 1)}
 
 
@@ -71,7 +70,8 @@ def depictions(
         if fault:
             faults.append(fault)
         elif index is not None:
-            caption = told(placement.caption.pieces, _lettered(drawing)) if placement and placement.caption else ()
+            own = placement.caption if placement else None
+            caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words)
             caption += _not_shown(drawing, words, bool(caption))
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
@@ -88,6 +88,17 @@ def depictions(
 def _left_out(drawing: m.Recorded) -> Sequence[Any]:
     """Return the conditions that a drawing does not show."""
     return drawing.left_out if isinstance(drawing, m.Drawing) else ()
+
+
+def _is_of_forces(drawing: m.Recorded) -> bool:
+    return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
+
+
+def _standard_caption(drawing: m.Recorded, words: Phrases) -> tuple[Inline, ...]:
+    """Return the caption of a force diagram to which the problem gives no caption."""
+    if not isinstance(drawing, m.Drawing) or drawing.forces_on is None:
+        return ()
+    return filled(words.drawings["forces"], {"mass": (Math(drawing.forces_on),)})
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:

@@ -26,7 +26,7 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 STEPS = 240
-MOST = 6  # most intervals between ticks
+MOST_ACROSS, MOST_UP = 6, 4  # most intervals between the ticks of the two axes
 ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 CM = 72 / 2.54
@@ -144,8 +144,8 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
     return Panel(
         points=tuple((x * curves.per_unit, y) for x, y in points),
         values=(start, low - room, end, high + room),
-        across=_ticks(start, end, curves.unit == DEGREES),
-        up=_ticks(low, high, False, room),
+        across=_ticks(start, end, MOST_ACROSS, curves.unit == DEGREES),
+        up=_ticks(low, high, MOST_UP, room=room),
         names=(
             _axis_name(plot.variable, curves.unit, notation),
             _axis_name(plot.label, unit_of_kind(plot.kind), notation),
@@ -169,10 +169,11 @@ def _title(letter: str, numbers: str) -> str:
     return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
 
 
-def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Ticks:
-    """Return a few round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
+def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
+    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
 
-    If there is room, the numbers continue beyond both ends of the range, so that each end lies between two numbers.
+    They have at most `most` intervals between the ends of the range. If there is room, the numbers continue beyond both
+    ends of the range, so that each end lies between two numbers.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -181,7 +182,7 @@ def _ticks(low: float, high: float, in_degrees: bool, room: float = 0.0) -> Tick
         if in_degrees and span >= 20
         else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
     )
-    step = next((step for step in steps if span / step <= MOST), steps[-1])
+    step = next((step for step in steps if span / step <= most), steps[-1])
     first = max(floor(low / step + 1e-9), ceil((low - room) / step - 1e-9))
     last = min(ceil(high / step - 1e-9), floor((high + room) / step + 1e-9))
     decimals = max(0, -floor(log10(step) + 1e-9))
