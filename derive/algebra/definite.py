@@ -14,7 +14,7 @@ Sign = Callable[[Expr], int | None]  # the sign 1, 0 or -1; None if it is unknow
 
 
 def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
-    """Whether all leading principal minors are positive."""
+    """Whether all leading principal minors are known to be positive."""
     return all(sign(minor) == 1 for minor in leading_minors(matrix))
 
 

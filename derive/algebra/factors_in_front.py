@@ -1,4 +1,5 @@
-"""Write a sum of fractions as one fraction, with common factors in front of each sum; nothing is multiplied out.
+"""Write a sum of fractions as one fraction, with common factors in front of each sum; products of sums are not
+multiplied out.
 
 A product is stored as its number and its powers, (1/24, {u: 2, 13 u + 10 v: 1}), so that a common denominator and
 common factors are found by comparing powers.
@@ -118,7 +119,6 @@ def _root(value: Expr, sign: int) -> Product:
 
 
 def times(products: Iterable[Product]) -> Product:
-    """Multiply products."""
     number: Rational = S.One
     powers: Powers = {}
     for each in products:

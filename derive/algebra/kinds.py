@@ -1,7 +1,7 @@
 """The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for them.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
-(`mass: Mass`); a type checker reads the annotation as SymPy's `Expr`.
+(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three.
 """
 
 from __future__ import annotations

@@ -45,14 +45,15 @@ def squares_turned(value: Expr) -> list[Expr]:
 
 
 def is_squarefree(value: Expr) -> bool:
-    """Whether no square divides a polynomial; raises `Outside` if the polynomial is too large."""
+    """Whether no square of a symbol or a sum divides a polynomial; raises `Outside` if the polynomial is too large."""
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
 
 
 def factored(value: Expr) -> Expr:
-    """One fraction with each sum factored over the rational numbers; functions and roots count as symbols."""
+    """One fraction with each sum factored over the rational numbers, unless the sum is too large; functions and roots
+    count as symbols."""
     product = _with_plus_first(_factors(value))
     odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
     mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
@@ -143,7 +144,8 @@ class _Fractions(Expanded):
         return written(times(parts))
 
     def factors(self, base: Expr, power: int) -> Product:
-        """The factors of a power. They are only the power itself if its base is irreducible, too large or not a sum."""
+        """The factors of a power. If the base is irreducible, too large or not a sum, the only
+        factor is the power itself."""
         try:
             terms = self.form(base).terms if base.is_Add else {}
         except Outside:

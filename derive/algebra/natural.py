@@ -45,7 +45,7 @@ from derive.algebra.ranges import Range, sign_within, within
 from derive.algebra.relation import TURNED
 from derive.algebra.tidy import common_factor, tidied
 
-MOST_TOGETHER = 3  # quantities that one form may use
+MOST_TOGETHER = 3  # greatest number of quantities that one form may use
 SIGNS_OF_A_SYMBOL = 2  # the length of a symbol, compared with the length of a sign
 HALF = Rational(1, 2)
 LONGEST = 120  # a longer expression is left as it is
@@ -102,7 +102,8 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether a form is real and contains each quantity, and no sum has both a quantity and a symbol of its formula.
+    """Whether a form is real, contains each quantity, and has no sum with two terms of which one is a quantity and the
+    other a symbol of the formula for this quantity.
 
     If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
     """
@@ -113,8 +114,8 @@ def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
 
 
 def _with_sign(name: Symbol, value: Expr) -> Symbol:
-    """A symbol that is positive if the value is, or if the value is a square root; so the root of its square is the
-    symbol."""
+    """A dummy symbol for a quantity with this value. The dummy symbol is positive if `is_positive(value)`, so that
+    SymPy writes the root of its square as the symbol itself."""
     return Dummy(name.name, positive=True) if is_positive(value) else Dummy(name.name, real=True)
 
 
@@ -160,7 +161,10 @@ def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[
 
 
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
-    """Solve left = right for a symbol, if both sides, or their powers without roots, are linear in it or a power."""
+    """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
+
+    The result is None unless the equation is then linear in the symbol, or has only one power of a positive symbol.
+    """
     order = _order_of_root(right, symbol)
     above, below = fraction(together(cancel(right**order)))
     try:

@@ -1,7 +1,8 @@
 """Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
 
 A symbol is replaced by its value from the relation, r_0 = l + u with an amount u > 0. The sign of a polynomial in l and
-r_0 can then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
+r_0 can then often be read from its coefficients. Relations are applied one after another. For a < b < c, the value of
+c is a + u + w.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ class Order:
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:
-        """Whether a relation contains a symbol of the expression."""
+        """Whether the expression contains a symbol that is replaced, or a symbol of a strict relation."""
         if not self:
             return False
         known = self.replaced.keys() | set().union(*(each.free_symbols for each in self.positive))

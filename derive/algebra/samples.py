@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each symbol that may be negative is negative at one of them."""
+    """Two points: each symbol that may be negative and has no range is negative at one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {

@@ -37,7 +37,8 @@ class Outside(Exception):
 class Form(NamedTuple):
     """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in the sum exceeds `reach`. `cost` is the number of products of two terms that were computed for the sum.
+    No power in the sum exceeds `reach`. `cost` measures the work for the sum: the number of products of two
+    terms that were computed and of terms that were added.
     """
 
     terms: Terms

@@ -194,8 +194,8 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form. A sum is its last monomial times a remaining factor. Its reciprocal is the
-        reciprocal of the monomial times a letter for the reciprocal of the remaining factor."""
+        """The reciprocal of a form. A sum is the product of its last monomial and a remaining factor. The reciprocal of
+        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor)."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)

@@ -102,7 +102,7 @@ def _names(given: Any) -> Iterator[str]:
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
     """Check that a part of a system, such as a force, contains its arguments unchanged.
 
-    A law and its second route both read this part, so their comparison would not detect a sign that the verb changed.
+    A law and its second route both use this part, so their comparison would not detect a sign that the verb changed.
     """
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):

@@ -5,7 +5,8 @@
 
 The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
 an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
-decorator and the signature determine the reader of files, the schema for editors, the manual and the errors.
+decorator and the signature are used to parse the key, and for the schema for editors, the manual and the messages of
+errors.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ class ResultVerb:
     function   a function of the values of the keys; its argument `key` is the name of the result
     called     argument -> its key, followed by a colon and a description for the manual
     one_of     keys of which the verb needs at least one
-    excludes   pairs of keys; if both keys of a pair are given, the second key has no effect
+    excludes   pairs of keys that must not both be given, because the second key would then have no effect
     """
 
     name: str

@@ -43,7 +43,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     residuals   the equations, linear in the unknowns: residual = 0
     unknowns    in the order of preference
 
-    An unknown that no such set of equations gives, without a division by a value that might vanish, is left out.
+    An unknown is left out if no such set of equations gives it without a division by a value that might vanish.
+    An unknown whose value is zero is also left out.
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
@@ -72,7 +73,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of equations with as many new unknowns as equations; empty if there is none.
+    """Return the smallest set of at most `MOST` equations with as many new unknowns as equations; empty if there is
+    none.
 
     Equations with the first of the unknowns come first, and among these the shortest.
     """
@@ -87,7 +89,8 @@ def _fewest(
 
 
 def _are_coupled(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether several equations have each unknown in common with another one, so that it can be eliminated."""
+    """Whether each new unknown is in at least two of the equations, so that it can be eliminated; True for one
+    equation."""
     return len(several) == 1 or all(len([i for i in several if u in slopes[i]]) > 1 for u in new)
 
 

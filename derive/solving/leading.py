@@ -142,7 +142,7 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
 
 
 def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
-    """The sides of the value `place` on which the symbol may be."""
+    """The sides of the value `place` on which the symbol may be: 1 for larger values, -1 for smaller values."""
     known = range_of(x)
     if place in (oo, -oo):
         return (1,)

@@ -112,7 +112,8 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive for all roots omega to be real, distinct and nonzero."""
+        """Expressions that must be positive for all roots omega to be real and distinct, and nonzero unless
+        `mirrored`."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients

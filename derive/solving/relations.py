@@ -134,8 +134,11 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown u; for u^2 if the difference contains only u^2
-    and u or the value of u^2 may be negative."""
+    """The relation between a difference and zero, solved for an unknown u.
+
+    If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
+    negative, the root is then taken on both sides.
+    """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):

@@ -111,7 +111,7 @@ def _turned(factor: Expr, x: Symbol) -> list[Zero]:
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
     """Sort key: zeros without a condition come before zeros with a condition; in each group 0 comes first, then pi,
-    then all other values."""
+    then values without a minus sign in front, then all other values."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)

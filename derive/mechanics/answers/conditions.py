@@ -179,7 +179,8 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
-    """Whether the signs alone show that the left side is greater than the right side for all values."""
+    """Whether the signs of `alone` and `solved` suffice to show that `alone` is greater than `solved` for all
+    values."""
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 

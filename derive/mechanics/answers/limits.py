@@ -207,7 +207,8 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:
-    """Check that near the limit all inequalities assumed on the page hold for some values of the other symbols."""
+    """Check that the inequalities for this symbol that the page assumes can all hold near the limit, for some values of
+    the other symbols."""
     signs = {">": 1, "<": -1}
     kept = [with_numbers(each.residual * signs[each.operator[0]]) for each in assumed() if each.operator[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]

@@ -222,7 +222,8 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
     """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
     no symbol of a or c.
 
-    For example, u is S if -b = m l^2 S and the other coefficients contain m and l.
+    For example, u is S if -b = m l^2 S and the other coefficients contain m and l. If the sign of -b/u is unknown, the
+    roots have their tidy form.
     """
     own = [
         f

@@ -69,8 +69,8 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic
-    factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+    """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
+    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
     values     quantities for letters of the coefficients, substituted after the formula for both roots
@@ -88,7 +88,8 @@ def roots(
     following (a later root), none (no root is real), none_positive, none_reached (a sine or a cosine would be greater
     than 1 or less than -1); for both roots in one formula: two, none, double, conditional (the sign of b^2 - 4 a c
     depends on the symbols), opposite (one of each sign), linear.
-    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two.
+    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two;
+    no root is in the range of the unknown.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
     unknown = unknown_of("roots", letter)
@@ -281,7 +282,7 @@ def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
 
 
 def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
-    """Whether no angle has the root as its sine or cosine."""
+    """Whether it is known that no angle has the root as its sine or cosine."""
     return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
 
 

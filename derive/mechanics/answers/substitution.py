@@ -80,8 +80,8 @@ def put_in(
     """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each of which replaces its letter; equations whose left side is only a letter, a rate, the square
-             of a rate, or a cosine; mappings of letters or coordinates to values
+    others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
+             power, sine, cosine or tangent of one; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
 
@@ -92,7 +92,7 @@ def put_in(
     this earlier result.
     A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
     back. If the motion reaches the place only under a condition, the sentence states this condition.
-    Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
+    Outcomes: results, values (letters only), zero (the value is zero), identity (an equation that always holds after
     the substitution), again, turned (a rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
@@ -414,7 +414,11 @@ def _check_holds(of: Quantity, result: Any) -> None:
 
 
 def _name(of: Quantity, symbol: str | None) -> Any:
-    """Return the symbol of the original; if this symbol is a derivative, return a symbol made from the key."""
+    """Return the symbol of the result: the requested symbol or, by default, the symbol of the original.
+
+    If the symbol of the original cannot be solved for, such as a derivative, the result has the key as its symbol. A
+    relation has no symbol.
+    """
     if isinstance(of.value, Relation):
         return None
     if symbol is not None:
@@ -428,7 +432,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol inside the name of the result; the magnitude |q_dot| is that of its own value."""
+    """Return the value of theta_dot if the result is named theta_dot^2; nothing if the name is only a symbol. For the
+    name |q_dot|, the value of q_dot is the result, whose magnitude is then |q_dot|."""
     if isinstance(name, Abs):
         return {name.args[0]: result}
     return {} if name is None or isinstance(name, Symbol | MatrixSymbol) else dict(meaning(name, result))

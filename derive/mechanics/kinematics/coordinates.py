@@ -166,7 +166,7 @@ def kind_of_rate(kind: str) -> str:
 
 
 def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """Replace each coordinate by a function of time, and its rates by derivatives of this function."""
+    """Replace each coordinate by a function of time, and its first two rates by derivatives of this function."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -203,7 +203,10 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # the second routes of one system all need the same series
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; likewise for each rate."""
+    """Return symbol -> coefficients of its Taylor series, for t, for each coordinate and for its rates.
+
+    The series of q is q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the series of t is t + s.
+    """
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:
         rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
@@ -235,7 +238,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
-    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the x of a motion x(t) does not count
+    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself
 
     def by_time() -> Expr:
         return by_functions_of_time(quantity.value, moving)
