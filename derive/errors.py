@@ -3,7 +3,7 @@
     DeriveError                 only errors of this class reach the command line
     ├── Rejected                errors in a file of the author; as many as possible at once
     ├── Unverified              a step whose lines or second route disagree
-    ├── BuildFailed             TeX, the disk, a time limit: the outside world
+    ├── BuildFailed             TeX, the disk or a time limit stopped the build
     └── Misused                 the command line itself was wrong (exit code 2)
 
 A `Complaint` is one error as data; only `shown()` turns it into text. `OutOfTime` is not a `DeriveError`, so that code

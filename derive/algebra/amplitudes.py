@@ -90,7 +90,7 @@ def inverse_of(matrix: MatrixBase) -> MatrixBase:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by expansion along the first row; each minor of the rows below is computed once.
+    """The determinant by expansion along the rows; each minor of the lower rows is computed only once.
 
     Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """

@@ -21,7 +21,7 @@ from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 __all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_linear_in_some_letter", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
-PHASE = 2  # number of bits below the bits of the symbols
+PHASE = 2  # number of bits of a monomial before the bits of the first symbol
 
 
 class Coefficient(NamedTuple):

@@ -248,8 +248,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number. Its factor without angles and its factor of sines and cosines stay separate if
-    the tidy form of the second factor contains no sum."""
+    """Tidy a coefficient times a number. The factor of the coefficient without angles and the factor of sines and
+    cosines stay separate if the tidy form of the second factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):

@@ -65,8 +65,8 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points: before the exact decision, and after it if it failed
-TURNS = 400  # greatest number of points drawn to find a point at which a sign differs
+FIRST, POINTS = 2, 26  # numbers of points that are compared before the exact method, and after it if it fails
+TURNS = 400  # greatest number of points drawn in search of a point where an `Abs` or `sign` has another sign
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols

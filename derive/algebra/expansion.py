@@ -36,7 +36,7 @@ from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
 HIGHEST = 10  # highest order of a derivative
-LARGEST = 4000  # most operations of an expression that is expanded
+LARGEST = 4000  # greatest number of operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
 SPOILT = (nan, zoo, oo, -oo, AccumBounds)
 

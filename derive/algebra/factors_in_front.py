@@ -111,7 +111,7 @@ def _is_of_letters(angle: Expr) -> bool:
 
 
 def _root(value: Expr, sign: int) -> Product:
-    """A power with a fractional exponent: x^(3/2) is the third power of the root of x."""
+    """The value as a product, or 1/value if `sign` is -1: x^(3/2) is the third power of the root of x."""
     if value.is_Rational:
         return Product(value**sign, {})
     base, power = decompose_power(value)

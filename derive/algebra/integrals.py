@@ -46,8 +46,8 @@ def antiderivative(value: Expr, x: Symbol) -> Expr | None:
 
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
-    """The terms of the value, each split into a factor without x and a factor with x. Products of sines and cosines of
-    x become sums, except odd powers, which a substitution integrates."""
+    """The terms of the value, each split into a factor without x and a factor with x. A product of sines and
+    cosines becomes a sum, unless an odd power in it allows the integration by a substitution."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)

@@ -165,7 +165,7 @@ def _product_of_units(dimension: Dimension) -> str:
 class Asked:
     """The type of a parameter of `solve()`: a quantity of a kind, or `count` quantities of this kind.
 
-    letters   symbols for quantities that are given as numbers
+    letters   symbols that a page can use for quantities that are given as numbers
     bounds    the least and the greatest allowed angle, in degrees
     """
 

@@ -21,7 +21,7 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-PRIME = 2**31 - 1  # the prime modulus of all images of polynomials
+PRIME = 2**31 - 1  # polynomials are compared modulo this prime
 
 __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 

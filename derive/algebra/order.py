@@ -16,7 +16,7 @@ from math import prod
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
 PARTS = 12  # number of sizes that are tried for an amount; each is an eighth of the previous size
-LARGEST = 400  # most operations of an expression that is expanded after symbols are replaced
+LARGEST = 400  # greatest number of operations of an expression that is expanded after symbols are replaced
 
 SignOf = Callable[[Expr], int | None]
 
@@ -31,8 +31,7 @@ class Order:
 
     positive   differences that are assumed to be greater than zero
     replaced   symbol -> its value by a relation, in terms of amounts and of symbols that are not replaced
-    amounts    symbol -> the amount that this relation introduces: positive, or not negative if the relation is not
-               strict
+    amounts    replaced symbol -> the amount in its value: positive, or not negative if the relation is not strict
     """
 
     positive: tuple[Expr, ...] = ()

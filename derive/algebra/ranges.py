@@ -58,7 +58,7 @@ class Range:
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
-LARGEST = 200  # most operations of a sum in which squares of sines and cosines are replaced
+LARGEST = 200  # greatest number of operations of a sum in which squares of sines and cosines are replaced
 POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  the default is never changed

@@ -232,7 +232,7 @@ def as_sympy(x: Any) -> Expr:
 
 _OF_ZERO = -(10**30)
 _LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
-_MOST = 60  # most bits of the integer part of a function's argument
+_MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits for any argument
 _ONE_ARGUMENT = {

@@ -179,8 +179,8 @@ class TrigRing(Ring):
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """The number of parts of the angle in `number` times the angle; `units` has the number of parts of one
-        angle."""
+        """`number` times the angle, as a number of parts of the angle; `units` has the number of parts into
+        which each angle is divided."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)

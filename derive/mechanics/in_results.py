@@ -142,7 +142,7 @@ def in_results(
 
     If the signature of a verb fits the keys, the verb itself is decorated. Otherwise the decorated function is next to
     the verb: its name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the
-    verb is called with plain values, and an equal call returns the earlier result.
+    arguments are checked, and in a run with a memory an equal call returns the earlier result.
     """
 
     def declared(function: F) -> F:

@@ -20,8 +20,8 @@ LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, None if the ranges of the symbols decide; and whether v is never in this
-    interval."""
+    """The condition for -1 < v < 1, and whether v is never in this interval. The condition is None if it is already
+    known whether v is in the interval."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)

@@ -36,7 +36,7 @@ from derive.steps.step import Quantity
 
 DISTANCES = ((Rational(1, 10**8), Rational(1, 10**9)), (Rational(1, 40), Rational(1, 80)))
 POINTS = 4
-SLOWEST = Rational(1, 6)  # least power of the distance with which a remainder must vanish; powers may be fractional
+SLOWEST = Rational(1, 6)  # the quotient in `rest_vanishes` must shrink at least as this power of the distance
 
 
 def entries_of(value: Any) -> list[Expr]:
@@ -172,7 +172,8 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder, divided by the power of the small quantity, is smaller at the closer distance.
+    """Whether the remainder, divided by the power of the small quantity, is sufficiently smaller at the closer
+    distance.
 
     The result is None if the remainder has no value.
     """

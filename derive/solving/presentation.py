@@ -37,7 +37,7 @@ ZERO = Integer(0)
 LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
 
 
-SHORT = 40  # number of operations up to which multiples of an angle are tried
+SHORT = 40  # greatest length of a value whose products of sines and cosines are written as sums
 
 
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:

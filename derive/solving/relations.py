@@ -27,7 +27,7 @@ class Isolated(NamedTuple):
 
 
 def mark_between(mark: str, sign: int | None) -> str | None:
-    """Turn the mark between a (x^n - v) and zero into the mark between x^n and v, given the sign of a.
+    """Turn the operator between a (x^n - v) and zero into the operator between x^n and v, given the sign of a.
 
     The result is None if an inequality would be divided by a factor of unknown sign.
     """

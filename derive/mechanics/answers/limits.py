@@ -93,8 +93,8 @@ def limiting_case(
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
-    motion does not reach the limit; the result has no such expansion (because it oscillates near the limit), has
-    different expansions on the two sides, or has no term up to the requested order.
+    motion does not reach the limit; the result has no such expansion (for example because it oscillates near the
+    limit), has different expansions on the two sides, or has no term up to the requested order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)

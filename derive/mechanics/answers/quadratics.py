@@ -123,8 +123,8 @@ def roots_together(
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
     """Return the coefficients of a quadratic or linear equation in x, both in letters and with values substituted.
 
-    The second result is the value of the factor of the left side that does not contain x. The sign is chosen so that
-    the first coefficient has no minus sign.
+    The second result is the value of the factor of the left side that does not contain x. The signs of the
+    coefficients are chosen so that the first coefficient has no minus sign.
     """
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))

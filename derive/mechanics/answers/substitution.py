@@ -416,7 +416,7 @@ def _check_holds(of: Quantity, result: Any) -> None:
 def _name(of: Quantity, symbol: str | None) -> Any:
     """Return the symbol of the result: the requested symbol or, by default, the symbol of the original.
 
-    If the symbol of the original cannot be solved for, such as a derivative, the result has the key as its symbol. A
+    If the symbol of the original cannot be solved for, such as a derivative, the key of the original is the symbol. A
     relation has no symbol.
     """
     if isinstance(of.value, Relation):
@@ -432,8 +432,10 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of theta_dot if the result is named theta_dot^2; nothing if the name is only a symbol. For the
-    name |q_dot|, the value of q_dot is the result, whose magnitude is then |q_dot|."""
+    """Return a mapping from the symbol in the name of the result to its value: from theta_dot for the name theta_dot^2.
+
+    For the name |q_dot|, q_dot has the value of the result. The mapping is empty if the name is only a symbol.
+    """
     if isinstance(name, Abs):
         return {name.args[0]: result}
     return {} if name is None or isinstance(name, Symbol | MatrixSymbol) else dict(meaning(name, result))

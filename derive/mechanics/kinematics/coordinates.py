@@ -50,7 +50,7 @@ class Coordinate:
 
     symbol: Symbol
     kind: str
-    held_as: ClassVar[str] = "COORDINATE"  # the kind of value in `results:` for such an argument
+    held_as: ClassVar[str] = "COORDINATE"  # the name of the member of `Holds` for an argument of this type
 
     def _sympy_(self) -> Symbol:
         return self.symbol
@@ -120,7 +120,8 @@ def require_all_times(verb: str, quantity: Quantity) -> None:
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """Return a real coordinate with this name; `positive` is for one that cannot be negative, such as a distance."""
+    """Return a real coordinate with this name; `positive` is for a coordinate that is always positive, such as a
+    distance."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
