@@ -279,8 +279,8 @@ def spread(value: Expr) -> Expr:
     """Move a numerical denominator into a sum if this leaves a term without a denominator: I + M a^2/4, not
     (4 I + M a^2)/4.
 
-    The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler; so is the fraction
-    (2 M + m) l/(2 (M + m)), whose numerator would have a fraction in it.
+    The form a (3 g - 2 l omega^2)/6 is kept, because a (g/2 - l omega^2/3) is not simpler. The fraction
+    (2 M + m) l/(2 (M + m)) is also kept, because the denominator contains another sum.
     """
     return _spread(tidied(value))
 

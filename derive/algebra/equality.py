@@ -1,7 +1,7 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
 proved          decided exactly, by `derive.algebra.normal_form`
-sampled         both sides agree at random rational points, but no exact method decided
+sampled         both sides agree at random points, but no exact method decided
 refuted         the sides differ, or they cannot be compared
 definition      nothing is compared: the line defines a symbol
 approximation   a rounded value or a series, whose error is checked separately

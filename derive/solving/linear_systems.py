@@ -563,8 +563,8 @@ class Gyroscopic(LinearSystem):
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
         """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1.
 
-        The result is None if there is not exactly one column, or if an amplitude is neither real nor imaginary. For a
-        growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
+        nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None

@@ -62,8 +62,8 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     """The condition v > 0 without positive factors, solved for `letter` or for the only symbol with a square, if
     possible.
 
-    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in R omega^2 > g;
-    any other v is compared with zero.
+    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in M g > k l.
+    Any other v is compared with zero.
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b

@@ -46,7 +46,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
-    within   its interval; by default all values that the letter can have
+    within   the interval of the letter; by default all values that the letter can have
     Check: the value at the maximum is compared with the values at other places of the interval.
     Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
     Errors: no place, or more than one, has zero slope and this sign of the curvature; the places with zero slope have
@@ -67,7 +67,7 @@ def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minim
     """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
-    within   its interval; by default all values that the letter can have
+    within   the interval of the letter; by default all values that the letter can have
     Check: as `maximum`.
     Errors: as `maximum`.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
@@ -174,8 +174,8 @@ def _range_as_interval(x: Symbol) -> Within | None:
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Return the conditions for the place to be real and to lie inside the interval, each under its role in the
-    phrase."""
+    """Return the conditions for the place to be real and to lie inside the interval, each with the name of its
+    placeholder in the phrase."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 

@@ -231,14 +231,14 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion by the chain rule, dx/dt = sum of dx/dq q_dot.
 
     quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
-    Check: differentiate with each coordinate as its Taylor series in t.
+    Check: differentiate with each coordinate replaced by its Taylor series in t.
     Outcomes: generic, zero.
     Errors: the symbol of the quantity is not a plain symbol; the quantity is known at one instant only.
     Source: Taylor, *Classical Mechanics*, section 7.1.
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no single symbol, so its rate has none"))
     moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself
 
     def by_time() -> Expr:
