@@ -80,6 +80,7 @@ class ResultKey:
 @dataclass(frozen=True)
 class ResultVerb:
     """A verb of `results:`.
+
     name       the key that names the verb; its value is the first argument
     yields     a description of the result, for the manual
     function   a function of the values of the keys; its argument `key` is the name of the result

@@ -71,14 +71,15 @@ def where(
     """Condition for a quantity to be greater than, less than or equal to a bound, solved for one letter: v > 0 where
     R > a/2.
 
-    of       a scalar, any unit
-    mark     the comparison sign: one of =, !=, <, >, <=, >=
-    bound    the bound, of the same unit; 0, or another quantity
-    letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; quantity minus bound is linear in the
-             unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved for one
-             of the letters of this expression
-    through  the same condition in other letters, for an intermediate line, and the results that these letters denote
-    for_real whether the quantity is a discriminant and the condition is for real roots
+    of        a scalar, any unit
+    mark      the comparison sign: one of =, !=, <, >, <=, >=
+    bound     the bound, of the same unit; 0, or another quantity
+    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound is linear in the
+              unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved for
+              one of the letters of this expression
+    through   the same condition in other letters, for an intermediate line, and the results that these letters denote
+    for_real  whether the quantity is a discriminant and the condition is for real roots
+
     Check: the sign of quantity minus bound, for an unknown at, just above and just below the right side of the solved
     relation; at random points, the original and the solved relation are both true or both false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.

@@ -44,9 +44,11 @@ Within = tuple[Expr, Expr]
 )
 def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
     """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
+
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
     within   the interval of the letter; by default all values that the letter can have
+
     Check: the value at the maximum is compared with the values at other places of the interval.
     Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
     Errors: no place, or more than one, has zero slope and this sign of the curvature; the places with zero slope have
@@ -65,9 +67,11 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 )
 def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
     """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
+
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
     within   the interval of the letter; by default all values that the letter can have
+
     Check: as `maximum`.
     Errors: as `maximum`.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.

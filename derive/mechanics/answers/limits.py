@@ -79,6 +79,7 @@ def limiting_case(
     symbol: str | None = None,
 ) -> Quantity:
     """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
+
     of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, for the limit
              of the right side; or another equation, which `equation_in_limit` expands
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
@@ -289,6 +290,7 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
 
     found   the result in a limiting or a special case, any unit
     known   the same quantity from an independent derivation
+
     Second route: the known result, entry by entry.
     Outcomes: generic.
     Errors: the two results are not equal; one of them is derived from the other.
@@ -330,6 +332,7 @@ def case_in_letters(
     found    the result in a limiting or a special case, any unit
     formula  the same result in letters
     values   the earlier results that these letters denote
+
     Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.
     Errors: the formula and the limiting case are not equal.

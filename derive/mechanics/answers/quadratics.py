@@ -96,6 +96,7 @@ def roots_together(
     key        the key of the step with both roots
     keys       the keys of the separate roots
     symbols    the symbols of the separate roots
+
     The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
     Check: each root substituted into the equation; the sum and the product of the roots.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -167,6 +168,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
     of         the coefficients of the equation, and the quantities for letters in these coefficients
     apart      the factor of the left side that does not contain x
     keys       the requested keys; for a linear equation, all of them denote this step
+
     Check: each root substituted into the equation; the sum of the two roots is -b/a.
     Outcomes: two, none, double, conditional (the sign of b^2 - 4 a c depends on the symbols), opposite (two roots, one
     of each sign), linear.
@@ -386,6 +388,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
     roots   a root that `roots` returned with `together`
+
     Check: the resultant of a x^2 + b x + c and its derivative is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
@@ -420,6 +423,7 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     roots      a root that `roots` returned with `together`
     letter     the letter to solve for
     distinct   whether two distinct roots are required, b^2 - 4 a c > 0
+
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
     substituted in the equation, the condition is first shown in letters.
     Check: as `where`.

@@ -71,6 +71,7 @@ def roots(
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
     each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
     values     quantities for letters of the coefficients, substituted after the formula for both roots
@@ -80,6 +81,7 @@ def roots(
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
+
     Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
     If cos(theta) is the unknown, a factor such as sin(theta) is split off; the page states the equation sin(theta) = 0

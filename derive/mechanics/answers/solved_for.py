@@ -44,6 +44,7 @@ def solved_for(
     equations   one equation or several
     unknowns    letters, rates, accelerations (`x.acceleration`), or expressions such as `theta.rate**2`, `cos(theta)`
     keys        keys of the steps; by default the letters of the unknowns
+
     Check: all values substituted back into all equations; elimination of the unknowns one after another.
     Outcomes: alone (one equation), several (the first of several unknowns), following (a later unknown).
     Errors: the numbers of equations and of unknowns differ; the equations are not linear in the unknowns, or do not

@@ -45,6 +45,7 @@ class Coordinate:
 
     symbol   the symbol of the coordinate
     kind     kind of quantity: `angle`, `length` and so on
+
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
 
@@ -133,6 +134,7 @@ def function_of_time(name: str, kind: str = "length", positive: bool = False) ->
     name      the symbol of the function; for X, the rates are X_dot and X_ddot, in a script `X.rate()` and `X.rate(2)`
     kind      the kind of its values: `length`, `angle`, `force` and so on
     positive  whether its values are known to be positive, as for the length of a string
+
     A prescribed function is not an unknown: it has no equation of motion, and its derivative with respect to a
     coordinate vanishes.
     Source: Landau, Lifshitz, *Mechanics*, section 5.
@@ -231,6 +233,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion by the chain rule, dx/dt = sum of dx/dq q_dot.
 
     quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
+
     Check: differentiate with each coordinate replaced by its Taylor series in t.
     Outcomes: generic, zero.
     Errors: the symbol of the quantity is not a plain symbol; the quantity is known at one instant only.
