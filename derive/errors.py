@@ -148,8 +148,10 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that was probably meant, if there is one: at most one letter in three may be wrong,
-    and one letter of a shorter name with at least two letters."""
+    """Return the candidate that was probably meant, if there is one.
+
+    At most one letter in three may be wrong; in a name of two letters, one letter may be wrong.
+    """
     import difflib  # imported here, because only errors need this module
 
     written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}

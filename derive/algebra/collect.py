@@ -67,8 +67,9 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction; None if no |u| is a
-    divisor, or if the value is not a polynomial in these directions.
+    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
+
+    The result is None if no |u| is a divisor, or if the value is not a polynomial in these directions.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """

@@ -85,8 +85,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """The sorts of comparison: of two lines of a calculation; of the result with a second route, a check or a simulated
-    motion; or none."""
+    """The sorts of comparison. Either two lines of a calculation are compared, or the result is compared with a second
+    route, a check or a simulated motion, or nothing is compared."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -235,8 +235,10 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """Look for a point where the sides differ, among points at which an argument of `Abs` or `sign` has another sign
-    than at all the points `seen`; None if no such point is found."""
+    """Look for a point where the sides differ; None if no such point is found.
+
+    Only points are tried at which an argument of `Abs` or `sign` has another sign than at all the points `seen`.
+    """
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}

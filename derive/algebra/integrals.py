@@ -192,8 +192,11 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 
 
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
-    """Whether w >= 0 between the limits: by the assumptions of its symbols, because w is a square root, or because w is
-    linear in one variable and non-negative at both limits of this variable."""
+    """Whether it is known that w >= 0 between the limits.
+
+    This is known from the assumptions of the symbols in w, if w is a square root, or if w is linear in one variable of
+    integration and non-negative at both limits of this variable.
+    """
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True
     inside = [limit for limit in outer if w.has(limit[0])]

@@ -33,8 +33,11 @@ def in_lowest_terms(value: Expr) -> Expr:
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """Other forms of the fraction, if they differ from it: with 1 - cos^2 and 1 - sin^2 written as squares, with sin^2
-    replaced by 1 - cos^2, and with cos^2 replaced by 1 - sin^2."""
+    """Other forms of the fraction; a form that equals the fraction itself is left out.
+
+    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. If the fraction has sines and cosines, sin^2 is
+    replaced by 1 - cos^2 in a second form, and cos^2 by 1 - sin^2 in a third form.
+    """
     ring = _ring()
     plain = ring.fraction(product_of(value))
     turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]

@@ -102,8 +102,8 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether a form is real, contains each quantity, and has no sum with two terms of which one is a quantity and the
-    other a symbol of the formula for this quantity.
+    """Whether a form is real, contains each quantity, and has no sum in which one term is a quantity and another term
+    is a symbol of its formula.
 
     If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
     """

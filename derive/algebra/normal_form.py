@@ -124,8 +124,8 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each group of terms of angles with rational ratios: the largest angle such that all terms of the group are
-    whole multiples of it, and a dummy symbol for this angle."""
+    """For each group of terms of angles with rational ratios, the largest angle of which all these terms are whole
+    multiples, and a dummy symbol for it."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

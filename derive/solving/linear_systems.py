@@ -134,10 +134,10 @@ class Factor:
 class CharacteristicRoot:
     """A root of the characteristic equation.
 
-    value     lambda = omega^2 of a conservative system; the frequency or the rate of growth of a gyroscopic system; the
-              rate of decay of a damped system, which is b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a quadratic factor of a damped system,
-              -1 if the motion is overdamped; for a rate of decay b/a the sign of this rate; None if the sign is unknown
+    value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
+              For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a quadratic
+              factor of a damped system, -1 if the motion is overdamped. For a rate of decay b/a, the sign of this rate
     columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
               0 if this is unknown

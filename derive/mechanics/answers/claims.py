@@ -168,8 +168,8 @@ def absent(facts: Judged) -> bool:
 
 
 def beyond_one(facts: Judged) -> bool:
-    """Whether the left side is greater than 1 at all trial numbers if the result is an inequality with >, and less than
-    -1 at all of them for any other result."""
+    """Whether the left side of the result is beyond 1 at all trial numbers: greater than 1 for an inequality with >,
+    less than -1 for any other inequality."""
     side = 1 if facts.result.operator == ">" else -1
     return signs_of(side * with_numbers(facts.result.left) - 1) == {1}
 
@@ -507,9 +507,11 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and the sentence compares
-    the quantity with the bound, not the bound with the quantity. A sentence on real roots must be about a
-    discriminant."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=.
+
+    The sentence must compare the quantity with the bound, not the bound with the quantity. A sentence on real roots
+    must be about a discriminant.
+    """
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -522,8 +524,8 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the conditions in the sentence are exact: the place of an extremum is real and lies between the ends of
-    the interval for exactly those values of the symbols for which the sentence says so."""
+    """Whether the conditions in the sentence are exact: for exactly those values of the symbols for which they hold,
+    the place of the extremum is real and lies between the ends of the interval."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 

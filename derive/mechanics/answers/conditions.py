@@ -74,9 +74,9 @@ def where(
     of        a scalar, any unit
     mark      the comparison sign: one of =, !=, <, >, <=, >=
     bound     the bound, of the same unit; 0, or another quantity
-    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound is linear in the
-              unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved for
-              one of the letters of this expression
+    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound is linear in
+              the unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved
+              for one of the letters of this expression
     through   the same condition in other letters, for an intermediate line, and the results that these letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 

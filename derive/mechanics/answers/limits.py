@@ -80,8 +80,8 @@ def limiting_case(
 ) -> Quantity:
     """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
 
-    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, for the limit
-             of the right side; or another equation, which `equation_in_limit` expands
+    of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
+             limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order    the highest power of the small quantity that is kept; by default only the leading term
