@@ -1,4 +1,5 @@
-"""The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for them.
+"""The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for
+given quantities.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
 (`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three.

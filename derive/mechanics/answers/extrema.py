@@ -50,9 +50,10 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     within   the interval of the letter; by default all values that the letter can have
 
     Check: the value at the maximum is compared with the values at other places of the interval.
-    Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
-    Errors: no place, or more than one, has zero slope and this sign of the curvature; the places with zero slope have
-    no closed form.
+    Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
+    letters.
+    Errors: no place, or more than one, has zero slope and the required sign of the curvature; the places
+    with zero slope have no closed form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -162,7 +163,7 @@ def _extremum(
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
     """Return the error for no suitable place, or for more than one."""
     many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} with zero slope and this curvature"
+    message = f"`{verb}`: `{of.key}` has {many} with zero slope and the curvature of a {verb}"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"

@@ -220,7 +220,7 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
                 return
     if conditions:
         message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
-        help_line = "leave that relation out of `assume:`, or give another limit"
+        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give another limit"
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 
