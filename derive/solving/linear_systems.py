@@ -299,7 +299,7 @@ class Conservative(LinearSystem):
             message = f"the squares of {factor.degree} frequencies are the roots of a polynomial that does not factor"
             help_ = "use one symbol for equal masses or equal springs, or give numbers to all masses and springs"
             if self.name:
-                help_ = "numbers suffice only about a stable equilibrium, and for only one such polynomial"
+                help_ = "numbers help only about a stable equilibrium, and only if there is one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(factor.degree)]
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]

@@ -115,7 +115,7 @@ def test_what_has_no_letter_takes_no_dot() -> None:
 
 
 def test_a_quantity_of_several_coordinates_or_of_none_has_no_single_one() -> None:
-    with pytest.raises(Rejected, match="`y` must depend on one coordinate, but has theta, x"):
+    with pytest.raises(Rejected, match="`y` must depend on one coordinate, but depends on theta, x"):
         slope(position("y", x * sin(q), THETA, X))
-    with pytest.raises(Rejected, match="`y` must depend on one coordinate, but has none"):
+    with pytest.raises(Rejected, match="`y` must depend on one coordinate, but depends on none"):
         slope(position("y", c, THETA))

@@ -112,7 +112,8 @@ def roots_together(
     if real == 0:
         return (_one_of_two(both, larger, "coinciding", names[0], None, names[1:]),) * len(names)
     if len(names) != 2:
-        raise Rejected(Complaint("wrong-argument", f"`roots`: `{equation.key}` has 2 roots here, not {len(names)}"))
+        message = f"`roots`: `{equation.key}` has 2 roots here, but the number of keys is {len(names)}"
+        raise Rejected(Complaint("wrong-argument", message))
     letters = symbols or ("", "")
     words = _by_size(of.quadratic, real)
     return tuple(
@@ -140,7 +141,7 @@ def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> 
     here, beside = general.with_values(known), tidied(bound(apart, known))
     if is_zero(beside) or (here.a == 0 and here.b == 0):
         message = f"`roots`: `{equation.key}` does not depend on {x.name} here"
-        help_line = f"{apart} = 0 there" if is_zero(beside) else None
+        help_line = f"its factor {apart} is zero for these values" if is_zero(beside) else None
         raise Rejected(Complaint("no-roots", message, help=help_line))
     return Roots(general, here, x, tuple(values)), beside
 

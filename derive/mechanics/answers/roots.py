@@ -117,7 +117,8 @@ def roots(
     kept = _ascending(kept)
     names = list(keys or _names(unknown, len(kept), key))
     if len(names) != len(kept):
-        message = f"`roots`: `{equation.key}` has {len(kept)} root{'s' * (len(kept) > 1)} here, not {len(names)}"
+        count = f"{len(kept)} root{'s' * (len(kept) > 1)}"
+        message = f"`roots`: `{equation.key}` has {count} here, but the number of keys is {len(names)}"
         raise Rejected(Complaint("wrong-argument", message))
     letters = list(symbols or [""] * len(kept))
     if len(letters) != len(kept):
@@ -448,7 +449,7 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         return found[int(which) - 1]
     if which not in CHOICES:
         help_line = did_you_mean(which, CHOICES) or f"it is {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
-        message = f"`{which}` does not specify which root"
+        message = f"`{which}` is not a choice of a root"
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:
@@ -462,5 +463,5 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
 
 def _no_choice(which: str, why: str, found: Sequence[Quantity]) -> Rejected:
     values = ", ".join(str(explicit(root.value)) for root in found)
-    message = f"`root: {which}` does not specify which root: {why}"
+    message = f"`root: {which}` does not determine one root: {why}"
     return Rejected(Complaint("no-root", message, help=f"the roots are {values}", argument="root"))

@@ -265,7 +265,8 @@ def only_coordinate(quantity: Quantity) -> Symbol:
     found = [q for q in quantity.coordinates if quantity.value.has(q, rate(q), rate(q, 2))]
     if len(found) != 1:
         names = ", ".join(q.name for q in found) or "none"
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` must depend on one coordinate, but has {names}"))
+        message = f"`{quantity.key}` must depend on one coordinate, but depends on {names}"
+        raise Rejected(Complaint("wrong-argument", message))
     return found[0]
 
 
@@ -274,7 +275,7 @@ def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quanti
     if q.symbol not in coordinates:
         known = ", ".join(s.name for s in coordinates) or "none"
         message = f"`{verb}`: `{quantity.key}` does not depend on the coordinate {q.symbol.name}"
-        raise Rejected(Complaint("wrong-argument", message, help=f"it has {known}"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"it depends on {known}"))
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
