@@ -80,12 +80,13 @@ def where(
     through   the same condition in other letters, for an intermediate line, and the results that these letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
-    Check: the sign of quantity minus bound, for an unknown at, just above and just below the right side of the solved
-    relation; at random points, the original and the solved relation are both true or both false.
+    Check: the sign of quantity minus bound, for an unknown at the right side of the solved relation and at any
+    distance above it. If the two relations differ by a factor of unknown sign, also random points: the original and
+    the solved relation are both true or both false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
-    equal (the two sides are equal, so a requested strict inequality never holds).
+    equal (the two sides are equal, so the requested <, > or != never holds).
     Errors: the relation cannot be solved for that letter; an unknown comparison sign.
     Source: none needed: algebra of inequalities.
     """

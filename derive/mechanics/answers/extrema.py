@@ -49,7 +49,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     letter   the variable: an angle, a frequency, a length
     within   the interval of the letter; by default all values that the letter can have
 
-    Check: the value at the maximum is compared with the values at other places of the interval.
+    Check: the slope vanishes at the place; no value at other places of the interval is greater (less, for a minimum).
     Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
     letters.
     Errors: no place, or more than one, has zero slope and the required sign of the curvature; the places

@@ -98,7 +98,8 @@ def roots_together(
     symbols    the symbols of the separate roots
 
     The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
-    Check: each root substituted into the equation; the sum and the product of the roots.
+    Check: each root substituted into the equation; the sum of the roots; the equivalent form of each root,
+    2 c/(-b -+ sqrt(b^2 - 4 a c)).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)

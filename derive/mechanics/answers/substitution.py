@@ -92,8 +92,9 @@ def put_in(
     this earlier result.
     A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
     back. If the motion reaches the place only under a condition, the sentence states this condition.
-    Outcomes: results, values (letters only), zero (the value is zero), identity (an equation that always holds after
-    the substitution), again, turned (a rate that has changed its sign).
+    Outcomes: results (with results), values (with values only), zero (the value is zero), identity (an equation that
+    always holds after the substitution), again (an earlier result is reproduced), turned (a rate that has changed its
+    sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
