@@ -1,9 +1,9 @@
 """Definite integrals of the few kinds that solids need, evaluated exactly and fast.
 
-    powers              x^q, including 1/x
-    with powers         x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
-    sines and cosines   sin(m x), cos(n x) and their products, over any limits
-    chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
+    powers     x^q, including 1/x
+    products   x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
+    sines      sin(m x), cos(n x) and their products, over any limits
+    chords     y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
 SymPy's own integrator is slow for most of these kinds, and gives a wrong result or none for chords. For any other
 integral the functions of this module return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,

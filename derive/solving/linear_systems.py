@@ -5,8 +5,8 @@ motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this
 system:
 
 conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real
-gyroscopic     without C: a polynomial in omega^2. Often it is the product of a factor in omega and the mirror image of
-               this factor, one for each sense of rotation; the roots of such a factor are simpler
+gyroscopic     without C: a polynomial in omega^2. Often it is the product of a polynomial in omega and the mirror image
+               of this polynomial, one for each sense of rotation. The roots then have simpler formulas
 damped         a polynomial in s, which is solved if each of its factors is linear or quadratic
 """
 

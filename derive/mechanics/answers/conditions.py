@@ -215,6 +215,9 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     the bound, and for an unknown at any distance d > 0 above the bound. Its last three entries are 1 or 0: whether the
     solved relation holds above, at and below the bound. The second vector has the values that the sign of the
     difference requires.
+
+    If this sign is unknown above the bound, the result is the difference at the bound, and zero. If a positive symbol
+    would have a negative bound, the result is 1 and 0, so the check fails.
     """
     alone, place = found.sides
     d = Dummy("d", positive=True)
