@@ -1,4 +1,5 @@
-"""Encode an expression as nested lists and decode it unchanged: `["Mul", ["Rational", 13, 12], ["Symbol", ...]]`.
+"""Encode an expression as nested lists, and decode the lists into the same expression: `["Mul", ["Rational", 13, 12],
+["Symbol", ...]]`.
 
 Decoding builds objects of the listed classes only; nothing is evaluated from text.
 """

@@ -73,7 +73,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             return question(ring)
         except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
-            if units[finer.angle] > PARTS:  # earlier questions must not affect the answer
+            if units[finer.angle] > PARTS:  # restart, so that earlier questions do not affect the answer
                 if has_restarted:
                     raise Outside from None
                 units, has_restarted = {finer.angle: finer.parts}, True
@@ -179,8 +179,8 @@ class TrigRing(Ring):
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """`number` times the angle, as a number of parts of the angle; `units` has the number of parts into
-        which each angle is divided."""
+        """How many parts of the angle make up `number` times the angle; `units` says into how many parts each angle is
+        divided."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)

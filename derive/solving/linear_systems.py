@@ -1,10 +1,10 @@
-"""Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the shapes.
+"""Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the mode shapes.
 
 The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
 motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class of the
 system:
 
-conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real
+conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a can be real
 gyroscopic     without C: a polynomial in omega^2. Often it is the product of a polynomial in omega and the mirror image
                of this polynomial, one for each sense of rotation. The roots then have simpler formulas
 damped         a polynomial in s, which is solved if each of its factors is linear or quadratic
@@ -138,7 +138,7 @@ class CharacteristicRoot:
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a quadratic
               factor of a damped system, -1 if the motion is overdamped. For a rate of decay b/a, the sign of this rate
-    columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
+    columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
               0 if this is unknown
     """
@@ -520,7 +520,7 @@ class Gyroscopic(LinearSystem):
             value = _with_root(ways[0] * middle / (2 * a), ways[1] / (2 * a), root, by_terms=True)
             return CharacteristicRoot(value, real, factor, turn=turn)
 
-        if both_ways == -1:  # one root of each sign: the sizes do not depend on the sign of b
+        if both_ways == -1:  # one root of each sign: their absolute values do not depend on the sign of b
             return [found(middle, (-1, 1), -1), found(middle, (1, 1), 1)]
         forwards = self.sign(middle) == 1
         middle = middle if forwards else Abs(tidied(minus_b))

@@ -236,8 +236,8 @@ def as_let(equation: bool, reason: bool) -> Predicate:
 
 
 def near(*places: Any) -> Predicate:
-    """Judge whether terms are left out and the symbol goes to one of the limits `places`. Without limits, the symbol
-    must go to a finite value other than zero."""
+    """Judge whether terms are left out and the symbol goes to one of the limits `places`. If `places` is empty, the
+    symbol must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -317,7 +317,7 @@ def _says_what_is_kept(facts: Judged) -> bool:
 
 def leading(*places: Any) -> Predicate:
     """Judge whether no order is requested, terms are left out, and the symbol goes to one of the limits `places`.
-    Without limits, the symbol must go to a finite value other than zero."""
+    If `places` is empty, the symbol must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]

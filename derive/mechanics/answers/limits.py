@@ -78,7 +78,7 @@ def limiting_case(
     key: str | None = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
+    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x, -1/x or x - a.
 
     of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
              limit of the right side is found. Any other equation is expanded by `equation_in_limit`
