@@ -1,9 +1,9 @@
-"""All errors, as one tree, and how an error is shown.
+"""The errors that derive reports, as one tree, and how an error is shown.
 
-    DeriveError                 only errors of this class reach the command line
+    DeriveError                 the base class; most other exceptions are internal errors
     ├── Rejected                errors in a file of the author; as many as possible at once
-    ├── Unverified              a step whose lines or second route disagree
-    ├── BuildFailed             TeX, the disk or a time limit stopped the build
+    ├── Unverified              a check does not confirm a result: its lines or its second route disagree
+    ├── BuildFailed             TeX, the disk, a time limit or the system stopped the work
     └── Misused                 the command line itself was wrong (exit code 2)
 
 A `Complaint` is one error as data; only `shown()` turns it into text. `OutOfTime` is not a `DeriveError`, so that code
@@ -102,11 +102,12 @@ class Rejected(DeriveError):
 
 
 class Unverified(DeriveError):
-    """`establish()` refused a step: neighbouring lines or the second route disagree."""
+    """A check does not confirm a step, a part of a system or a figure: for example, neighbouring lines or the second
+    route disagree."""
 
 
 class BuildFailed(DeriveError):
-    """TeX, the disk or a time limit stopped the build; earlier outputs are unchanged."""
+    """TeX, the disk, a time limit or the operating system stopped the work; earlier outputs are unchanged."""
 
 
 class Misused(DeriveError):
