@@ -1,4 +1,4 @@
-"""The errors that derive reports, as one tree, and how an error is shown.
+"""All errors, as one tree, and how an error is shown.
 
     DeriveError                 the base class; most other exceptions are internal errors
     ├── Rejected                errors in a file of the author; as many as possible at once
