@@ -1,9 +1,9 @@
 """All errors, as one tree, and how an error is shown.
 
-    DeriveError                 only errors of this class reach the command line
-    ├── Rejected                errors in a file of the author, all of them at once
-    ├── Unverified              a step whose lines or second route disagree
-    ├── BuildFailed             TeX, the disk, a time limit: the outside world
+    DeriveError                 the base class; most other exceptions are internal errors
+    ├── Rejected                errors in a file of the author; as many as possible at once
+    ├── Unverified              a check does not confirm a result: its lines or its second route disagree
+    ├── BuildFailed             TeX, the disk, a time limit or the system stopped the work
     └── Misused                 the command line itself was wrong (exit code 2)
 
 A `Complaint` is one error as data; only `shown()` turns it into text. `OutOfTime` is not a `DeriveError`, so that code
@@ -102,11 +102,12 @@ class Rejected(DeriveError):
 
 
 class Unverified(DeriveError):
-    """`establish()` refused a step: neighbouring lines or the second route disagree."""
+    """A check does not confirm a step, a part of a system or a figure: for example, neighbouring lines or the second
+    route disagree."""
 
 
 class BuildFailed(DeriveError):
-    """TeX, the disk or a time limit stopped the build; earlier outputs are unchanged."""
+    """TeX, the disk, a time limit or the operating system stopped the work; earlier outputs are unchanged."""
 
 
 class Misused(DeriveError):
@@ -148,7 +149,10 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that was probably meant, if there is one: at most one letter in three may be wrong."""
+    """Return the candidate that was probably meant, if there is one.
+
+    At most one letter in three may be wrong; in a name of two letters, one letter may be wrong.
+    """
     import difflib  # imported here, because only errors need this module
 
     written, known = name.casefold(), {c.casefold(): c for c in reversed((*candidates,))}
@@ -161,7 +165,8 @@ def _most_slips(letters: int) -> int:
 
 
 def _slips(written: str, meant: str) -> int:
-    """Count the letters that are wrong, missing or too many; letters in another order count as one slip."""
+    """Count the letters that are wrong, missing or too many; a name with the same letters in another order has one
+    slip."""
     import difflib
 
     if sorted(written) == sorted(meant):
@@ -226,5 +231,5 @@ def _reading_order(complaint: Complaint) -> tuple[str, int, int]:
 
 
 def rejected(code: str, message: str, place: Place | None, help: str | None = None, *notes: str) -> NoReturn:
-    """Raise an error that stops the reading of a value; a surrounding `with faults:` collects the error."""
+    """Raise an error that stops the parsing of a value; a surrounding `with faults:` collects the error."""
     raise Rejected(Complaint(code, message, place, notes, help))

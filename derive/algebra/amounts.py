@@ -10,7 +10,7 @@ from sympy.core.symbol import Str
 from derive.algebra.dimensions import Dimension
 from derive.algebra.node import DimensionOf, MatrixNode, ScalarNode, TextOf, Value, explicit
 
-IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # the names of the degree
+IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # the names of the unit "degree"
 
 
 class Amount(ScalarNode):
@@ -23,7 +23,7 @@ class Amount(ScalarNode):
         return explicit(self.args[0]) * self.args[2]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        return None  # unknown here: the unit is checked when the file is read
+        return None  # unknown here: the unit is checked when the problem file is parsed
 
     def lowered(self, text: TextOf) -> str:
         return f"({text(self.args[0])}*{text(self.args[2])})"

@@ -49,8 +49,11 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a nonzero product with one entry from each row and column; None if every such product
-        vanishes. All nonzero products of this kind have the same dimension."""
+        """The dimension of a nonzero product with one entry from each row and column.
+
+        All such products are assumed to have the same dimension. The result is None if every such product vanishes, or
+        if the dimension of an entry is unknown.
+        """
         matrix = self.args[0]
         for entry in matrix:
             of(entry)
@@ -62,10 +65,10 @@ class Determinant(ScalarNode):
 
 
 def determinant_of(matrix: MatrixBase) -> Expr:
-    """Compute the expanded determinant in the polynomial ring of the symbols in the matrix, without division.
+    """Compute the determinant without division, in the ring of polynomials in the symbols of the matrix.
 
-    Each function and each root counts as a symbol. SymPy has no ring for functions and roots, and would otherwise
-    cancel after each step.
+    If an entry has a symbol in a denominator, the ring contains fractions. Each function and each root counts as a
+    symbol, because SymPy has no ring for functions and roots, and would otherwise cancel after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -87,7 +90,7 @@ def inverse_of(matrix: MatrixBase) -> MatrixBase:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by expansion along the first row; each minor of the rows below is computed once.
+    """The determinant by expansion along the rows; each minor of the lower rows is computed only once.
 
     Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """

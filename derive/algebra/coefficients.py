@@ -1,6 +1,6 @@
 """The coefficients of an expression that is a polynomial in some of its symbols.
 
-A ring of sparse polynomials multiplies the expression out, not SymPy's `expand`.
+A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out.
 Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
 """
 
@@ -21,15 +21,15 @@ from derive.algebra.sparse_polynomials import WIDTH, Form, Outside, Ring, Terms
 __all__ = ["Coefficient", "Expanded", "Outside", "coefficients", "is_linear_in_some_letter", "is_multiplied_out"]
 
 ONES = (1 << WIDTH) - 1
-PHASE = 2  # number of bits below the bits of the symbols
+PHASE = 2  # number of bits of a monomial before the bits of the first symbol
 
 
 class Coefficient(NamedTuple):
-    """The coefficient `whole` of one product of powers of the symbols; `terms` is the number of its terms.
+    """The coefficient of one product of powers of the symbols.
 
-    If the coefficient is a factor without angles times a factor of sines and cosines only, `angles` is the second
-    factor. `written(number, angles)` returns the product of a number, the first factor and a rewritten second factor,
-    with common factors in front.
+    `whole()` returns the coefficient, and `terms` is the number of its terms. If the coefficient is a factor without
+    angles times a factor of sines and cosines only, `angles` is the second factor. `written(number, angles)` returns
+    the product of a number, the first factor and a rewritten second factor, with common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -39,14 +39,15 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` means that no factorization is shorter."""
+    """A sum with the common factors of its terms in front; `is_prime` is true if it is known that no factorization is
+    shorter."""
 
     value: Expr
     is_prime: bool
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The tuples of powers of these symbols that occur in the value, the highest first, each with its coefficient.
+    """The tuples of powers of these symbols that occur in the value, in descending order, each with its coefficient.
 
     Raises `Outside` if the value is not a polynomial, or is too large.
     """
@@ -65,7 +66,8 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether the value is a sum of products of powers of symbols, sines and cosines."""
+    """Whether the value is a sum of products of numbers and positive powers of symbols, sines and cosines, without
+    brackets."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 
 
@@ -202,7 +204,7 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:
-    """The symbols and the number that all terms have in common, and the remaining terms."""
+    """The monomial and the number that all terms have in common, and the remaining terms."""
     lowest = reduce(_common, terms)
     content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
     return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
@@ -218,8 +220,10 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether some symbol appears in exactly one term, and there in its first power. The only factors of such a sum are
-    the common factors of its terms."""
+    """Whether some symbol appears in exactly one term, and there in its first power.
+
+    Such a sum is the product of the common factors of its terms and of one sum that cannot be factored.
+    """
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]

@@ -14,7 +14,7 @@ from derive.algebra.length import length
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 
-LONGEST_PRODUCT = 60  # number of signs up to which a sum is tested for being a product
+LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tried
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
@@ -23,7 +23,11 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:
-    """Collect the terms by the rates that they contain; `halves` writes (1/2)(...) q_dot^2."""
+    """Collect the terms by the rates that they contain.
+
+    highest   the highest order of the rates: 1 for velocities, 2 to include accelerations
+    halves    whether a squared rate may have the coefficient (1/2)(...), as in a kinetic energy
+    """
     if (directed := _by_directions(value)) is not None:
         plain, turning = directed
         return Add(*Add.make_args(by_rates(plain, moving, highest, halves)), *turning, evaluate=plain == 0)
@@ -63,8 +67,9 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction; None if no |u| is a
-    divisor.
+    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
+
+    The result is None if no |u| is a divisor, or if the value is not a polynomial in these directions.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
@@ -90,7 +95,7 @@ def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
 
 
 def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Avoid a common denominator that contains a coordinate: l^2/(m r^3) - G M m/r^2, not
+    """Avoid a common denominator that contains a coordinate, but no sine or cosine: l^2/(m r^3) - G M m/r^2, not
     (l^2 - G M m^2 r)/(m r^3)."""
     below = found.as_numer_denom()[1]
     return by_terms(value.expand()) if below.has(*moving) and not below.has(sin, cos) else found
@@ -180,7 +185,7 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The tuples of powers of these symbols that occur in the value, the highest first, each with its coefficient;
+    """The tuples of powers of these symbols that occur in the value, in descending order, each with its coefficient;
     empty if the value is not a polynomial in these symbols."""
     try:
         return coefficients(value, letters)
@@ -244,8 +249,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number. Its factor without angles and its factor of sines and cosines stay separate if
-    the tidy form of the second factor contains no sum."""
+    """Tidy a coefficient times a number. The factor of the coefficient without angles and the factor of sines and
+    cosines stay separate if the tidy form of the second factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -275,8 +280,8 @@ def spread(value: Expr) -> Expr:
     """Move a numerical denominator into a sum if this leaves a term without a denominator: I + M a^2/4, not
     (4 I + M a^2)/4.
 
-    The form (3 g - 2 l omega^2)/6 is kept, because g/2 - l omega^2/3 is not simpler; so is the fraction
-    (2 M + m) l/(2 (M + m)), whose numerator would have a fraction in it.
+    The form a (3 g - 2 l omega^2)/6 is kept, because a (g/2 - l omega^2/3) is not simpler. The fraction
+    (2 M + m) l/(2 (M + m)) is also kept, because the denominator contains another sum.
     """
     return _spread(tidied(value))
 
@@ -303,8 +308,10 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """Return one product or a sum of tidy terms, whichever is shorter. If the denominator of the value contains angles,
-    always return a sum. `others` are further forms of the value to choose from."""
+    """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value to
+    choose from. If the denominator contains a sine or cosine, the sum is returned: that of the first other form, if
+    there is one.
+    """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

@@ -14,7 +14,7 @@ Sign = Callable[[Expr], int | None]  # the sign 1, 0 or -1; None if it is unknow
 
 
 def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
-    """Whether all leading principal minors are positive."""
+    """Whether all leading principal minors are known to be positive."""
     return all(sign(minor) == 1 for minor in leading_minors(matrix))
 
 
@@ -24,8 +24,10 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 
 
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
-    """The least sign that the quadratic form takes: 1 if the form is positive definite, 0 if it is semidefinite, -1 if
-    the form is negative in some direction; None if the sign is unknown.
+    """The least sign that the quadratic form takes; None if this sign is unknown.
+
+    The sign is 1 for a positive definite form, 0 for a semidefinite form, and -1 if the form is negative in some
+    direction.
 
     The semidefinite case needs all principal minors, not only the leading ones.
     """

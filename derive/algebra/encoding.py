@@ -1,4 +1,5 @@
-"""Encode an expression as nested lists and decode it unchanged: `["Mul", ["Rational", 13, 12], ["Symbol", ...]]`.
+"""Encode an expression as nested lists, and decode the lists into the same expression: `["Mul", ["Rational", 13, 12],
+["Symbol", ...]]`.
 
 Decoding builds objects of the listed classes only; nothing is evaluated from text.
 """
@@ -62,7 +63,10 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """The fewest assumptions that give an equal symbol: SymPy does not record which assumptions were written."""
+    """Assumptions that give an equal symbol, because SymPy does not record which assumptions were written.
+
+    These are one of the usual sets if it suffices, and otherwise all assumptions that SymPy derived.
+    """
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -71,7 +75,8 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
 
 
 def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
-    """Return the expression that `encoded` wrote; raise ValueError for any other data."""
+    """Return the expression that `encoded` wrote; raises ValueError if the data is malformed, too large, or names an
+    unknown class."""
     left = [MAX_NODES]
 
     def made(tree: Any, depth: int) -> Any:
@@ -100,7 +105,7 @@ def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
 
 
 def _plain(name: str, args: list[Any]) -> Any:
-    """Decode an object that consists of strings and whole numbers only."""
+    """Decode an object whose arguments are not expressions: a symbol with its assumptions, a number, a word or None."""
     match name, args:
         case "None", []:
             return None
@@ -147,7 +152,7 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """Return the value that `as_data` encoded, with tuples in place of lists; only these classes are built."""
+    """Return the value that `as_data` encoded, with tuples in place of lists; no other records are built."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

@@ -1,13 +1,13 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
 proved          decided exactly, by `derive.algebra.normal_form`
-sampled         both sides agree at random rational points, but no exact method decided
-refuted         the sides differ at a stated point
+sampled         both sides agree at random points, but no exact method decided
+refuted         the sides differ, or they cannot be compared
 definition      nothing is compared: the line defines a symbol
 approximation   a rounded value or a series, whose error is checked separately
 
-The equality of polynomials in symbols, sines and cosines is decided directly. For all other expressions, points are
-tried first, because points are cheap and can refute quickly. A sample never counts as a proof.
+Two equal polynomials in symbols, sines and cosines are recognised directly. Any other two expressions are first
+compared at a few points, because this is cheap and can refute quickly. A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -65,8 +65,8 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points: before the exact decision, and after it if it failed
-TURNS = 400  # greatest number of points drawn to find a point at which a sign differs
+FIRST, POINTS = 2, 26  # numbers of points that are compared before the exact method, and after it if it fails
+TURNS = 400  # greatest number of points drawn in search of a point where an `Abs` or `sign` has another sign
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -85,8 +85,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """The sorts of comparison: of two lines; of the result with a second route, a check or a simulated motion; or
-    none."""
+    """The sorts of comparison. Either two lines of a calculation are compared, or the result is compared with a second
+    route, a check or a simulated motion, or nothing is compared."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -107,7 +107,8 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the grade is `refuted`, the compared values differ at `point`."""
+    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers of its
+    symbols."""
 
     grade: Grade
     detail: str = ""
@@ -234,8 +235,10 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 
 
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
-    """Find a point where the sides differ, among points at which an argument of `Abs` or `sign` has a sign that
-    occurred at no earlier point."""
+    """Look for a point where the sides differ; None if no such point is found.
+
+    Only points are tried at which an argument of `Abs` or `sign` has another sign than at all the points `seen`.
+    """
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
         sides = {side for point in seen if (side := _side(inside, point)) is not None}
@@ -276,7 +279,8 @@ def _refutation(sample: Sample) -> Verdict:
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Whether two equations or inequalities are equivalent: their residuals must differ by a factor of known sign."""
+    """Whether two equations or inequalities are equivalent. In most cases this is decided by the ratio of their
+    residuals: for inequalities its sign must be known, for equations it must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -317,7 +321,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
 
 
 def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
-    """The ratio of the two residuals, if it is a number times powers of symbols."""
+    """The ratio of the two residuals, if it is a number times powers of symbols, or if it is shown to be 1 or -1; else
+    None."""
     found = monomial_ratio(left.residual, right.residual)
     if found is None:
         signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.operator, right.operator, sign))
@@ -364,8 +369,8 @@ def _never_vanishes(factor: Expr) -> bool:
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
-    """Return a point where the second equation holds and the first does not. The second equation is solved for a symbol
-    in which it is linear."""
+    """Look for a point where `right` is zero and `left` is not. To find one, `right` = 0 is solved for a symbol in
+    which it is linear."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     curved = {letter for part in right.atoms(Pow, Function) for letter in part.free_symbols}
     for letter in sorted(right.free_symbols - curved, key=lambda s: (not str(s).endswith("dot"), str(s))):

@@ -36,7 +36,7 @@ from derive.algebra.node import DimensionOf, Node, ScalarNode, TextOf, explicit
 from derive.algebra.tidy import tidied
 
 HIGHEST = 10  # highest order of a derivative
-LARGEST = 4000  # most operations of an expression that is expanded
+LARGEST = 4000  # greatest number of operations of an expression that is expanded
 SMALL = Dummy("epsilon", positive=True)
 SPOILT = (nan, zoo, oo, -oo, AccumBounds)
 
@@ -54,7 +54,7 @@ class BeginsBeyond(NoExpansion):
 class Expansion(ScalarNode):
     """The terms of f up to a power of the small quantity. Arguments: f, the symbol, its limit, the highest power.
 
-    The small quantity is x if x goes to 0, 1/x if x goes to infinity, and x - a near a.
+    The small quantity is x if x goes to 0, 1/x if x goes to infinity, -1/x if x goes to -infinity, and x - a near a.
     """
 
     def doit(self, **hints: object) -> Expr:
@@ -104,7 +104,8 @@ class FirstOrder(ScalarNode):
 
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
-    """The terms up to this power of the small quantity; only the leading term if no power is given."""
+    """The terms up to this power of the small quantity, as power -> coefficient; only the leading term if no power is
+    given."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)
@@ -194,8 +195,10 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
-    """The nonzero Taylor coefficients, and the lowest power with one. The series ends at this power, or at its first
-    nonzero coefficient if this comes later."""
+    """The nonzero Taylor coefficients by their powers, and the lowest of these powers.
+
+    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later.
+    """
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)
     for n in range(HIGHEST + 1):

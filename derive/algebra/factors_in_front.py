@@ -1,4 +1,5 @@
-"""Write a sum of fractions as one fraction, with common factors in front of each sum; nothing is multiplied out.
+"""Write a sum of fractions as one fraction, with common factors in front of each sum; products of sums are not
+multiplied out.
 
 A product is stored as its number and its powers, (1/24, {u: 2, 13 u + 10 v: 1}), so that a common denominator and
 common factors are found by comparing powers.
@@ -28,7 +29,7 @@ class Product(NamedTuple):
 
 
 def in_front(value: Expr) -> Expr:
-    """Take common factors of the terms to the front: 13/24 u + 10/24 v is (13 u + 10 v)/24."""
+    """Take common factors of the terms to the front: 13/24 a u + 10/24 a v is a (13 u + 10 v)/24."""
     return written(product_of(value))
 
 
@@ -110,7 +111,7 @@ def _is_of_letters(angle: Expr) -> bool:
 
 
 def _root(value: Expr, sign: int) -> Product:
-    """A power with a fractional exponent: x^(3/2) is the third power of the root of x."""
+    """The value as a product, or 1/value if `sign` is -1: x^(3/2) is the third power of the root of x."""
     if value.is_Rational:
         return Product(value**sign, {})
     base, power = decompose_power(value)
@@ -118,7 +119,6 @@ def _root(value: Expr, sign: int) -> Product:
 
 
 def times(products: Iterable[Product]) -> Product:
-    """Multiply products."""
     number: Rational = S.One
     powers: Powers = {}
     for each in products:

@@ -1,7 +1,7 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
-A root is split into roots of irreducible factors, and an absolute value into absolute values of irreducible factors, if
-the signs of the factors allow it. Each such root or absolute value becomes a new letter of the ring with a relation,
+An absolute value is split into absolute values of irreducible factors. A root is split in the same way, as far as the
+signs of the factors allow it. Each such root or absolute value becomes a new letter of the ring with a relation,
 r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term of the exponent,
 exp(u + v) = exp u exp v. For any other function, only one property is used: equal arguments give equal values.
 
@@ -230,8 +230,8 @@ class FunctionRing(TrigRing):
         return self.product(front, self._letter_of_power(key, q, of, rest)) if rest else front
 
     def _absolute(self, inside: Expr) -> Form:
-        """|p| as a product over irreducible factors f: f itself if it is known not to be negative, else g, g^2 =
-        f^2."""
+        """|p| as a product over irreducible factors f: f itself if it is known not to be negative, else a letter
+        g with g^2 = f^2."""
         product = ONE
         for factor, power in _irreducible_factors(inside):
             factor = -factor if factor.could_extract_minus_sign() else factor
@@ -269,7 +269,7 @@ def _denested(base: Expr) -> Expr | None:
 
 @lru_cache(maxsize=4096, typed=True)
 def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
-    """Irreducible factors of the radicand with their powers.
+    """Factors of the radicand with their powers; the product of these powers is the radicand.
 
     Factors that are known to be non-negative are separated. Under a square root, an even power of another real factor f
     becomes a power of |f|. All other factors stay together.

@@ -1,9 +1,9 @@
 """Definite integrals of the few kinds that solids need, evaluated exactly and fast.
 
-    powers              x^q, including 1/x
-    with powers         x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
-    sines and cosines   sin(m x), cos(n x) and their products, over any limits
-    chords              y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
+    powers     x^q, including 1/x
+    products   x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
+    sines      sin(m x), cos(n x) and their products, over any limits
+    chords     y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
 SymPy's own integrator is slow for most of these kinds, and gives a wrong result or none for chords. For any other
 integral the functions of this module return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,
@@ -46,8 +46,8 @@ def antiderivative(value: Expr, x: Symbol) -> Expr | None:
 
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
-    """The terms of the value, each split into a factor without x and a factor with x. Products of sines and cosines of
-    x become sums, except odd powers, which a substitution integrates."""
+    """The terms of the value, each split into a factor without x and a factor with x. A product of sines and
+    cosines becomes a sum, unless an odd power in it allows the integration by a substitution."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)
@@ -192,8 +192,11 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 
 
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
-    """Whether w >= 0 between the limits: by the assumptions of its symbols, because w is a square root, or because w is
-    linear in one variable and non-negative at both limits of this variable."""
+    """Whether it is known that w >= 0 between the limits.
+
+    This is known from the assumptions of the symbols in w, if w is a square root, or if w is linear in one variable of
+    integration and non-negative at both limits of this variable.
+    """
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True
     inside = [limit for limit in outer if w.has(limit[0])]

@@ -1,7 +1,8 @@
-"""The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for them.
+"""The kinds of quantity, with their dimensions and units, and the annotations by which a script asks for
+given quantities.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
-(`mass: Mass`); a type checker reads the annotation as SymPy's `Expr`.
+(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three.
 """
 
 from __future__ import annotations
@@ -165,7 +166,7 @@ def _product_of_units(dimension: Dimension) -> str:
 class Asked:
     """The type of a parameter of `solve()`: a quantity of a kind, or `count` quantities of this kind.
 
-    letters   symbols for quantities that are given as numbers
+    letters   symbols that a page can use for quantities that are given as numbers
     bounds    the least and the greatest allowed angle, in degrees
     """
 

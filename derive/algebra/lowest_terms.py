@@ -21,7 +21,7 @@ from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.factors_in_front import Product, as_product, product_of, times, written
 from derive.algebra.sparse_polynomials import ONE, WIDTH, Form, Outside, Terms
 
-PRIME = 2**31 - 1  # the prime modulus of all images of polynomials
+PRIME = 2**31 - 1  # polynomials are compared modulo this prime
 
 __all__ = ["Outside", "factored", "in_lowest_terms", "is_squarefree", "shared_factor", "squares_turned"]
 
@@ -33,8 +33,11 @@ def in_lowest_terms(value: Expr) -> Expr:
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """Other forms of the fraction, if they differ from it: with 1 - cos^2 and 1 - sin^2 written as squares, with sin^2
-    replaced by 1 - cos^2, and with cos^2 replaced by 1 - sin^2."""
+    """Other forms of the fraction; a form that equals the fraction itself is left out.
+
+    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. If the fraction has sines and cosines, sin^2 is
+    replaced by 1 - cos^2 in a second form, and cos^2 by 1 - sin^2 in a third form.
+    """
     ring = _ring()
     plain = ring.fraction(product_of(value))
     turns: list[Callable[[Terms], Terms]] = [ring.in_pairs]
@@ -45,14 +48,15 @@ def squares_turned(value: Expr) -> list[Expr]:
 
 
 def is_squarefree(value: Expr) -> bool:
-    """Whether no square divides a polynomial; raises `Outside` if the polynomial is too large."""
+    """Whether no square of a symbol or a sum divides a polynomial; raises `Outside` if the polynomial is too large."""
     terms = _ring().form(value).terms
     places = _places(terms)
     return bool(_polynomial(_polynomials(len(places)), terms, places).is_squarefree)
 
 
 def factored(value: Expr) -> Expr:
-    """One fraction with each sum factored over the rational numbers; functions and roots count as symbols."""
+    """One fraction with each sum factored over the rational numbers, unless the sum is too large; functions and roots
+    count as symbols."""
     product = _with_plus_first(_factors(value))
     odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
     mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
@@ -143,7 +147,8 @@ class _Fractions(Expanded):
         return written(times(parts))
 
     def factors(self, base: Expr, power: int) -> Product:
-        """The factors of a power. They are only the power itself if its base is irreducible, too large or not a sum."""
+        """The factors of a power. If the base is irreducible, too large or not a sum, the only
+        factor is the power itself."""
         try:
             terms = self.form(base).terms if base.is_Add else {}
         except Outside:

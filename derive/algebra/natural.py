@@ -45,8 +45,8 @@ from derive.algebra.ranges import Range, sign_within, within
 from derive.algebra.relation import TURNED
 from derive.algebra.tidy import common_factor, tidied
 
-MOST_TOGETHER = 3  # quantities that one form may use
-SIGNS_OF_A_SYMBOL = 2  # the length of a symbol, compared with the length of a sign
+MOST_TOGETHER = 3  # greatest number of quantities that one form may use
+SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of signs
 HALF = Rational(1, 2)
 LONGEST = 120  # a longer expression is left as it is
 INVERSES = {acos: cos, asin: sin, atan: tan}
@@ -87,7 +87,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
     value = value.xreplace(real)
     for some in _some_of(near):
         chosen = {name: near[name] for name in some}
-        # a formula itself, such as a reduced mass, may also be replaced
+        # a whole formula, such as that of a reduced mass, may also be replaced by its quantity
         whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
         for known in (whole, *_eliminations(chosen, kept)):
             form = _with(value, known, chosen, kept)
@@ -102,7 +102,8 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether a form is real and contains each quantity, and no sum has both a quantity and a symbol of its formula.
+    """Whether a form is real, contains each quantity, and has no sum in which one term is a quantity and another term
+    is a symbol of its formula.
 
     If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
     """
@@ -113,8 +114,8 @@ def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
 
 
 def _with_sign(name: Symbol, value: Expr) -> Symbol:
-    """A symbol that is positive if the value is, or if the value is a square root; so the root of its square is the
-    symbol."""
+    """A dummy symbol for a quantity with this value. The dummy symbol is positive if `is_positive(value)`, so that
+    SymPy writes the root of its square as the symbol itself."""
     return Dummy(name.name, positive=True) if is_positive(value) else Dummy(name.name, real=True)
 
 
@@ -139,7 +140,8 @@ def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
 
 
 def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield symbol -> its value in the names of the quantities, for each choice of one symbol for each quantity."""
+    """Yield symbol -> its value in the names of the quantities, for each choice of the symbols that
+    are eliminated, one for each quantity."""
     choices = [list(_solutions(name, value, kept)) for name, value in quantities.items()]
     for choice in product(*choices):
         found = _solved_together(choice)
@@ -160,7 +162,10 @@ def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[
 
 
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
-    """Solve left = right for a symbol, if both sides, or their powers without roots, are linear in it or a power."""
+    """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
+
+    The result is None unless the equation is then linear in the symbol, or has only one power of a positive symbol.
+    """
     order = _order_of_root(right, symbol)
     above, below = fraction(together(cancel(right**order)))
     try:
@@ -224,11 +229,13 @@ def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
     """Rewrite both sides, term by term; divide an equation with zero on the right by the positive symbols that all
-    terms on the left have in common. Any other relation between constants is divided by the factors of both sides."""
+    terms on the left have in common. Any other relation between constants is divided by the common factor of both
+    sides."""
     used = tuple(quantities)
     left, right = (Add(*(_written(term, known) for term in Add.make_args(side))) for side in (value.left, value.right))
     if not (is_motion and value.operator == "=") and left != 0 and right != 0:
-        is_sure = not any(formula.atoms(Dummy) for formula in quantities.values())  # no function stands in as positive
+        # False if a dummy symbol stands for a function that is only assumed to be positive
+        is_sure = not any(formula.atoms(Dummy) for formula in quantities.values())
         return Shortened(compared(left, value.operator, right, is_sure), used)
     if value.operator != "=" or right != 0:
         return Shortened(Relation(left, value.operator, right), used)
@@ -242,8 +249,8 @@ def _relation(
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     """Substitute, and bring to lowest terms what is under a root or in a function.
 
-    A sum is written term by term, unless this gives more terms. Any other value has its tidy form, or its own form if
-    that is shorter.
+    A sum is written term by term, unless this gives more terms. For any other value, the result of the substitution
+    is returned unchanged or in its tidy form, whichever is shorter.
     """
     put_in = value.subs(known)
     if put_in == value:
@@ -288,6 +295,7 @@ def _under_one_root(value: Expr) -> Expr:
 
 
 def _cost(value: Any) -> tuple[int, int]:
-    """The length with its symbols; of two forms with the same length, the one with fewer symbols is preferred."""
+    """The length including the symbols, and then the number of symbols, because of two forms with the same length the
+    one with fewer symbols is preferred."""
     symbols = len(value.free_symbols)
     return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

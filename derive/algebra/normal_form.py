@@ -42,7 +42,7 @@ from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
 
-LARGEST = 4000  # most operations of an expression that is rewritten in smaller angles
+LARGEST = 4000  # greatest number of operations of an expression that is rewritten in smaller angles
 
 
 def vanishes(expr: Expr) -> bool:
@@ -124,8 +124,8 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each group of angles with rational ratios, the largest angle such that all angles of the group are whole
-    multiples of it."""
+    """For each group of terms of angles with rational ratios, the largest angle of which all these terms are whole
+    multiples, and a dummy symbol for it."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

@@ -1,7 +1,8 @@
 """Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
 
 A symbol is replaced by its value from the relation, r_0 = l + u with an amount u > 0. The sign of a polynomial in l and
-r_0 can then be read from its coefficients. Relations are applied one after another: a < b < c gives c = a + u + w.
+r_0 can then often be read from its coefficients. Relations are applied one after another. For a < b < c, the value of
+c is a + u + w.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from math import prod
 from sympy import Add, Dummy, Expr, Integer, Rational, Symbol, cancel, expand, together
 
 PARTS = 12  # number of sizes that are tried for an amount; each is an eighth of the previous size
-LARGEST = 400  # most operations of an expression that is expanded after symbols are replaced
+LARGEST = 400  # greatest number of operations of an expression that is expanded after symbols are replaced
 
 SignOf = Callable[[Expr], int | None]
 
@@ -30,8 +31,7 @@ class Order:
 
     positive   differences that are assumed to be greater than zero
     replaced   symbol -> its value by a relation, in terms of amounts and of symbols that are not replaced
-    amounts    symbol -> the amount that this relation introduces: positive, or not negative if the relation is not
-               strict
+    amounts    replaced symbol -> the amount in its value: positive, or not negative if the relation is not strict
     """
 
     positive: tuple[Expr, ...] = ()
@@ -61,7 +61,7 @@ class Order:
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:
-        """Whether a relation contains a symbol of the expression."""
+        """Whether the expression contains a symbol that is replaced, or a symbol of a strict relation."""
         if not self:
             return False
         known = self.replaced.keys() | set().union(*(each.free_symbols for each in self.positive))

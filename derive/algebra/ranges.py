@@ -1,6 +1,6 @@
 """Symbols that lie between two numbers, 0 < alpha < pi/2, and the signs that follow from this.
 
-Every check that needs the sign of an expression for all allowed values of its symbols uses this module.
+Checks that need the sign of an expression for all allowed values of its symbols use this module.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from derive.algebra.order import known_order
 
 @dataclass(frozen=True)
 class Range:
-    """An interval: the symbol is greater than `least` and less than `greatest`; a `closed` end belongs to the range.
+    """An interval: the symbol is greater than `least` and less than `greatest`. Of the two ends, those that are
+    `closed` belong to the range.
 
     Either end may be infinite. `written` is the text of the range in a file.
     """
@@ -57,7 +58,7 @@ class Range:
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
-LARGEST = 200  # most operations of a sum in which squares of sines and cosines are replaced
+LARGEST = 200  # greatest number of operations of a sum in which squares of sines and cosines are replaced
 POSITIVE = Range(Integer(0), oo, written="(0, infinity)")
 
 _KNOWN: ContextVar[Mapping[Symbol, Range]] = ContextVar("ranges", default={})  # noqa: B039  the default is never changed
@@ -285,8 +286,8 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a sum of multiples of symbols, sines and cosines; None if they are unknown. The sum does not reach
-    the bounds."""
+    """The bounds of a sum of multiples of symbols, sines and cosines; None if they are unknown. Unless the sum is
+    constant or the range of a symbol includes an end, the sum does not reach the bounds."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):

@@ -12,7 +12,14 @@ from derive.algebra.kinds import common
 from derive.algebra.node import DimensionOf, Node, TextOf, explicit
 
 MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}
-TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}  # the mark if the sides are exchanged
+TURNED = {
+    ">": "<",
+    ">=": "<=",
+    "<": ">",
+    "<=": ">=",
+    "=": "=",
+    "!=": "!=",
+}  # if the sides are exchanged
 _IN_SYMPY = {"=": "Eq", "!=": "Ne", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge"}
 
 

@@ -1,9 +1,9 @@
 """Points at which two expressions are compared, and the values of expressions there.
 
-A point has random rational coordinates of several orders of magnitude. The seed is computed from the expressions, so
-each run has the same points for the same expressions. mpmath computes the values with enough digits to exclude rounding
-errors. A difference counts only if more digits confirm it; a difference that shrinks as digits are added counts as
-zero.
+A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
+seed is computed from the expressions, so each run has the same points for the same expressions. mpmath computes the
+values with enough digits to exclude rounding errors. A difference counts only if more digits confirm it; a difference
+that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each symbol that may be negative is negative at one of them."""
+    """Two points: each symbol that may be negative and has no range is negative at one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -232,7 +232,7 @@ def as_sympy(x: Any) -> Expr:
 
 _OF_ZERO = -(10**30)
 _LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
-_MOST = 60  # most bits of the integer part of a function's argument
+_MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits for any argument
 _ONE_ARGUMENT = {

@@ -23,8 +23,8 @@ WIDTH = 24  # bits for the power of a letter and the sign of the power
 PARTS = 64  # the largest number of equal parts into which an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
 HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
-WORK = 200_000  # most products of two terms that are computed for one expression
-LETTERS = 120  # most letters and forms of a ring; a ring with more is replaced by an empty one
+WORK = 200_000  # greatest number of products of two terms that are computed for one expression
+LETTERS = 120  # a ring with more letters, or with more forms than `FORMS`, is replaced by an empty one
 FORMS = 20_000
 
 Terms = dict[int, int]
@@ -37,7 +37,8 @@ class Outside(Exception):
 class Form(NamedTuple):
     """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in the sum exceeds `reach`. `cost` is the number of products of two terms that were computed for the sum.
+    No power in the sum exceeds `reach`. `cost` measures the work for the sum: the number of products of two
+    terms that were computed and of terms that were added.
     """
 
     terms: Terms

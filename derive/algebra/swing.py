@@ -1,10 +1,10 @@
 """The period of an oscillation between turning points at -A and A, in powers of the amplitude A.
 
-    period = 4 times the integral of dq/sqrt(f) from 0 to A; f(q) is the square of the rate; f is even in q, and f(A) =
-    0
+    period = 4 times the integral of dq/sqrt(f) from 0 to A
 
-With q = A sin u the zero of f cancels: f/(A cos u)^2 is a power series in A whose coefficients are polynomials in
-sines and cosines. Source: Landau, Lifshitz, *Mechanics*, section 11 (the period by energy; the pendulum is problem 1).
+Here f(q) is the square of the rate of q. It is an even function of q, and it vanishes at A. With q = A sin u the zero
+of f cancels: f/(A cos u)^2 is a power series in A whose coefficients are polynomials in sines and cosines. Source:
+Landau, Lifshitz, *Mechanics*, section 11 (the period by energy; the pendulum is problem 1).
 """
 
 from __future__ import annotations

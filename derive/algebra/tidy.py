@@ -1,4 +1,4 @@
-"""The tidy form of a result: one fraction, common factors in front, no sum of roots in the denominator.
+"""The tidy form of a result: one fraction, common factors in front, no sum of roots of numbers in the denominator.
 
 `tidied()` simplifies a result as you would by hand, without changing its value, and keeps later steps short.
 `derive.render.notation.notation` decides how the result is displayed.
@@ -212,7 +212,10 @@ def _expanded_above(value: Expr) -> Expr:
 
 
 def _roots_drawn_out(value: Expr) -> Expr:
-    """Take squares of factors with a known sign out of each root: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14)."""
+    """Take powers of factors out of each root, as far as the signs allow it: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14).
+
+    Out of a square root, the square of a real factor of unknown sign becomes its absolute value.
+    """
     return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 
 

@@ -73,7 +73,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             return question(ring)
         except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
-            if units[finer.angle] > PARTS:  # earlier questions must not affect the answer
+            if units[finer.angle] > PARTS:  # restart, so that earlier questions do not affect the answer
                 if has_restarted:
                     raise Outside from None
                 units, has_restarted = {finer.angle: finer.parts}, True
@@ -179,8 +179,8 @@ class TrigRing(Ring):
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """The number of parts of the angle in `number` times the angle; `units` has the number of parts of one
-        angle."""
+        """How many parts of the angle make up `number` times the angle; `units` says into how many parts each angle is
+        divided."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -194,8 +194,8 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form. A sum is its last monomial times a remaining factor. Its reciprocal is the
-        reciprocal of the monomial times a letter for the reciprocal of the remaining factor."""
+        """The reciprocal of a form. A sum is the product of its last monomial and a remaining factor. The reciprocal of
+        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor)."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)

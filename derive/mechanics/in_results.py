@@ -5,7 +5,8 @@
 
 The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
 an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
-decorator and the signature determine the reader of files, the schema for editors, the manual and the errors.
+decorator and the signature are used to parse the key, and for the schema for editors, the manual and the messages of
+errors.
 """
 
 from __future__ import annotations
@@ -79,12 +80,13 @@ class ResultKey:
 @dataclass(frozen=True)
 class ResultVerb:
     """A verb of `results:`.
+
     name       the key that names the verb; its value is the first argument
     yields     a description of the result, for the manual
     function   a function of the values of the keys; its argument `key` is the name of the result
     called     argument -> its key, followed by a colon and a description for the manual
     one_of     keys of which the verb needs at least one
-    excludes   pairs of keys; if both keys of a pair are given, the second key has no effect
+    excludes   pairs of keys that must not both be given, because the second key would then have no effect
     """
 
     name: str
@@ -141,7 +143,7 @@ def in_results(
 
     If the signature of a verb fits the keys, the verb itself is decorated. Otherwise the decorated function is next to
     the verb: its name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the
-    verb is called with plain values, and an equal call returns the earlier result.
+    arguments are checked, and in a run with a memory an equal call returns the earlier result.
     """
 
     def declared(function: F) -> F:

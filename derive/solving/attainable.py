@@ -20,8 +20,8 @@ LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, None if the ranges of the symbols decide; and whether v is never in this
-    interval."""
+    """The condition for -1 < v < 1, and whether v is never in this interval. The condition is None if it is already
+    known whether v is in the interval."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)
@@ -42,7 +42,7 @@ def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
 
 
 def is_out_of_range(unknown: Expr, value: Expr) -> bool:
-    """Whether the value is outside the possible values of the unknown."""
+    """Whether the value is known to be outside the possible values of the unknown."""
     ends = ends_within(unknown)
     beyond = (value - ends[1], ends[0] - value) if ends else ()
     return any(end.is_finite is not False and sign_for_all(tidied(end)) in (0, 1) for end in beyond)
@@ -76,7 +76,7 @@ def _is_inside(number: Expr, known: Range) -> bool:
 
 
 def existence(of: Quantity, solution: Relation) -> Relation | None:
-    """The condition under which the solution of an equation exists; None for an inequality."""
+    """The condition under which the solution of an equation exists; None if it always exists, and for an inequality."""
     alone, solved = solution.sides
     exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
     if never:

@@ -1,4 +1,5 @@
-"""The order in which a person solves linear equations: one equation for one unknown, where there is such an equation.
+"""The order in which a person solves linear equations: an equation with only one unknown is used first, if there is
+one.
 
 Example: of M x'' = mu N, M y'' = N - M g and y'' = 0, the last two equations give N, and the first one then gives x''.
 """
@@ -18,7 +19,7 @@ from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
 MOST = 5  # greatest number of equations that are solved together
-LONGEST = 20  # length up to which an unknown is written in terms of earlier unknowns
+LONGEST = 20  # greatest length of an unknown that is written in terms of earlier unknowns
 
 
 @dataclass(frozen=True)
@@ -38,12 +39,14 @@ class Isolated:
 
 
 def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Isolated]:
-    """Return the unknowns that a few of the equations give, in the order in which they are found.
+    """Return each unknown that a few of the equations give, with these equations, in the order in which the unknowns
+    are found.
 
     residuals   the equations, linear in the unknowns: residual = 0
     unknowns    in the order of preference
 
-    An unknown that no such set of equations gives, without a division by a value that might vanish, is left out.
+    An unknown is left out if no such set of equations gives it without a division by a value that might vanish.
+    An unknown whose value is zero is also left out.
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
@@ -72,9 +75,10 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of equations with as many new unknowns as equations; empty if there is none.
+    """Return the smallest set of at most `MOST` equations with as many new unknowns as equations; empty if there is
+    none.
 
-    Equations with the first of the unknowns come first, and among these the shortest.
+    The sets are tried in order: equations with the most preferred unknown come first, and among these the shortest.
     """
     first = {i: [unknowns.index(u) for u in row if u not in known] for i, row in enumerate(slopes)}
     left = sorted((i for i in first if first[i]), key=lambda i: (min(first[i]), length(residuals[i])))
@@ -87,11 +91,13 @@ def _fewest(
 
 
 def _are_coupled(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether several equations have each unknown in common with another one, so that it can be eliminated."""
+    """Whether each new unknown is in at least two of the equations, so that it can be eliminated; True for one
+    equation."""
     return len(several) == 1 or all(len([i for i in several if u in slopes[i]]) > 1 for u in new)
 
 
 def _is_regular(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether the determinant of the equations has a sign for all values of the symbols, so that it does not vanish."""
+    """Whether the determinant of the equations has the same sign for all values of the symbols, so that it does not
+    vanish."""
     matrix = ImmutableDenseMatrix([[slopes[i].get(u, ZERO) for u in new] for i in several])
     return sign_for_all(tidied(matrix.det(method="berkowitz"))) in (1, -1)

@@ -36,7 +36,7 @@ from derive.steps.step import Quantity
 
 DISTANCES = ((Rational(1, 10**8), Rational(1, 10**9)), (Rational(1, 40), Rational(1, 80)))
 POINTS = 4
-SLOWEST = Rational(1, 6)  # least power of the distance with which a remainder must vanish; powers may be fractional
+SLOWEST = Rational(1, 6)  # the quotient in `rest_vanishes` must shrink at least as this power of the distance
 
 
 def entries_of(value: Any) -> list[Expr]:
@@ -142,7 +142,7 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
 
 
 def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
-    """The sides of the value `place` on which the symbol may be."""
+    """The sides of the value `place` on which the symbol may be: 1 for larger values, -1 for smaller values."""
     known = range_of(x)
     if place in (oo, -oo):
         return (1,)
@@ -172,7 +172,8 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder, divided by the power of the small quantity, is smaller at the closer distance.
+    """Whether the remainder, divided by the power of the small quantity, is sufficiently smaller at the closer
+    distance.
 
     The result is None if the remainder has no value.
     """

@@ -1,12 +1,12 @@
-"""Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the shapes.
+"""Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the mode shapes.
 
 The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
 motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class of the
 system:
 
-conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a are real
-gyroscopic     without C: a polynomial in omega^2. Often it is the product of a factor in omega and the mirror image of
-               this factor, one for each sense of rotation; the roots of such a factor are simpler
+conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a can be real
+gyroscopic     without C: a polynomial in omega^2. Often it is the product of a polynomial in omega and the mirror image
+               of this polynomial, one for each sense of rotation. The roots then have simpler formulas
 damped         a polynomial in s, which is solved if each of its factors is linear or quadratic
 """
 
@@ -112,7 +112,8 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive for all roots omega to be real, distinct and nonzero."""
+        """Expressions that must be positive for all roots omega to be real and distinct, and nonzero unless
+        `mirrored`."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients
@@ -133,11 +134,11 @@ class Factor:
 class CharacteristicRoot:
     """A root of the characteristic equation.
 
-    value     lambda = omega^2 of a conservative system; the frequency or the rate of growth of a gyroscopic system; the
-              rate of decay of a damped system, which is b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; for a quadratic factor of a damped system,
-              -1 if the motion is overdamped; for a rate of decay b/a the sign of this rate; None if the sign is unknown
-    columns   the shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
+    value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
+              For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a quadratic
+              factor of a damped system, -1 if the motion is overdamped. For a rate of decay b/a, the sign of this rate
+    columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
               0 if this is unknown
     """
@@ -298,7 +299,7 @@ class Conservative(LinearSystem):
             message = f"the squares of {factor.degree} frequencies are the roots of a polynomial that does not factor"
             help_ = "use one symbol for equal masses or equal springs, or give numbers to all masses and springs"
             if self.name:
-                help_ = "numbers suffice only about a stable equilibrium, and for only one such polynomial"
+                help_ = "numbers help only about a stable equilibrium, and only if there is one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(factor.degree)]
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
@@ -519,7 +520,7 @@ class Gyroscopic(LinearSystem):
             value = _with_root(ways[0] * middle / (2 * a), ways[1] / (2 * a), root, by_terms=True)
             return CharacteristicRoot(value, real, factor, turn=turn)
 
-        if both_ways == -1:  # one root of each sign: the sizes do not depend on the sign of b
+        if both_ways == -1:  # one root of each sign: their absolute values do not depend on the sign of b
             return [found(middle, (-1, 1), -1), found(middle, (1, 1), 1)]
         forwards = self.sign(middle) == 1
         middle = middle if forwards else Abs(tidied(minus_b))
@@ -562,8 +563,8 @@ class Gyroscopic(LinearSystem):
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
         """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1.
 
-        The result is None if there is not exactly one column, or if an amplitude is neither real nor imaginary. For a
-        growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
+        nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None

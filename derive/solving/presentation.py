@@ -37,7 +37,7 @@ ZERO = Integer(0)
 LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
 
 
-SHORT = 40  # number of operations up to which multiples of an angle are tried
+SHORT = 40  # greatest length of a value whose products of sines and cosines are written as sums
 
 
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
@@ -111,8 +111,8 @@ LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which sq
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """Write a polynomial of first or second degree in the symbols in its shortest form: completed squares, products or
-    one fraction."""
+    """Write a polynomial of first or second degree in the symbols in the shortest of several forms: completed squares,
+    products or one fraction. Any other expression has its tidy form."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:
@@ -216,8 +216,8 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 
 def as_one_root(value: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value that is not a product of an
-    irrational number and the root of a sum is returned unchanged."""
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value is returned unchanged unless
+    it is the product of an irrational number, other factors of known sign, and roots of sums."""
     factors = Mul.make_args(value)
     outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))
     sign, square = sign_for_all(outside), (value**2).expand()
@@ -228,7 +228,8 @@ def as_one_root(value: Expr) -> Expr:
 def roots_together(value: Expr) -> Expr:
     """Write p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))).
 
-    Each root contains one fraction, and positive factors are taken out of the root.
+    The terms under each root are combined into one fraction, and positive factors are taken out of the root, unless
+    this makes the expression longer.
     """
 
     def in_one(base: Expr, exponent: Expr) -> Expr:

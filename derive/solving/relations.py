@@ -27,7 +27,7 @@ class Isolated(NamedTuple):
 
 
 def mark_between(mark: str, sign: int | None) -> str | None:
-    """Turn the mark between a (x^n - v) and zero into the mark between x^n and v, given the sign of a.
+    """Turn the operator between a (x^n - v) and zero into the operator between x^n and v, given the sign of a.
 
     The result is None if an inequality would be divided by a factor of unknown sign.
     """
@@ -62,8 +62,8 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     """The condition v > 0 without positive factors, solved for `letter` or for the only symbol with a square, if
     possible.
 
-    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in R omega^2 > g;
-    any other v is compared with zero.
+    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in M g > k l.
+    Any other v is compared with zero.
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b
@@ -134,8 +134,11 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown u; for u^2 if the difference contains only u^2
-    and u or the value of u^2 may be negative."""
+    """The relation between a difference and zero, solved for an unknown u.
+
+    If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
+    negative, the root is then taken on both sides.
+    """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
     if left_over(written, unknown):

@@ -22,7 +22,8 @@ class RootOf(Fact):
     """One root of a linear or quadratic factor of a polynomial, given by the coefficients of this factor, from the
     highest power to the lowest.
 
-    sign   the sign before the square root; 0 for a linear factor
+    sign    the sign before the square root, 1 or -1; 0 for a linear factor
+    times   the power of the factor in the polynomial
     """
 
     coefficients: tuple[Expr, ...]
@@ -93,7 +94,10 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
 
 
 def _common_root(b: Expr, discriminant: Expr) -> Expr:
-    """The largest product k of positive factors such that b/k and D/k^2 have no new denominators."""
+    """A product k of positive factors such that b/k and D/k^2 have no new denominators; D is the discriminant.
+
+    The numerical factor of k is 1 if the common numerical factor of b^2 and D is not the square of a rational number.
+    """
     try:
         content, factors = factor_list(gcd(b**2, discriminant))
     except PolynomialError:

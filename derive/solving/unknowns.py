@@ -45,8 +45,8 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of an equation, as a fact of a root of this equation. The root can therefore replace the unknown,
-    even if the root has a different symbol."""
+    """A fact that a root of an equation carries: the unknown of this equation. The root can therefore replace the
+    unknown, even if the root has a different symbol."""
 
     missing = "is not a root of an equation"
     unknown: Expr
@@ -79,7 +79,8 @@ def letter_of(unknown: Expr) -> Symbol:
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """Symbol in the unknown -> its value, computed from the value of the unknown: theta from cos(theta) = 2/3."""
+    """Return a mapping from the symbol in the unknown to the value of this symbol: for cos(theta) = 2/3, theta is
+    acos(2/3)."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)

@@ -94,8 +94,8 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero where k x + c is 0 or
-    pi/2; an empty list for any other function."""
+    """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero at which k x + c is 0, or
+    pi/2 for the cosine. For any other function the list is empty."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -110,8 +110,8 @@ def _turned(factor: Expr, x: Symbol) -> list[Zero]:
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
-    """Sort key: zeros without a condition come before zeros with a condition; in each group 0 comes first, then pi,
-    then all other values."""
+    """Sort key: zeros without a condition come before zeros with a condition. In each group the order is: 0, pi, values
+    without a minus sign in front, other values."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)

@@ -133,7 +133,7 @@ def test_a_coordinate_that_the_lagrangian_does_not_have_is_refused() -> None:
         equation_of_motion(L, X)
     (complaint,) = refusal.value.complaints
     assert complaint.message == "`equation_of_motion`: `lagrangian` does not depend on the coordinate x"
-    assert complaint.help == "it has theta"
+    assert complaint.help == "it depends on theta"
 
 
 def test_the_energy_of_the_slab_is_constant_along_its_motion() -> None:

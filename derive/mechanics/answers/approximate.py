@@ -50,14 +50,15 @@ def equation_in_limit(
     equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
 ) -> Quantity:
     """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0. The small
-    quantity e is x, 1/x or x - a.
+    quantity e is x, 1/x, -1/x or x - a.
 
     equation   an equation, such as an equation of motion
     letter     a constant that is small, large or near a value
     to         0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order      the highest power of the small quantity that is kept; by default only the leading terms
-    If a sine of the letter times the time is expanded, the result is valid for short times only, and its sentence says
-    so.
+
+    If a function of the letter and the time, such as sin(Omega t), is expanded for a small letter, the result is valid
+    for short times only, and its sentence says so.
     Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
     quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).

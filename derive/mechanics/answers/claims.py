@@ -168,8 +168,8 @@ def absent(facts: Judged) -> bool:
 
 
 def beyond_one(facts: Judged) -> bool:
-    """Whether the left side is greater than 1 at all trial numbers if the result is an inequality with >, and less than
-    -1 at all of them for any other result."""
+    """Whether the left side of the result is beyond 1 at all trial numbers: greater than 1 for an inequality with >,
+    less than -1 for any other inequality."""
     side = 1 if facts.result.operator == ">" else -1
     return signs_of(side * with_numbers(facts.result.left) - 1) == {1}
 
@@ -236,8 +236,8 @@ def as_let(equation: bool, reason: bool) -> Predicate:
 
 
 def near(*places: Any) -> Predicate:
-    """Judge whether terms are left out and the symbol goes to one of the limits `places`. Without limits, the symbol
-    must go to a finite value other than zero."""
+    """Judge whether terms are left out and the symbol goes to one of the limits `places`. If `places` is empty, the
+    symbol must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -317,7 +317,7 @@ def _says_what_is_kept(facts: Judged) -> bool:
 
 def leading(*places: Any) -> Predicate:
     """Judge whether no order is requested, terms are left out, and the symbol goes to one of the limits `places`.
-    Without limits, the symbol must go to a finite value other than zero."""
+    If `places` is empty, the symbol must go to a finite value other than zero."""
 
     def is_so(facts: Judged) -> bool:
         to = facts.inputs["to"]
@@ -487,8 +487,8 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
-    """Whether the word is "roots" for an equation and "zeros" for any other result, and the whole expression vanishes
-    if any one of its factors without the unknown vanishes."""
+    """Whether the sentence says "roots" for an equation and "zeros" for any other result. If the sentence names further
+    factors that may vanish, the whole expression must vanish where any one of them does."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole
@@ -507,8 +507,11 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and the sentence compares
-    the quantity with the bound, not the bound with the quantity."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=.
+
+    The sentence must compare the quantity with the bound, not the bound with the quantity. A sentence on real roots
+    must be about a discriminant.
+    """
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -521,15 +524,16 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the conditions in the sentence are exact: the place of an extremum is real, and lies between the ends of
-    the interval, for just those values for which the sentence says so."""
+    """Whether the conditions in the sentence are exact: for exactly those values of the symbols for which they hold,
+    the place of the extremum is real and lies between the ends of the interval."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends of the interval for just those values for which the sentence says
-    so. Trial numbers are used only if they make the width of the interval positive and the place real."""
+    """Judge whether the place lies between the ends of the interval for exactly those values of the symbols for which
+    the sentence says so. Trial numbers are used only if they make the width of the interval positive and the place
+    real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

@@ -71,20 +71,22 @@ def where(
     """Condition for a quantity to be greater than, less than or equal to a bound, solved for one letter: v > 0 where
     R > a/2.
 
-    of       a scalar, any unit
-    mark     the comparison sign: one of =, !=, <, >, <=, >=
-    bound    the bound, of the same unit; 0, or another quantity
-    letter   the unknown: a letter, a rate, or an expression such as `cos(theta)`; quantity minus bound is linear in the
-             unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved for one
-             of the letters of this expression
-    through  the same condition in other letters, for an intermediate line, and the results that these letters denote
-    for_real whether the quantity is a discriminant and the condition is for real roots
-    Check: the sign of quantity minus bound, for an unknown at, just above and just below the right side of the solved
-    relation; at random points, the original and the solved relation are both true or both false.
+    of        a scalar, any unit
+    mark      the comparison sign: one of =, !=, <, >, <=, >=
+    bound     the bound, of the same unit; 0, or another quantity
+    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound is linear in
+              the unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved
+              for one of the letters of this expression
+    through   the same condition in other letters, for an intermediate line, and the results that these letters denote
+    for_real  whether the quantity is a discriminant and the condition is for real roots
+
+    Check: the sign of quantity minus bound, for an unknown at the right side of the solved relation and at any
+    distance above it. If the two relations differ by a factor of unknown sign, also random points: the original and
+    the solved relation are both true or both false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
-    equal (the two sides are equal, so a requested strict inequality never holds).
+    equal (the two sides are equal, so the requested <, > or != never holds).
     Errors: the relation cannot be solved for that letter; an unknown comparison sign.
     Source: none needed: algebra of inequalities.
     """
@@ -179,12 +181,14 @@ def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -
 
 
 def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
-    """Whether the signs alone show that the left side is greater than the right side for all values."""
+    """Whether the signs of `alone` and `solved` suffice to show that `alone` is greater than `solved` for all
+    values."""
     return bool(alone.is_positive and solved.is_nonpositive) or bool(alone.is_nonnegative and solved.is_negative)
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """Return the condition that the divisor of both sides of an equation does not vanish; None if this is known."""
+    """Return the condition that the divisor of both sides of an equation does not vanish; None if this is known, and
+    for an inequality."""
     if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)
@@ -211,6 +215,9 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     the bound, and for an unknown at any distance d > 0 above the bound. Its last three entries are 1 or 0: whether the
     solved relation holds above, at and below the bound. The second vector has the values that the sign of the
     difference requires.
+
+    If this sign is unknown above the bound, the result is the difference at the bound, and zero. If a positive symbol
+    would have a negative bound, the result is 1 and 0, so the check fails.
     """
     alone, place = found.sides
     d = Dummy("d", positive=True)

@@ -44,13 +44,16 @@ Within = tuple[Expr, Expr]
 )
 def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maximum") -> tuple[Quantity, Quantity]:
     """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
+
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
-    within   its interval; by default all values that the letter can have
-    Check: the value at the maximum is compared with the values at other places of the interval.
-    Outcomes: greatest, least; each also with a condition, if the extremum exists only for some values of the letters.
-    Errors: no place, or more than one, has zero slope and this sign of the curvature; the places with zero slope have
-    no closed form.
+    within   the interval of the letter; by default all values that the letter can have
+
+    Check: the slope vanishes at the place; no value at other places of the interval is greater (less, for a minimum).
+    Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
+    letters.
+    Errors: no place, or more than one, has zero slope and the required sign of the curvature; the places
+    with zero slope have no closed form.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -65,9 +68,11 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 )
 def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minimum") -> tuple[Quantity, Quantity]:
     """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
+
     of       a scalar, any unit
     letter   the variable: an angle, a frequency, a length
-    within   its interval; by default all values that the letter can have
+    within   the interval of the letter; by default all values that the letter can have
+
     Check: as `maximum`.
     Errors: as `maximum`.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
@@ -158,7 +163,7 @@ def _extremum(
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
     """Return the error for no suitable place, or for more than one."""
     many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} with zero slope and this curvature"
+    message = f"`{verb}`: `{of.key}` has {many} with zero slope and the curvature of a {verb}"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
@@ -174,8 +179,8 @@ def _range_as_interval(x: Symbol) -> Within | None:
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Return the conditions for the place to be real and to lie inside the interval, each under its role in the
-    phrase."""
+    """Return the conditions for the place to be real and to lie inside the interval, each with the name of its
+    placeholder in the phrase."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 

@@ -78,9 +78,10 @@ def limiting_case(
     key: str | None = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x or x - a.
-    of       a scalar, a vector or a tensor, any unit; an equation or an inequality solved for a letter, for the limit
-             of the right side; or another equation, which `equation_in_limit` expands
+    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x, -1/x or x - a.
+
+    of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
+             limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
     order    the highest power of the small quantity that is kept; by default only the leading term
@@ -93,8 +94,8 @@ def limiting_case(
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
-    motion does not reach the limit; the result has no such expansion (because it oscillates near the limit), has
-    different expansions on the two sides, or has no term up to the requested order.
+    motion does not reach the limit; the result has no such expansion (for example because it oscillates near the
+    limit), has different expansions on the two sides, or has no term up to the requested order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
@@ -207,7 +208,8 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:
-    """Check that near the limit all inequalities assumed on the page hold for some values of the other symbols."""
+    """Check that the inequalities for this symbol that the page assumes can all hold near the limit, for some values of
+    the other symbols."""
     signs = {">": 1, "<": -1}
     kept = [with_numbers(each.residual * signs[each.operator[0]]) for each in assumed() if each.operator[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]
@@ -218,7 +220,7 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
                 return
     if conditions:
         message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
-        help_line = "leave that relation out of `assume:`, or give another limit"
+        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give another limit"
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 
@@ -288,6 +290,7 @@ def known_case(found: Quantity, known: Quantity, key: str = "known_case") -> Qua
 
     found   the result in a limiting or a special case, any unit
     known   the same quantity from an independent derivation
+
     Second route: the known result, entry by entry.
     Outcomes: generic.
     Errors: the two results are not equal; one of them is derived from the other.
@@ -329,6 +332,7 @@ def case_in_letters(
     found    the result in a limiting or a special case, any unit
     formula  the same result in letters
     values   the earlier results that these letters denote
+
     Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.
     Errors: the formula and the limiting case are not equal.

@@ -96,8 +96,10 @@ def roots_together(
     key        the key of the step with both roots
     keys       the keys of the separate roots
     symbols    the symbols of the separate roots
+
     The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
-    Check: each root substituted into the equation; the sum and the product of the roots.
+    Check: each root substituted into the equation; the sum of the roots; the equivalent form of each root,
+    2 c/(-b -+ sqrt(b^2 - 4 a c)).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -111,7 +113,8 @@ def roots_together(
     if real == 0:
         return (_one_of_two(both, larger, "coinciding", names[0], None, names[1:]),) * len(names)
     if len(names) != 2:
-        raise Rejected(Complaint("wrong-argument", f"`roots`: `{equation.key}` has 2 roots here, not {len(names)}"))
+        message = f"`roots`: `{equation.key}` has 2 roots here, but the number of keys is {len(names)}"
+        raise Rejected(Complaint("wrong-argument", message))
     letters = symbols or ("", "")
     words = _by_size(of.quadratic, real)
     return tuple(
@@ -123,8 +126,8 @@ def roots_together(
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
     """Return the coefficients of a quadratic or linear equation in x, both in letters and with values substituted.
 
-    The second result is the value of the factor of the left side that does not contain x. The sign is chosen so that
-    the first coefficient has no minus sign.
+    The second result is the value of the factor of the left side that does not contain x. The signs of the
+    coefficients are chosen so that the first coefficient has no minus sign.
     """
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
@@ -139,7 +142,7 @@ def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> 
     here, beside = general.with_values(known), tidied(bound(apart, known))
     if is_zero(beside) or (here.a == 0 and here.b == 0):
         message = f"`roots`: `{equation.key}` does not depend on {x.name} here"
-        help_line = f"{apart} = 0 there" if is_zero(beside) else None
+        help_line = f"its factor {apart} is zero for these values" if is_zero(beside) else None
         raise Rejected(Complaint("no-roots", message, help=help_line))
     return Roots(general, here, x, tuple(values)), beside
 
@@ -167,6 +170,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
     of         the coefficients of the equation, and the quantities for letters in these coefficients
     apart      the factor of the left side that does not contain x
     keys       the requested keys; for a linear equation, all of them denote this step
+
     Check: each root substituted into the equation; the sum of the two roots is -b/a.
     Outcomes: two, none, double, conditional (the sign of b^2 - 4 a c depends on the symbols), opposite (two roots, one
     of each sign), linear.
@@ -222,7 +226,8 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
     """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
     no symbol of a or c.
 
-    For example, u is S if -b = m l^2 S and the other coefficients contain m and l.
+    For example, u is S if -b = m l^2 S and the other coefficients contain m and l. If the sign of -b/u is unknown, the
+    roots have their tidy form.
     """
     own = [
         f
@@ -385,6 +390,7 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
     """Discriminant of a quadratic equation, Delta = b^2 - 4 a c: the roots are real where it is not negative.
 
     roots   a root that `roots` returned with `together`
+
     Check: the resultant of a x^2 + b x + c and its derivative is -a Delta.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
@@ -419,6 +425,7 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     roots      a root that `roots` returned with `together`
     letter     the letter to solve for
     distinct   whether two distinct roots are required, b^2 - 4 a c > 0
+
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
     substituted in the equation, the condition is first shown in letters.
     Check: as `where`.

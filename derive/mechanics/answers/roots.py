@@ -69,8 +69,9 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for each quadratic
-    factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+    """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
+    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
     values     quantities for letters of the coefficients, substituted after the formula for both roots
@@ -80,6 +81,7 @@ def roots(
     keys       keys of the steps; by default the letter, with _1, _2 if there are several
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
+
     Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
     If cos(theta) is the unknown, a factor such as sin(theta) is split off; the page states the equation sin(theta) = 0
@@ -88,7 +90,8 @@ def roots(
     following (a later root), none (no root is real), none_positive, none_reached (a sine or a cosine would be greater
     than 1 or less than -1); for both roots in one formula: two, none, double, conditional (the sign of b^2 - 4 a c
     depends on the symbols), opposite (one of each sign), linear.
-    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two.
+    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two;
+    no root is in the range of the unknown.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
     unknown = unknown_of("roots", letter)
@@ -114,7 +117,8 @@ def roots(
     kept = _ascending(kept)
     names = list(keys or _names(unknown, len(kept), key))
     if len(names) != len(kept):
-        message = f"`roots`: `{equation.key}` has {len(kept)} root{'s' * (len(kept) > 1)} here, not {len(names)}"
+        count = f"{len(kept)} root{'s' * (len(kept) > 1)}"
+        message = f"`roots`: `{equation.key}` has {count} here, but the number of keys is {len(names)}"
         raise Rejected(Complaint("wrong-argument", message))
     letters = list(symbols or [""] * len(kept))
     if len(letters) != len(kept):
@@ -281,7 +285,7 @@ def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
 
 
 def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
-    """Whether no angle has the root as its sine or cosine."""
+    """Whether it is known that no angle has the root as its sine or cosine."""
     return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
 
 
@@ -364,7 +368,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # for b = 0, D = 0 means a = 0 or a root 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # for b = 0, D = 0 means that a or the root is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
@@ -445,7 +449,7 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         return found[int(which) - 1]
     if which not in CHOICES:
         help_line = did_you_mean(which, CHOICES) or f"it is {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
-        message = f"`{which}` does not specify which root"
+        message = f"`{which}` is not a choice of a root"
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:
@@ -459,5 +463,5 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
 
 def _no_choice(which: str, why: str, found: Sequence[Quantity]) -> Rejected:
     values = ", ".join(str(explicit(root.value)) for root in found)
-    message = f"`root: {which}` does not specify which root: {why}"
+    message = f"`root: {which}` does not determine one root: {why}"
     return Rejected(Complaint("no-root", message, help=f"the roots are {values}", argument="root"))

@@ -43,7 +43,8 @@ def _in_results(
 
 
 def _state(force: Quantity) -> Any:
-    """Return the equations of motion that give a force, or the rule and the inputs of any other step."""
+    """Return the linear equations from which the force was solved. For a force that comes from any other step, return
+    the rule and the inputs of this step."""
     fact = force.fact(ForceOf)
     return fact.problem if fact is not None else (force.step.rule, force.step.inputs)
 

@@ -80,8 +80,8 @@ def put_in(
     """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each of which replaces its letter; equations whose left side is only a letter, a rate, the square
-             of a rate, or a cosine; mappings of letters or coordinates to values
+    others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
+             power, sine, cosine or tangent of one; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
 
@@ -92,8 +92,9 @@ def put_in(
     this earlier result.
     A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
     back. If the motion reaches the place only under a condition, the sentence states this condition.
-    Outcomes: results, values (letters only), zero (with these values), identity (an equation that always holds after
-    the substitution), again, turned (a rate that has changed its sign).
+    Outcomes: results (with results), values (with values only), zero (the value is zero), identity (an equation that
+    always holds after the substitution), again (an earlier result is reproduced), turned (a rate that has changed its
+    sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
@@ -414,7 +415,11 @@ def _check_holds(of: Quantity, result: Any) -> None:
 
 
 def _name(of: Quantity, symbol: str | None) -> Any:
-    """Return the symbol of the original; if this symbol is a derivative, return a symbol made from the key."""
+    """Return the symbol of the result: the requested symbol or, by default, the symbol of the original.
+
+    If the symbol of the original cannot be solved for, such as a derivative, the key of the original is the symbol. A
+    relation has no symbol.
+    """
     if isinstance(of.value, Relation):
         return None
     if symbol is not None:
@@ -428,7 +433,10 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol inside the name of the result; the magnitude |q_dot| is that of its own value."""
+    """Return a mapping from the symbol in the name of the result to its value: from theta_dot for the name theta_dot^2.
+
+    For the name |q_dot|, q_dot has the value of the result. The mapping is empty if the name is only a symbol.
+    """
     if isinstance(name, Abs):
         return {name.args[0]: result}
     return {} if name is None or isinstance(name, Symbol | MatrixSymbol) else dict(meaning(name, result))

@@ -51,8 +51,10 @@ AT = Rule(
 
 def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quantity:
     """Value of a general result for a particular vector.
+
     general      a result for a vector with unspecified components
     particular   the vector to substitute; it has the symbol and the axes of the unspecified vector
+
     Check: the law of the general result, evaluated with the particular vector from the start.
     Errors: the general result does not contain the components of the unspecified vector; the two vectors have different
     kinds, or are rotations about different points.
@@ -124,8 +126,10 @@ WITH_VALUES = Rule(
 
 def with_values(general: Quantity, *values: Quantity, key: str | None = None) -> Quantity:
     """Value of a general result for given values of some of its symbols.
+
     general   a scalar result that contains symbols, in any unit
     values    quantities; the value of each quantity replaces its symbol in the general result
+
     Check: the law of the general result, evaluated with these values from the start.
     Errors: the general result is an equation or an inequality; it contains none of these symbols, or uses one of them
     for another quantity.
@@ -174,6 +178,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
     """Length of a vector, |v| = sqrt(v.v).
 
     of      vector (3), any unit
+
     Check: turn the vector until it lies along one axis and read off the component along this axis.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
@@ -206,6 +211,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
     """Square of a vector's length, |v|^2 = v.v.
 
     of      vector (3), any unit
+
     Check: turn the vector until it lies along one axis and square the component along this axis.
     Outcomes: zero, generic.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
@@ -252,10 +258,12 @@ def let(
     because: str | None = None,
 ) -> Quantity:
     """Name for an expression in quantities, or an equation between quantities: a definition that the author sets up.
+
     key          the key of the step
     law          a function of the quantities that returns an expression, or an equation as SymPy's `Eq(left, right)`
     kind         the kind of the result, such as "force" or "time"; by default only the dimension of the result is known
     because      the reason, in the words of the script: "by Newton's second law"
+
     If all quantities belong to the same body, the result belongs to this body; likewise for the point and the rotation.
     The result varies in time if it contains a coordinate or the time. If the mass points and forces are known for every
     quantity, the result is linked to all these mass points and forces. No check shows that the result has the meaning

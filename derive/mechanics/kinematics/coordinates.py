@@ -45,12 +45,13 @@ class Coordinate:
 
     symbol   the symbol of the coordinate
     kind     kind of quantity: `angle`, `length` and so on
+
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
 
     symbol: Symbol
     kind: str
-    held_as: ClassVar[str] = "COORDINATE"  # the kind of value in `results:` for such an argument
+    held_as: ClassVar[str] = "COORDINATE"  # the name of the member of `Holds` for an argument of this type
 
     def _sympy_(self) -> Symbol:
         return self.symbol
@@ -120,7 +121,8 @@ def require_all_times(verb: str, quantity: Quantity) -> None:
 
 
 def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordinate:
-    """Return a real coordinate with this name; `positive` is for one that cannot be negative, such as a distance."""
+    """Return a real coordinate with this name; `positive` is for a coordinate that is always positive, such as a
+    distance."""
     found = Coordinate(scalar(name, positive=True) if positive else scalar(name), kind)
     coordinate_named(found.symbol, kind)
     return found
@@ -132,6 +134,7 @@ def function_of_time(name: str, kind: str = "length", positive: bool = False) ->
     name      the symbol of the function; for X, the rates are X_dot and X_ddot, in a script `X.rate()` and `X.rate(2)`
     kind      the kind of its values: `length`, `angle`, `force` and so on
     positive  whether its values are known to be positive, as for the length of a string
+
     A prescribed function is not an unknown: it has no equation of motion, and its derivative with respect to a
     coordinate vanishes.
     Source: Landau, Lifshitz, *Mechanics*, section 5.
@@ -166,7 +169,7 @@ def kind_of_rate(kind: str) -> str:
 
 
 def changing(expr: Any, coordinates: Iterable[Symbol]) -> Any:
-    """Replace each coordinate by a function of time, and its rates by derivatives of this function."""
+    """Replace each coordinate by a function of time, and its first two rates by derivatives of this function."""
     replaced: dict[Any, Any] = {}
     for q in coordinates:
         f = Function(q.name)(T)
@@ -203,7 +206,10 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # the second routes of one system all need the same series
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """Return the coefficients of q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; likewise for each rate."""
+    """Return symbol -> coefficients of its Taylor series, for t, for each coordinate and for its rates.
+
+    The series of q is q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the series of t is t + s.
+    """
     series: dict[Symbol, tuple[Expr, ...]] = {T: (T, Integer(1), *(Integer(0) for _ in RATES[2:]))}
     for q in coordinates:
         rates = [q, *(rate(q, n) for n in range(1, len(RATES)))]
@@ -227,15 +233,16 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """Rate of change along the motion by the chain rule, dx/dt = sum of dx/dq q_dot.
 
     quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
-    Check: differentiate with each coordinate as its Taylor series in t.
+
+    Check: differentiate with each coordinate replaced by its Taylor series in t.
     Outcomes: generic, zero.
     Errors: the symbol of the quantity is not a plain symbol; the quantity is known at one instant only.
     Source: Taylor, *Classical Mechanics*, section 7.1.
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no plain symbol that could take a dot"))
-    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the x of a motion x(t) does not count
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no single symbol, so its rate has none"))
+    moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself
 
     def by_time() -> Expr:
         return by_functions_of_time(quantity.value, moving)
@@ -258,7 +265,8 @@ def only_coordinate(quantity: Quantity) -> Symbol:
     found = [q for q in quantity.coordinates if quantity.value.has(q, rate(q), rate(q, 2))]
     if len(found) != 1:
         names = ", ".join(q.name for q in found) or "none"
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` must depend on one coordinate, but has {names}"))
+        message = f"`{quantity.key}` must depend on one coordinate, but depends on {names}"
+        raise Rejected(Complaint("wrong-argument", message))
     return found[0]
 
 
@@ -267,7 +275,7 @@ def required(coordinates: Mapping[Symbol, str], q: Coordinate, verb: str, quanti
     if q.symbol not in coordinates:
         known = ", ".join(s.name for s in coordinates) or "none"
         message = f"`{verb}`: `{quantity.key}` does not depend on the coordinate {q.symbol.name}"
-        raise Rejected(Complaint("wrong-argument", message, help=f"it has {known}"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"it depends on {known}"))
 
 
 def unknown(name: str, kind: str, positive: bool = False) -> Symbol:

@@ -105,6 +105,7 @@ class Axes:
 
     in_space   a rotation matrix; its columns are the unit vectors of these axes, by components along the fixed axes
     turns      the rotations from the fixed axes to these axes, in order: pairs of the index of an axis and the angle
+
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.4.
     """
 
