@@ -205,7 +205,7 @@ class Hemisphere(Ball):
         return ZERO, self.radius
 
     def particles(self) -> Particles:
-        """The particles of discs whose masses are proportional to the squares of their radii."""
+        """The particles of slices: discs whose mass per height is proportional to the square of their radius."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: self.radius**2 - z**2)
 
 
@@ -216,7 +216,7 @@ class Hemisphere(Ball):
 class Tube(Hollow):
     """A uniform hollow cylinder about the z axis, from its base at the origin to z = height.
 
-    inner, outer   radii, lengths
+    inner, outer   the radius of the cavity and the outer radius, lengths
     height         length
     mass           mass
     Points: base (the centre of the base, at the origin), centre.
@@ -243,7 +243,7 @@ class Tube(Hollow):
 class ThickShell(Hollow):
     """A uniform ball about the origin with a concentric spherical cavity.
 
-    inner, outer   radii, lengths
+    inner, outer   the radius of the cavity and the outer radius, lengths
     mass           mass
     """
 

@@ -1,4 +1,4 @@
-"""Thin bodies: mass on a line, on a part of a plane, or on a curved surface."""
+"""Thin bodies: mass on a straight line or a circle, on a part of a plane, or on a curved surface."""
 
 from __future__ import annotations
 
@@ -181,9 +181,9 @@ class Disc(_Flat):
 class Annulus(Hollow):
     """A thin uniform disc with a round hole, perpendicular to the z axis, with its centre at the origin.
 
-    inner, outer   radii, lengths
+    inner, outer   the radius of the hole and the outer radius, lengths
     mass           mass
-    Points: centre, rim (of the outer circle).
+    Points: centre, rim (a point of the outer circle).
     """
 
     inner: Expr
@@ -326,5 +326,5 @@ class ConicalShell(Conical):
         return Factors(pi, self.radius, sqrt(self.radius**2 + self.height**2))
 
     def particles(self) -> Particles:
-        """The particles of rings whose masses are proportional to their radii."""
+        """The particles of rings: the mass per height is proportional to the radius."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: z, ring_of_particles)
