@@ -215,7 +215,7 @@ def _equation_of_momentum(of: Quantity, q: Coordinate) -> Quantity:
 
 
 def _by_terms(found: Relation, letters: Sequence[Symbol]) -> Relation:
-    """Simplify each term with momenta separately, and all other terms together."""
+    """Simplify the right side: each term with momenta separately, and all other terms together."""
     right = explicit(found.right)
     terms = Add.make_args(right)
     moving, rest = ([term for term in terms if term.has(*letters) == held] for held in (True, False))
