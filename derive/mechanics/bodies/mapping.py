@@ -76,8 +76,8 @@ def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: 
     """The region of a map, with positions relative to a point.
 
     A variable that is itself a coordinate along a body axis is measured from the point as well, if an axis of the point
-    is parallel to this body axis and its own limits are constant. This is not done if another coordinate, the weight,
-    or a limit of another such variable depends on it.
+    is parallel to this body axis and the limits of this variable are constant. This is not done if another coordinate,
+    the weight, or a limit of another such variable depends on it.
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)

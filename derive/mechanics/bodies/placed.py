@@ -31,6 +31,7 @@ XYZ = "xyz"
 @dataclass(frozen=True)
 class PlacedBody:
     """A body with its position and its orientation.
+
     body     an object with a mass, a centre of mass and an inertia about its points
     turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
