@@ -1,5 +1,5 @@
 """Poisson brackets of functions of coordinates and momenta. The bracket of a function with the Hamiltonian is the rate
-of change of this function, if the function does not contain the time."""
+of change of this function, if the function does not contain the time and the Hamiltonian contains all forces."""
 
 from __future__ import annotations
 

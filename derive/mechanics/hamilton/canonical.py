@@ -54,7 +54,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time); work_energy (H is T + U,
     but a force outside L does work); work (H is not T + U, and a force outside L does work); given_conserved,
     given_changing, given_work (the same for a given L, whose T and U are unknown).
-    Errors: the momenta do not determine the rates, or too many rates are coupled.
+    Errors: the same as for `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     moving = coordinates_of(of)

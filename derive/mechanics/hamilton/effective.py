@@ -113,7 +113,8 @@ def _pushed(matter: Matter, q: Coordinate) -> Expr:
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
     """Return the coordinates of the Lagrangian except the coordinates of the constant momenta; reject momenta of
-    another Lagrangian, and forces outside L that act along the remaining coordinates."""
+    another Lagrangian, and forces outside L that act along the remaining coordinates (for an effective potential
+    energy, only where all rates vanish)."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate

@@ -118,6 +118,7 @@ MEETING_CONDITION = Rule(
 def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Quantity:
     """Condition on the rates just after an impact, v = -e v_before. Here v is a component of the relative velocity of
     two places, or the rate of a constraint.
+
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; the conditions of constraints come last
     Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.

@@ -172,8 +172,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
-    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses: of all bodies about the fixed
-    axis of the body that rotates with a coordinate, or of this body about its centre of mass.
+    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies about
+    the fixed axis of the body that rotates with a coordinate, or for this body only, about its fixed axis or its centre
+    of mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body

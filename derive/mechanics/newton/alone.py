@@ -38,7 +38,7 @@ class Force:
     components   N, along the axes of the plane
     at           the place of the particle on which the force acts; None for a couple
     couple       the torque of a couple, N m, positive counterclockwise
-    letter       the symbol of a constraint force in it; None for a force that is known
+    letter       the symbol of the constraint force that `components` or `couple` contains; None for a known force
     """
 
     components: Vector
@@ -140,7 +140,7 @@ class Alone:
 
     @cached_property
     def forces(self) -> tuple[Force, ...]:
-        """The weight, and the forces of everything that acts on this body."""
+        """All forces and couples on this body, including its weight."""
         return tuple(force for force, on in _forces(self.system) if on is self.part)
 
 

@@ -137,7 +137,8 @@ def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
-    """The symbols of the unknown forces that act at the point of the torques at rest; a sentence names two of them."""
+    """The symbols of at most two unknown forces that act at the point about which torques at rest are taken; the
+    sentence names them."""
     if point.word != "point":
         return {}
     here = [f.letter for f in body.forces if f.at is not None and f.letter is not None and is_same(f.at, point.place)]

@@ -72,7 +72,7 @@ class RigidBody(Placeable, OfParticles):
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    mass      kg, needed for all results except those about free rotation
+    mass      the mass, kg; only results about free rotation do not need it
     moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
               the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
@@ -265,7 +265,7 @@ def rate_in_space(
     the rate of L . n for a direction n that is fixed in space, so n_dot = -omega x n in the body.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
-    Errors: an argument is a quantity of another kind.
+    Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     require_kind("rate_in_space", "momentum", momentum, "angular momentum")
@@ -422,7 +422,7 @@ def rate_in_body(
     Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations from the
     equations.
     Outcomes: zero (L is constant in the body), in_general (without torque), driven (a torque acts).
-    Errors: an argument is a quantity of another kind.
+    Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     require_kind("rate_in_body", "momentum", momentum, "angular momentum")

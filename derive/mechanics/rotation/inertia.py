@@ -500,7 +500,8 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
     if entry is None and (i == j or not is_zero(there.value[i, j])):
         message = f"no step derives this entry of `{there.key}`"
-        raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives all entries'))
+        help_line = '`inertia_tensor(body, about="...")` derives the entries of a body without parts'
+        raise Rejected(Complaint("no-entries", message, help=help_line))
     # If c is measured from a point on the axis of a round body, only the component of c along the axis is not zero.
     apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 
