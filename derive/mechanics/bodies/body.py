@@ -137,7 +137,8 @@ class Body(Placeable, OfParticles):
 
     @property
     def flat_across(self) -> str | None:
-        """The first axis along which the body has no extent, "x" for a rod along z; None if there is no such axis."""
+        """The first axis whose coordinate is zero everywhere in the body, "x" for a rod along z; None if there is no
+        such axis."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     @property

@@ -34,7 +34,8 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The integral of f dm, where f is a function of the position; the density in dm is a step or a formula.
+    """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. The density in
+    dm is a step or a formula.
 
     weight   the function f
     mean     whether to divide the integral by the mass

@@ -23,12 +23,13 @@ LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 
 Map = tuple[ImmutableMatrix, Bounds]
-Extent: TypeAlias = Any  # a constant value of a coordinate, or a pair of limits between which it varies
+Extent: TypeAlias = Any  # a value of a coordinate, or a pair of limits; each may be a function of the first coordinate
 ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
 def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
-    """Cylindrical coordinates: height, angle about the z axis and distance from this axis; limits of r may depend on z.
+    """Cylindrical coordinates: height z, angle about the z axis and distance r from this axis. The value or the limits
+    of r may be functions of z.
 
     taken   symbols that are not available for the variables
     """
@@ -62,7 +63,7 @@ def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
 
 
 def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[Expr], Bounds]:
-    """The coordinates, each a variable or a constant value, and the limits of the variables."""
+    """The coordinates, each a variable or its given value, and the limits of the variables."""
     first = variables[0]
     place, limits = [], []
     for x, extent in zip(variables, extents, strict=True):

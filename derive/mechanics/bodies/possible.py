@@ -139,8 +139,8 @@ Box: TypeAlias = list[tuple[float, float]]
 
 
 def _box(chart: Chart) -> Box:
-    """Return the bounds of each component of a part: those of sampled places, extended on each side by their distance,
-    because the samples do not reach the surface."""
+    """Return the bounds of each component of the places of a part. The range of sampled places is extended on each side
+    by its own width, because the samples do not reach the surface."""
     places = [chart.place(*at) for at in chart.points(POINTS, Random(4))]
     bounds = [(min(values), max(values)) for values in zip(*places, strict=True)]
     return [(low - (high - low) - SHARP, high + (high - low) + SHARP) for low, high in bounds]

@@ -37,7 +37,7 @@ class Impulse:
 
     components   the components that the law uses
     at           the components of the place, or the angle as the only component
-    of           the body on which the impulse acts; None if the body is not stated
+    of           the body or particle on which the impulse acts; None if it is neither stated nor known from the place
     given        the components as the author gave them, for a second route
     """
 

@@ -164,7 +164,7 @@ class Composite(Body):
 
     @property
     def flat_across(self) -> str | None:
-        """The first axis along which the body has no extent; None if there is no such axis."""
+        """The first axis whose coordinate is zero for all particles of the body; None if there is no such axis."""
         return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
 
     @cached_property

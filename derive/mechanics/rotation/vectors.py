@@ -468,6 +468,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     Check: |a||b| sin theta = |a x b| and a.b sin theta = |a x b| cos theta, which together determine one angle from 0
     to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
+    Errors: a or b vanishes; a and b belong to different bodies.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
     cosine = cosine_between(a, b, "cosine" if key == "angle_between" else f"{key}_cosine", symbol)
