@@ -244,8 +244,8 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """Variables x and y if the base is on the x axis from the origin, and both the base and the height are known to
-        be positive; otherwise fractions u and v of two sides."""
+        """Variables x and y if the base is on the x axis from the origin, with a base and a height that are known to be
+        positive. Otherwise the variables are fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
             return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
@@ -300,7 +300,7 @@ class Tetrahedron(Cornered):
 
     def map(self) -> Map:
         """Variables x, y and z if the first corner is at the origin and the edges from it are along x, y and z in this
-        order; otherwise fractions u, v, s of these three edges."""
+        order. Otherwise the variables are fractions u, v, s of these three edges."""
         first, edges = self.corners[0], self._edges_from_first
         if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
             (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)

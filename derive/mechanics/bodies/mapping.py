@@ -76,8 +76,8 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    A variable that is itself a coordinate along a body axis is measured from the point as well, if an axis of the point
-    is parallel to this body axis and the limits of this variable are constant. This is not done if another coordinate,
+    A variable may itself be a coordinate along a body axis. Such a variable is measured from the point as well, if its
+    limits are constant and an axis of the point is parallel to this body axis. This is not done if another coordinate,
     the weight, or a limit of another such variable depends on it.
     weight   size of a cell, times the density up to a constant factor
     """

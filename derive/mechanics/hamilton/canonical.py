@@ -47,7 +47,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     of   the Lagrangian, J
     Steps derive the momenta, and the rates in terms of the momenta.
     Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
-    momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt, where F
+    momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
     are the magnetic forces and the forces with a potential energy. For a given L, the sum of p dH/dp, minus H, is L
     again.
     Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy

@@ -112,9 +112,9 @@ def _pushed(matter: Matter, q: Coordinate) -> Expr:
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta; reject momenta of
-    another Lagrangian, and forces outside L that act along the remaining coordinates (for an effective potential
-    energy, only where all rates vanish)."""
+    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. Reject momenta of
+    another Lagrangian, and forces outside L that act along the remaining coordinates. For an effective potential
+    energy, only forces that act where all rates vanish are rejected."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate

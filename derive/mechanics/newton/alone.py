@@ -1,9 +1,9 @@
 """Single particles and bodies of a system: displacements in which nothing else moves, and the forces on the body.
 
-If the coordinates allow one body to move along a direction while all other bodies stay at rest, then Newton's second
-law for this body along this direction contains only forces that the description names. The forces that the coordinates
-replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they have no
-component along the direction.
+Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
+second law for this body along this direction contains only forces that the description names. The forces that the
+coordinates replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they
+have no component along the direction.
 
 Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.1 and 7.6.
 """

@@ -38,7 +38,7 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
 
     system   particles and bodies; only forces with a potential energy, and constraint forces, act on them
     Second route: by Newton's second law for the mass points, the rate of change of E is the power of the forces without
-    a potential energy, which vanishes for all velocities that the constraints allow.
+    a potential energy. This power vanishes for all velocities that the constraints allow.
     Outcomes: free (no constraint force has a symbol), constrained (constraint forces with symbols act, but do no work).
     Errors: a force without a potential energy does work, or the positions or the potential energy depend on the time.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.1 and 5.4.

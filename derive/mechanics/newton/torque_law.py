@@ -75,11 +75,10 @@ def torque_law(
 
     system   particles and bodies in a plane, and the forces on them
     q        a coordinate that rotates one body
-    about    "contact" for a point of contact, about which the angular momentum also has the term of the centre of mass;
-             by default the fixed axis of the body, or else its centre of mass
-    at_rest  whether the system is at rest, so that the torques add up to zero; they are then taken about the point
-             where most of the unknown forces act, if the coordinates allow a rotation about this point in which only
-             this body moves
+    about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
+             centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
+    at_rest  whether the system is at rest, so that the torques add up to zero. They are then taken about the point
+             where most of the unknown forces act, if the coordinates let only this body rotate about this point
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.
     Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; a

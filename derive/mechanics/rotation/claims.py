@@ -72,7 +72,7 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 def is_mirrored(facts: Judged) -> bool:
     """Whether the result is a diagonal entry, and every function that is odd in x, y or z has a zero integral over the
-    mass of the body; one such function is tested for each axis."""
+    mass of the body. One such function is tested for each axis."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)

@@ -173,8 +173,8 @@ def precession_rate(
 
     inertia    tensor (3, 3), kg m^2, along principal axes, with two moments equal to I
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
-    Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e; and the integral of r x
-    (u x r) dm over the body, with u = w - Omega_p L/|L|, is along the axis.
+    Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e. Also, with u = w -
+    Omega_p L/|L|, the integral of r x (u x r) dm over the body is along the axis.
     Errors: the body has no symmetry axis; L is along this axis, whose direction is then constant.
     Source: Landau, Lifshitz, *Mechanics*, section 33.
     """

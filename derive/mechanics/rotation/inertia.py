@@ -225,8 +225,8 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     """Return the entries to integrate.
 
     For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
-    each axis, the plane through the point and normal to this axis is a mirror plane of the body; the limits of a body
-    with a single region show this.
+    each axis, the plane through the point and normal to this axis is a mirror plane of the body. This is tested only
+    for a body with a single region, by its limits.
     """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
@@ -353,8 +353,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis,
-    which must be equal; for a product of inertia, return an empty mapping."""
+    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis. Both
+    must be equal. For a product of inertia, return an empty mapping."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)

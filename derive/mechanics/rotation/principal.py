@@ -55,7 +55,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     inertia   symmetric tensor (3, 3), kg m^2
     The moments of a diagonal tensor are in the order of the axes. Other moments are in the order of their values with
     every symbol equal to 1, the smallest first.
-    Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor; for a diagonal
+    Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor. For a diagonal
     tensor, also I e = I_k e for the unit vector e of each axis.
     Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
     Errors: the characteristic polynomial is a cubic without a rational factor, so its roots have no useful closed form.
