@@ -467,14 +467,14 @@ parts:
     answer: equations_of_motion
 """
 WRONG = {
-    "a rod without a letter for its force": (DOUBLE, "no body can move along alpha alone"),
+    "a rod without a letter for its force": (DOUBLE, "do not let one body move with alpha while all others"),
     "energy with two coordinates": (
         edited(DOUBLE, ("method: newton", "method: energy")),
         "conservation of energy is one equation",
     ),
     "rolling without a letter": (
         edited(WITHOUT_LETTER, ("method: angular_momentum", "method: newton")),
-        "a force that has no letter has a torque",
+        "a force without a symbol has a torque",
     ),
     "a Lagrangian by Newton": (
         edited(POLAR, ("answer: equations_of_motion", "answer: lagrangian")),

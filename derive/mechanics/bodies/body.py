@@ -1,8 +1,8 @@
 """Bodies: the region that the mass fills, the density, the centre of mass, and the named points and directions.
 
-Every body has body axes. Positions along these axes have the unit of the sizes of the body. The body axes of a body
-with perpendicular edges are along these edges, with the origin at a corner. A round body has its axis of symmetry along
-z.
+Every body has body axes. Positions along these axes have the unit of the sizes of the body. A plate and a cuboid have
+their edges along these axes and a corner at the origin. A body of one of the round shapes has its axis of symmetry
+along z.
 """
 
 from __future__ import annotations
@@ -53,7 +53,8 @@ DENSITIES = {
 
 
 class Body(Placeable, OfParticles):
-    """The common base of all bodies.
+    """The common base of all bodies whose distribution of mass is known; a body given only by its moments is a
+    `RigidBody`.
 
     A subclass defines the named points, the region of integration and the size. A subclass also defines a few
     particles, which together have the mass, the centre of mass and the second moments of the body.
@@ -65,9 +66,9 @@ class Body(Placeable, OfParticles):
     other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
-    is_lopsided: ClassVar[bool] = False  # whether the body lacks inversion symmetry, even if its particles have it
+    is_lopsided: ClassVar[bool] = False  # whether symmetric particles do not imply inversion symmetry of the body
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinates in which limits are given
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # names of the coordinates in which its limits are known
     is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
 
     def __post_init__(self) -> None:
@@ -88,7 +89,7 @@ class Body(Placeable, OfParticles):
     def named(self, called: str) -> Self:
         """Return the same body with a name, for a page with several bodies: steps, symbols and words include the name.
 
-        called   "upper rod": keys begin with `upper_rod_`, symbols have the index `upper`
+        called   one or two words; with "upper rod", keys begin with `upper_rod_` and symbols have the index `upper`
         """
         return self._with("called", name_of_body(called))
 
@@ -100,11 +101,13 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return this body as a part of a larger body, with the named point `of` at (x, y), (x, y, z) or a `point`."""
+        """Return this body as a part of a larger body, with its point named `of` at (x, y), at (x, y, z) or at a value
+        of `point`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return this body as a part of a larger body, rotated right-handed about an axis through its centre."""
+        """Return this body as a part of a larger body, rotated right-handed about an axis of the larger body.
+        The axis goes through the centre of mass of this body."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:
@@ -129,12 +132,13 @@ class Body(Placeable, OfParticles):
         return from_point(point, position, limits, cell(position, limits, tuple(size for own in sizes for size in own)))
 
     def points(self) -> Mapping[str, Point]:
-        """The named points of the body, except its centre of mass."""
+        """The named points of the body. The centre of mass may be missing here, because `point()` adds it."""
         return {self.reference: Point(self.reference, ORIGIN)}
 
     @property
     def flat_across(self) -> str | None:
-        """The first axis along which the body has no extent, "x" for a rod along z; None if there is no such axis."""
+        """The first axis whose coordinate is zero everywhere in the body, "x" for a rod along z; None if there is no
+        such axis."""
         return next((axis for axis, x in zip("xyz", self.map()[0], strict=True) if x == 0), None)
 
     @property
@@ -144,7 +148,8 @@ class Body(Placeable, OfParticles):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Name -> length, for the lengths that define the size of the body; lengths of the same name form a tuple."""
+        """Name -> value, for the lengths and angles that define the size of the body; lengths of the same name form a
+        tuple."""
         own: Any = self
         return {each.name: getattr(self, each.name) for each in fields(own) if each.name != "mass"}
 
@@ -287,7 +292,7 @@ class OfRadius(Body):
 
 @dataclass(frozen=True)
 class OfHeight(Body):
-    """A body of revolution about the z axis from z = 0, defined by a radius and a height."""
+    """A body from z = 0 to z = height, whose cross-section is defined by a radius."""
 
     radius: Expr
     height: Expr
@@ -299,7 +304,7 @@ class OfHeight(Body):
 
 
 class Spherical(OfRadius, RoundBody):
-    """A body whose outer surface is on a sphere about the origin."""
+    """A body whose curved outer surface is a sphere about the origin, or a part of this sphere."""
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
@@ -310,16 +315,16 @@ class Spherical(OfRadius, RoundBody):
 
 
 class Cylindrical(OfHeight, RoundBody):
-    """A body whose outer surface is on a cylinder about the z axis."""
+    """A body whose curved outer surface is a cylinder about the z axis."""
 
     def radius_at(self, z: Expr) -> Expr:
         return self.radius
 
 
 class Conical(OfHeight, RoundBody):
-    """A body whose outer surface is on a cone with its apex at the origin.
+    """A body whose curved outer surface is a cone with its apex at the origin.
 
-    radius   the radius of the base
+    radius   the radius at z = height
     """
 
     def radius_at(self, z: Expr) -> Expr:
@@ -390,7 +395,7 @@ AXIS_VECTOR = Rule(
 def axis_vector(
     body: Body | None, along: ImmutableMatrix, name: str, symbol: str = "d", key: str = "axis_vector"
 ) -> Quantity:
-    """Vector d along the axis of rotation, by its components along the body axes: a definition.
+    """Vector d along an axis, by its components along the body axes: a definition.
 
     Outcomes: diagonal (from corner to opposite corner), edge, components.
     Source: none needed.

@@ -1,7 +1,7 @@
 """The boundary of a body: a geometric shape, described by places in body axes. A drawing projects this boundary.
 
-The `boundary` of a body is one of these records; it is None if the body consists of parts, or if only the moments of
-the body are known.
+The `boundary` of a body is one of these records. It is None if no record describes the body, for example if the body
+consists of parts, or if only its moments are known.
 """
 
 from __future__ import annotations
@@ -79,7 +79,8 @@ class Rim:
     """The closed edge of a flat body in the plane of x and y.
 
     curves   the curves of the edge, in order
-    radius   the two ends and the length of a straight line whose length is a size of the body
+    radius   the two ends and the length of a straight line that a drawing labels with a size of the body; None if the
+             drawing labels no line
     """
 
     curves: tuple[Curve, ...]
@@ -129,9 +130,11 @@ Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | T
 
 
 def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
-    """The boundary of a position map: a straight line, the closed edge of a flat body, or an ellipsoid.
+    """The boundary of a position map if it is a straight line, the closed edge of a flat body in the plane of x and y,
+    or an ellipsoid.
 
-    Return None for every other map, also for the map of a flat body with a hole.
+    Return None for every other map. Also return None for a flat body if it has a hole or if a limit contains a
+    variable, and for an ellipsoid unless the map scales a ball of radius 1.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]

@@ -33,7 +33,8 @@ def dimensions_of_filling(n: int) -> Predicate:
 
 
 def has_edges(facts: Judged) -> bool:
-    """Whether the body is a box with a corner at the origin: all limits are constant, and the lower limits are zero."""
+    """Whether the body is a box with a corner at the origin: it has three variables, all limits are constant, the lower
+    limits are zero, and the volume element is 1."""
     body = facts.subject.body
     region = body.region(body.point(body.reference))
     names = set(region.names)
@@ -94,13 +95,13 @@ def is_round(facts: Judged) -> bool:
 
 
 def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
-    """Whether later steps measure from the point that the sentence names."""
+    """Whether later steps measure from the point that the sentence names, if it names a point."""
     return facts.words.get("start", fact.start.name) == fact.start.name
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the size is not negative, and the square of the size is the result (for a solid, the square of the
-    result)."""
+    """Whether the size is not found to be negative, and the square of the size is the result (for a solid, the square
+    of the result)."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
@@ -130,8 +131,8 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the stated size of a cell is positive, and its square is the result (for a solid, the square of the
-    result)."""
+    """Whether the stated size of a cell is positive at random points, and its square is the result (for a solid, the
+    square of the result)."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
@@ -151,8 +152,8 @@ def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point of the result. If the sentence states x = s cos(theta) and y = s sin(theta),
-    these formulas must give the area element of the integral, and x = s at theta = 0."""
+    """Whether the sentence names the point from which the result is measured. If the sentence states x = s cos(theta)
+    and y = s sin(theta), these formulas must give the area element of the integral, and x = s at theta = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:
@@ -164,7 +165,7 @@ def section_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def counted_from_its_point(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point that the result belongs to."""
+    """Whether the sentence names the point from which the result is measured."""
     return facts.words["start"] == getattr(facts.subject.point, "name", facts.words["start"])
 
 

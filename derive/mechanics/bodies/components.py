@@ -34,7 +34,8 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The integral of f dm, where f is a function of the position; the density in dm is a step or a formula.
+    """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. The density in
+    dm is a step or a formula.
 
     weight   the function f
     mean     whether to divide the integral by the mass
@@ -80,11 +81,12 @@ def centre_component(
     symbol: str = "r_C",
     key: str | None = None,
 ) -> Quantity:
-    """Component of the centre of mass, x_C = (rho/M) integral of x dV, or with sigma dA or lambda dl for rho dV.
+    """Component of the centre of mass, x_C = (rho/M) integral of x dV; for a thin body with sigma dA or lambda dl in
+    place of rho dV.
 
     body         a body of mass M
     axis         "x", "y" or "z": the body axis of the component
-    origin       the point from which to measure, by default the origin of the body axes
+    origin       the name of the point from which to measure; by default the point at the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
     Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
     numerical sum over cells.
@@ -120,8 +122,8 @@ def is_round_solid(body: Any) -> bool:
 
 
 def is_its_own_image(body: Any) -> bool:
-    """Whether the body has inversion symmetry: each particle at r from the centre of mass has an equal partner at
-    -r."""
+    """Whether the body has inversion symmetry: it is not `is_lopsided`, and each of its particles at r from the centre
+    of mass has an equal partner at -r."""
     if body.is_lopsided:
         return False
     centre = body.middle.position

@@ -36,12 +36,12 @@ class EdgedBody(Body):
 
     @property
     def faces(self) -> tuple[tuple[int, ...], ...]:
-        """The corners of each face in order, from either side; empty for a body with a single face."""
+        """The indices of the corners of each face, in order round the face; empty for a body with a single face."""
         return ()
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The lengths that a drawing shows, each with the edges of this length."""
+        """The lengths that a drawing shows, each with the edges of this length, as pairs of indices of corners."""
         return ()
 
     @property
@@ -56,8 +56,8 @@ class EdgedBody(Body):
 class Plate(EdgedBody):
     """A thin uniform rectangular plate in the plane of x and y, with a corner at the origin and edges along the axes.
 
-    sides    two lengths
-    mass     mass
+    sides    two lengths, along x and y
+    mass     the mass
     """
 
     sides: tuple[Expr, Expr]
@@ -98,7 +98,7 @@ class Cuboid(EdgedBody):
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
 
     sides   three lengths, along x, y and z
-    mass    mass
+    mass    the mass
     """
 
     sides: tuple[Expr, Expr, Expr]
@@ -175,8 +175,8 @@ class Cornered(EdgedBody):
 class Triangle(Cornered):
     """A thin uniform triangular plate in the plane of x and y.
 
-    corners   three places (x, y), lengths
-    mass      mass
+    corners_at   the positions (x, y) of the three corners, in units of length
+    mass         the mass
     `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h, above the middle of
     the base or, if `foot` is given, above x = foot. `Triangle.equilateral(a, mass)` has three sides of length a.
     Points: first corner, second corner, third corner; centre.
@@ -216,7 +216,7 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides whose length is a multiple of a symbol; each symbol appears once, at the first such side."""
+        """The sides whose length is a multiple of a symbol; each length appears at most once."""
         found: dict[Expr, tuple[int, int]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]
@@ -244,7 +244,8 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """Variables x and y if the base is on the x axis, from the origin; otherwise fractions u and v of two sides."""
+        """Variables x and y if the base is on the x axis from the origin, with a base and a height that are known to be
+        positive. Otherwise the variables are fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
             return column(x, y, 0), ((y, ZERO, y3), (x, x3 * y / y3, x2 + (x3 - x2) * y / y3))
@@ -262,8 +263,8 @@ class Triangle(Cornered):
 class Tetrahedron(Cornered):
     """A uniform solid with four corners.
 
-    corners_at   four places (x, y, z), lengths
-    mass         mass
+    corners_at   the positions (x, y, z) of the four corners, in units of length
+    mass         the mass
     Points: first corner, ..., fourth corner; centre.
     """
 
@@ -298,8 +299,8 @@ class Tetrahedron(Cornered):
         return (-sixfold if sixfold.could_extract_minus_sign() or sixfold.is_negative else sixfold) / 6
 
     def map(self) -> Map:
-        """Variables x, y and z if three edges from the origin are along the axes; otherwise fractions u, v, s of three
-        edges."""
+        """Variables x, y and z if the first corner is at the origin and the edges from it are along x, y and z in this
+        order. Otherwise the variables are fractions u, v, s of these three edges."""
         first, edges = self.corners[0], self._edges_from_first
         if first == ORIGIN and all(e == column(*(e[i] * int(i == k) for i in range(3))) for k, e in enumerate(edges)):
             (a, b, c), (x, y, z) = (e[k] for k, e in enumerate(edges)), coordinates("xyz", self.letters)
@@ -322,7 +323,7 @@ class Wedge(Cornered):
 
     face     the triangular base, a `Triangle`
     length   the length along z, from z = 0
-    mass     mass
+    mass     the mass
     Points: first corner, second corner, third corner (of the face at z = 0); centre.
     """
 

@@ -1,7 +1,7 @@
 """Equimomental particles: together they have the mass, the centre of mass and the second moments of a body.
 
-No integral is needed. The particles come from slices, weighted by a quadrature rule that is exact for the powers that
-occur, or from known second moments.
+The particles of a standard shape need no integral. They come from a known set of particles, from slices weighted by a
+quadrature rule that is exact for the powers that occur, or from known second moments.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ BOOLE = tuple((Rational(k, 4), Rational(w, 90)) for k, w in enumerate((7, 32, 12
 
 
 def summed(particles: Iterable[tuple[Expr, ImmutableMatrix]], of: Callable[[ImmutableMatrix], Any]) -> Any:
-    """The sum of mass times a function of the place; the function yields a number, a vector or a tensor."""
+    """The sum of mass times a function of the place; the value of the function is a number, a vector or a tensor."""
     return reduce(add, (mass * of(place) for mass, place in particles))
 
 
@@ -48,8 +48,8 @@ class OfParticles:
     is_of_particles: ClassVar[bool] = True  # whether the particles are found without an integral
 
     def particles(self) -> Particles:
-        """Particles with the mass, centre of mass and second moments of the body. They are found without integrals, so
-        they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        """Particles with the mass, centre of mass and second moments of the body. If `is_of_particles` is true, they
+        are found without integrals, so they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
         raise AttributeError(f"{type(self).__name__} must define its equimomental particles")
 
     def another_way(
@@ -136,7 +136,8 @@ def stretched(particles: Iterable[tuple[Expr, ImmutableMatrix]], by: tuple[Expr,
 
 
 def without(whole: Particles, removed: Particles) -> Particles:
-    """The particles of a body from which another body is removed; the removed particles have negative mass."""
+    """The particles of a body from which another body is removed; the particles of the removed body have negative
+    mass."""
     return [*whole, *((-mass, place) for mass, place in removed)]
 
 

@@ -85,7 +85,7 @@ class GeneralBody(Body):
         fresh = {u: scalar(u.name) for u in limits}
         outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)
         self.given_mass, self.given_density = mass, None if density is None else outside
-        next(inside(self._limits, looks=1))  # raises an error if the limits are never in order
+        next(inside(self._limits, looks=1))  # raises an error if no draw of the symbols puts the limits in order
         self._mapped = cell(self._position, self._limits)
         if self._mapped == 0:
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
@@ -141,7 +141,7 @@ class GeneralBody(Body):
 
     @cached_property
     def density(self) -> Quantity:
-        """The step that derives the density, or the mass if the density is given."""
+        """The step that derives the density; if only the density is given, the step that derives the mass."""
         if self.given_mass is None:
             return mass_by_integration(self)
         return density(self) if self.is_uniform else normalised_density(self)

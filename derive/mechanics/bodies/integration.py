@@ -88,7 +88,8 @@ Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
-    """The lines from rho times the integral of a weight to the value in terms of the mass, M = rho V."""
+    """The lines from rho times the integral of a weight to the value in terms of the mass, M = rho V. If rho is 1, the
+    lines do not mention the mass."""
     integrand = (weight * region.element).expand()
     if integrand == 0:
         return []
@@ -131,7 +132,8 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
     """The lines from the innermost integrals outwards: antiderivatives, then their values at the limits."""
     nested = _are_nested(terms)
-    # The split hardly changes a single nested term, so the line of the split then appears at full level only.
+    # If there is only one term and it is nested, the line "split" differs little from the line before it, so it appears
+    # at full level only.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
     lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):
@@ -237,7 +239,8 @@ def _over_discs(region: Region, integrand: Expr, front: Expr) -> list[Form]:
 
 
 def _by_chords(region: Region, integrand: Expr, front: Expr) -> list[Form]:
-    """The lines of an integral over a disc in Cartesian coordinates: along its chords, then with y = r sin u."""
+    """The lines of an integral over a disc in Cartesian coordinates: along its chords, then, if each integrand allows
+    it, with y = r sin u."""
     z_limit, y_limit, x_limit = region.limits
     chords = [factor_terms(c) for c in Add.make_args(factor_terms(explicit(Integral(integrand, x_limit))).expand())]
     turned = [_by_angle(chord, y_limit, region) for chord in chords]
@@ -287,7 +290,8 @@ def _with_power_bracket(part: Nested) -> Expr:
 
 
 def _mass_collected(region: Region, integrand: Expr, sign: int, rho: Expr, volume: Expr, is_sum: bool) -> list[Form]:
-    """The lines that group density times volume in a bracket, which then becomes the mass: 13/3 (6 a^3 rho) a^2."""
+    """The lines that group density times volume in a bracket, here for 13/3 M a^2: 13/3 (6 a^3 rho) a^2. The value with
+    the mass in place of the bracket follows as the result."""
     whole = region.with_section_put_in()
     value = tidied(Integral(integrand, *reversed(whole.limits)))
     if value == 0:

@@ -1,7 +1,8 @@
 """Check the positions of the named points of a body by means of the limits of its region.
 
-A corner is at a limit of every coordinate. A rim is on the outermost circle. The base is the middle of an end face. The
-apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by integration.
+A corner is at a limit of every coordinate. A point of the rim is on the outermost circle. The base is the middle of an
+end face. The apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by
+integration.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from derive.steps.step import is_zero
 
 
 def is_where_named(body: Any, point: Point) -> bool:
-    """Whether a point has the position that its name implies, if any, and its axes are orthonormal and right-handed."""
+    """Whether the axes of a point are orthonormal and right-handed, and its position passes the test for its name, if
+    there is one."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)

@@ -23,12 +23,13 @@ LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 
 Map = tuple[ImmutableMatrix, Bounds]
-Extent: TypeAlias = Any  # a constant value of a coordinate, or a pair of limits between which it varies
+Extent: TypeAlias = Any  # a value of a coordinate, or a pair of limits; each may be a function of the first coordinate
 ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
 def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
-    """Cylindrical coordinates: height, angle about the z axis and distance from this axis; limits of r may depend on z.
+    """Cylindrical coordinates: height z, angle about the z axis and distance r from this axis. The value or the limits
+    of r may be functions of z.
 
     taken   symbols that are not available for the variables
     """
@@ -43,9 +44,9 @@ def spherical(
     taken: Collection[Symbol], r: Extent, theta: Extent = HALF_ROUND, phi: Extent = ALL_ROUND, by: Any = (1, 1, 1)
 ) -> Map:
     """Spherical coordinates: distance from the origin, angle from the z axis, angle about the z axis.
-    by      factors that scale the positions along x, y and z
 
     taken   symbols that are not available for the variables
+    by      factors that scale the positions along x, y and z
     """
     (out, down, about), limits = _varied(coordinates(("r", "theta", "phi"), taken), (r, theta, phi))
     place = (sin(down) * cos(about), sin(down) * sin(about), cos(down))
@@ -62,7 +63,7 @@ def cartesian(taken: Collection[Symbol], *ends: Extent) -> Map:
 
 
 def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[Expr], Bounds]:
-    """The coordinates, each a variable or a constant value, and the limits of the variables."""
+    """The coordinates, each a variable or its given value, and the limits of the variables."""
     first = variables[0]
     place, limits = [], []
     for x, extent in zip(variables, extents, strict=True):
@@ -75,8 +76,9 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    If a variable is itself a coordinate along an axis, this variable is measured from the point as well, unless another
-    coordinate, the weight, or a limit of another such variable depends on it.
+    A variable may itself be a coordinate along a body axis. Such a variable is measured from the point as well, if its
+    limits are constant and an axis of the point is parallel to this body axis. This is not done if another coordinate,
+    the weight, or a limit of another such variable depends on it.
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)
@@ -126,7 +128,7 @@ def _root_of(square: Expr, limits: Bounds) -> Expr:
 
 
 def _counted_positive(size: Expr, limits: Bounds) -> Expr:
-    """The size of a cell with a positive sign; an error if the sign is not the same everywhere."""
+    """The size of a cell with a positive sign; an error if the sign is not the same at all random points."""
     if size == 0:
         return size
     signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
@@ -171,7 +173,8 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
 
 
 def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) -> tuple[ImmutableMatrix, Bounds]:
-    """Return the position map with new real variables; an error if a limit contains any but outer variables.
+    """Return the position map with new real variables. It is an error if a limit contains a variable that is not an
+    outer one, or if an interval is known to be empty.
 
     position   three formulas
     limits     variable -> (lower, upper), outermost first

@@ -48,7 +48,8 @@ class PlacedPart:
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return the same part, rotated right-handed by an angle about "x", "y" or "z" through its fixed point."""
+        """Return the same part, rotated right-handed by an angle about its fixed point. The axis is "x", "y" or "z" of
+        the larger body."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
         if any(not is_zero(way) for way in turn.T * made.turn - self.turn):
@@ -114,8 +115,8 @@ def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
 
 
 def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
-    """Whether the matrix maps each unit vector v to v_parallel + v_perp cos(angle) + (n x v) sin(angle), with the axis
-    n."""
+    """Whether the matrix maps each unit vector v along an axis to v_parallel + v_perp cos(angle) + (n x v) sin(angle),
+    with the axis n."""
     n = column(*(int(axis == other) for other in "xyz"))
     for k in range(3):
         v = column(*(int(k == i) for i in range(3)))

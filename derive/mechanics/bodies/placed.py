@@ -30,7 +30,7 @@ XYZ = "xyz"
 
 @dataclass(frozen=True)
 class PlacedBody:
-    """A body in motion.
+    """A body with its position and its orientation.
 
     body     an object with a mass, a centre of mass and an inertia about its points
     turned   the axes of the body; for a motion in a plane, the angle
@@ -64,7 +64,7 @@ class PlacedBody:
 
     @property
     def hub(self) -> Location:
-        """The centre of the rim, or of a round body whose shape is known."""
+        """The centre of the rim if there is one; otherwise the centre of mass."""
         return self.rim[0] if self.rim is not None else self.centre
 
     @property
@@ -116,7 +116,7 @@ class PlacedBody:
 
     @property
     def depends_on(self) -> ImmutableMatrix:
-        """All components of the position and the orientation of the body."""
+        """The components of the position, then the entries of the rotation matrix or the angle, as one column."""
         turning = list(self.turned.in_space) if isinstance(self.turned, Axes) else [self.turned]
         return ImmutableDenseMatrix([*self.at.components, *turning])
 
@@ -138,7 +138,7 @@ def body_at(place: Any, stated: Any = None) -> Any:
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
-    """The matrix of successive rotations."""
+    """The matrix of successive rotations, each about an axis of the body as the rotations before it have turned it."""
     whole = turn_about(0, Integer(0))
     for i, angle in turns:
         whole = ImmutableDenseMatrix(whole * turn_about(i, angle))
@@ -153,7 +153,7 @@ class Placeable:
 
     @property
     def boundary(self) -> Boundary | None:
-        """The boundary of the body, for a drawing; None if the body has parts, or if only its moments are known."""
+        """The boundary of the body, for a drawing; None if no boundary is known, as for a body with parts."""
         return None
 
     def __init_subclass__(cls) -> None:
@@ -196,7 +196,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         raise Rejected(Complaint("wrong-argument", "the place of a body must be a value of `point` or `place`"))
     count = 3 if isinstance(turned, Axes) else 2
     if len(at.components) != count:
-        message = "a body turned by axes needs a place in space; a body turned by an angle needs a place in the plane"
+        message = "if `turned` is a set of axes, the place needs three components; if it is an angle, two components"
         raise Rejected(Complaint("wrong-argument", message))
     if isinstance(turned, Axes):
         if getattr(body, "is_plane", False):
@@ -230,7 +230,7 @@ def _check_flat(body: Any, number: int) -> None:
     """Reject the default axis perpendicular to the plane if the body extends along this axis, unless all axes of the
     body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} extends along its {XYZ[number]} axis, so another axis may be perpendicular to the plane"
+        message = f"{body.name} extends along its {XYZ[number]} axis, so it is not clear which axis is across the plane"
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
@@ -239,7 +239,8 @@ def _check_flat(body: Any, number: int) -> None:
 
 
 def _across(body: Any, named: str | None) -> int:
-    """The index of the body axis perpendicular to the plane: the named axis, or the axis that the shape determines."""
+    """The index of the body axis perpendicular to the plane: the named axis, or the axis that the shape determines. The
+    default is z if the moment about only one axis is known, or if all axes of the body are equivalent."""
     if named is not None and named not in tuple(XYZ):
         message = f'a body has no axis "{named}"'
         raise Rejected(Complaint("wrong-argument", message, help='it has "x", "y", "z"'))

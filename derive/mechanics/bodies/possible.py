@@ -1,8 +1,9 @@
 """Checks for impossible bodies: a hole outside the body, parts that overlap, a position map that covers places twice, a
 density that changes its sign, a negative mass or size.
 
-The checks are numerical: Newton's method on the position map of one part looks for points of another part. A body is
-rejected only if it is impossible for every draw of its symbols, or for the numbers of the problem.
+The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
+of another part. They reject a body only if it is impossible for every draw of its symbols; a symbol with a number in
+the problem has this number in each draw.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS, TWINS = 40, 6  # sampled points of a part; sampled places at which other values of the variables are sought
-SHARP = 1e-6  # extension of the bounds of a part that is flat or straight
+SHARP = 1e-6  # length added to the bounds of a part, which may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
 
 
@@ -68,8 +69,8 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 
 @dataclass(frozen=True)
 class Fault:
-    """Why no body can consist of the given parts: a word for the reason, and the names of the parts that meet at one
-    place."""
+    """Why no body can consist of the given parts: a word for the reason ("shared", "hole" or "empty"), and the names of
+    the parts that meet at one place."""
 
     why: str
     names: tuple[str, ...]
@@ -92,8 +93,8 @@ SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject parts that no body can have: a hole that is not inside the body, two holes or two parts that share a
-    volume, an area or a length, holes that leave nothing of the body, and a particle as a hole."""
+    """Reject parts that no body can have. These are a hole that is not inside the body, holes that leave nothing of the
+    body, and a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
     for part in parts:
         if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
             message = "a particle cannot be cut out of a body"
@@ -107,10 +108,11 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
-    """Return the faults of the parts for one draw of the symbols; none if the parts can form a body.
+    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body.
 
-    At each sampled place the number of parts minus the number of holes must be 0 or 1. It is a fault if two places
-    violate this condition in the same way, or if a part remains at no place.
+    At each sampled place, the number of parts minus the number of holes must be 0 or 1. There is a fault if at least
+    two places violate this condition in the same way. If there is no such fault, but the holes leave nothing of the
+    parts at any sampled place, the fault is "empty".
     """
     found: dict[Fault, int] = {}
     left = False
@@ -137,8 +139,8 @@ Box: TypeAlias = list[tuple[float, float]]
 
 
 def _box(chart: Chart) -> Box:
-    """Return the bounds of each component of a part: those of sampled places, extended on each side by their distance,
-    because the samples do not reach the surface."""
+    """Return the bounds of each component of the places of a part. The range of sampled places is extended on each side
+    by its own width, because the samples do not reach the surface."""
     places = [chart.place(*at) for at in chart.points(POINTS, Random(4))]
     bounds = [(min(values), max(values)) for values in zip(*places, strict=True)]
     return [(low - (high - low) - SHARP, high + (high - low) + SHARP) for low, high in bounds]
@@ -180,9 +182,10 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that each draw of the symbols has, of the draws that can be evaluated; None without such a fault.
+    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if there is no such fault.
 
-    If each draw has another fault, such as two of many rods that have the same place by accident, the body is possible.
+    If no fault is common to all draws, the body is possible: of many rods, for example, two may have the same place by
+    accident, and other draws have other pairs.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}

@@ -1,4 +1,4 @@
-"""Numerical integrals over a body, for random values of its symbols: a second route to exact integrals.
+"""Numerical integrals over a body, for random values of its symbols. They check exact integrals.
 
 The size of a cell is the square root of det(r_i . r_j), from the scalar products of the edges. The integral over each
 variable x uses Gauss's rule in t, where x = m - h cos(pi t): square roots at the ends of the interval are smooth in t.
@@ -48,7 +48,8 @@ def _gauss(n: int) -> tuple[tuple[float, float], ...]:
 
 
 def metric(position: ImmutableMatrix, names: Sequence[Symbol]) -> Expr:
-    """det(r_i . r_j): the square of the length, area or volume of a cell."""
+    """det(r_i . r_j): the square of the length, area or volume of a cell, divided by the squares of the
+    differentials."""
     edges = ImmutableDenseMatrix.hstack(*(ImmutableDenseMatrix(diff(position, u)) for u in names))
     return (edges.T * edges).det(method="berkowitz")
 

@@ -79,7 +79,8 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether x, y and z each range between opposite constants, so all coordinate planes are mirror planes."""
+        """Whether each of x, y and z is zero or ranges between opposite constants, so all coordinate planes are mirror
+        planes."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
@@ -99,7 +100,7 @@ class Region:
         distance from the axis, from 0 to r, is then s.
 
         taken    symbols that are not available for r and s
-        primed   a mark to put after r
+        primed   text to append to the name of r, such as a prime
         """
         z, angle, (out, lower, upper) = self.limits
         if not upper.has(z[0]):
@@ -121,7 +122,8 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Symbols for coordinates, distinct from all given symbols and from each other: r, or else s."""
+    """Symbols for coordinates, distinct from all given symbols and from each other as far as the names in `OTHERS`
+    allow: r, or else s."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)
@@ -138,7 +140,7 @@ def round_by_chords(
     point.
 
     ends     the limits of z in body axes
-    primed   a mark to put after the symbol of the radius
+    primed   text to append to the name of the radius, such as a prime
     """
     taken = {letter for end in ends for letter in end.free_symbols | radius_at(end).free_symbols}
     z, x, y = coordinates("zxy", taken)

@@ -107,9 +107,9 @@ class RoundSolid(RoundBody):
 class Cone(Conical, RoundSolid):
     """A uniform circular cone, from its apex at the origin to its base at z = height.
 
-    radius   the radius of the base, length
-    height   length
-    mass     mass
+    radius   the radius of the base, a length
+    height   the height, a length
+    mass     the mass
     Points: apex, base (the centre of the base, from which z is positive towards the apex), centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -147,9 +147,9 @@ class Cone(Conical, RoundSolid):
 class Cylinder(Cylindrical, RoundSolid):
     """A uniform circular cylinder, from its base at the origin to z = height.
 
-    radius   length
-    height   length
-    mass     mass
+    radius   the radius, a length
+    height   the height, a length
+    mass     the mass
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -167,8 +167,8 @@ class Cylinder(Cylindrical, RoundSolid):
 class Ball(Spherical, RoundSolid):
     """A uniform ball about the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     """
 
     id = "ball"
@@ -191,8 +191,8 @@ class Ball(Spherical, RoundSolid):
 class Hemisphere(Ball):
     """Half of a uniform ball, with z > 0; the centre of its base is at the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     Points: base (the centre of the base), centre.
     """
 
@@ -205,7 +205,7 @@ class Hemisphere(Ball):
         return ZERO, self.radius
 
     def particles(self) -> Particles:
-        """The particles of discs whose masses are proportional to the squares of their radii."""
+        """The particles of slices: discs whose mass per height is proportional to the square of their radius."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: self.radius**2 - z**2)
 
 
@@ -216,9 +216,9 @@ class Hemisphere(Ball):
 class Tube(Hollow):
     """A uniform hollow cylinder about the z axis, from its base at the origin to z = height.
 
-    inner, outer   radii, lengths
-    height         length
-    mass           mass
+    inner, outer   the radius of the cavity and the outer radius, both lengths
+    height         the height, a length
+    mass           the mass
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -243,8 +243,8 @@ class Tube(Hollow):
 class ThickShell(Hollow):
     """A uniform ball about the origin with a concentric spherical cavity.
 
-    inner, outer   radii, lengths
-    mass           mass
+    inner, outer   the radius of the cavity and the outer radius, both lengths
+    mass           the mass
     """
 
     inner: Expr
@@ -266,9 +266,9 @@ class ThickShell(Hollow):
 class HalfCylinder(OfHeight):
     """Half of a uniform cylinder about the z axis, with y > 0, from z = 0 to z = height.
 
-    radius   length
-    height   length
-    mass     mass
+    radius   the radius, a length
+    height   the height, a length
+    mass     the mass
     Points: circle_centre (the centre of the circle at z = 0, the origin), centre.
     """
 
@@ -295,8 +295,8 @@ class HalfCylinder(OfHeight):
 class Ellipsoid(Body):
     """A uniform ellipsoid about the origin, with its axes along x, y and z.
 
-    semi_axes   three lengths
-    mass        mass
+    semi_axes   three lengths, along x, y and z
+    mass        the mass
     """
 
     semi_axes: tuple[Expr, Expr, Expr]
@@ -324,9 +324,9 @@ class Ellipsoid(Body):
 class Torus(Body):
     """A uniform ring of round cross-section about the z axis, with its centre at the origin.
 
-    radius    the distance of the middle of the cross-section from the axis, length
-    section   the radius of the cross-section, length
-    mass      mass
+    radius    the distance of the middle of the cross-section from the axis, a length
+    section   the radius of the cross-section, a length
+    mass      the mass
     """
 
     radius: Expr

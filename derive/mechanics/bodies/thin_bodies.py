@@ -1,4 +1,4 @@
-"""Thin bodies: mass on a line, on a part of a plane, or on a curved surface."""
+"""Thin bodies: mass on a straight line or a circle, on a part of a plane, or on a curved surface."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ __all__ = [
 class Rod(RoundBody):
     """A thin uniform rod along z, with one end at the origin.
 
-    length   length
-    mass     mass
+    length   the length of the rod
+    mass     the mass
     Points: end (at the origin), far_end, centre. All of the mass is on the axis of the rod, so the moment of inertia
     about this axis is zero.
     """
@@ -102,8 +102,8 @@ class _Flat(OfRadius, RoundBody):
 class Hoop(_Flat):
     """A thin uniform ring perpendicular to the z axis, with its centre at the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     """
 
     id, filling = "hoop", "length"
@@ -120,9 +120,9 @@ class Hoop(_Flat):
 class Arc(Body):
     """A thin uniform wire in the shape of a circular arc in the plane of x and y; the x axis bisects the arc.
 
-    radius       length
+    radius       the radius, a length
     half_angle   the angle from the x axis to either end, between 0 and pi; pi/2 for half a circle
-    mass         mass
+    mass         the mass
     Points: circle_centre (the origin), centre.
     """
 
@@ -163,8 +163,8 @@ class Arc(Body):
 class Disc(_Flat):
     """A thin uniform circular disc perpendicular to the z axis, with its centre at the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     """
 
     id, filling = "disc", "area"
@@ -181,9 +181,9 @@ class Disc(_Flat):
 class Annulus(Hollow):
     """A thin uniform disc with a round hole, perpendicular to the z axis, with its centre at the origin.
 
-    inner, outer   radii, lengths
-    mass           mass
-    Points: centre, rim (of the outer circle).
+    inner, outer   the radius of the hole and the outer radius, both lengths
+    mass           the mass
+    Points: centre, rim (a point of the outer circle).
     """
 
     inner: Expr
@@ -208,8 +208,8 @@ class Annulus(Hollow):
 class HalfDisc(OfRadius):
     """Half of a thin uniform disc in the plane of x and y, with y > 0; its diameter is along x.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     Points: circle_centre (the middle of the diameter, the origin), centre.
     """
 
@@ -244,8 +244,8 @@ class HalfDisc(OfRadius):
 class SphericalShell(Spherical):
     """A thin uniform spherical shell about the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     """
 
     id, filling = "spherical_shell", "area"
@@ -265,8 +265,8 @@ class SphericalShell(Spherical):
 class HemisphericalShell(SphericalShell):
     """Half of a thin uniform spherical shell, with z > 0; the centre of its rim is at the origin.
 
-    radius   length
-    mass     mass
+    radius   the radius, a length
+    mass     the mass
     Points: circle_centre (the centre of the rim), centre.
     """
 
@@ -292,9 +292,9 @@ class HemisphericalShell(SphericalShell):
 class CylindricalShell(Cylindrical):
     """A thin uniform cylindrical shell without end faces, about the z axis, from z = 0 to z = height.
 
-    radius   length
-    height   length
-    mass     mass
+    radius   the radius, a length
+    height   the height, a length
+    mass     the mass
     Points: circle_centre (the centre of the rim at z = 0), centre.
     """
 
@@ -313,9 +313,9 @@ class CylindricalShell(Cylindrical):
 class ConicalShell(Conical):
     """A thin uniform conical shell without a base, from its apex at the origin to z = height.
 
-    radius   the radius of the rim, length
-    height   length
-    mass     mass
+    radius   the radius of the rim, a length
+    height   the height, a length
+    mass     the mass
     Points: tip (the apex), centre.
     """
 
@@ -326,5 +326,5 @@ class ConicalShell(Conical):
         return Factors(pi, self.radius, sqrt(self.radius**2 + self.height**2))
 
     def particles(self) -> Particles:
-        """The particles of rings whose masses are proportional to their radii."""
+        """The particles of rings: the mass per height is proportional to the radius."""
         return sliced(self.mass, self.ends, self.radius_at, lambda z: z, ring_of_particles)

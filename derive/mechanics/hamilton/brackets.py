@@ -1,4 +1,5 @@
-"""Poisson brackets of functions of coordinates and momenta; brackets with the Hamiltonian give rates of change."""
+"""Poisson brackets of functions of coordinates and momenta. The bracket of a function with the Hamiltonian is the rate
+of change of this function, if the function does not contain the time and the Hamiltonian contains all forces."""
 
 from __future__ import annotations
 
@@ -62,7 +63,8 @@ def poisson_bracket(
     {u(f), g}. If g is a Hamiltonian, also: the bracket plus the partial derivative of f with respect to time is the
     rate of f along every motion. This rate is the derivative of f as a function of t, with accelerations from
     d'Alembert's principle.
-    Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero, generic.
+    Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero ({f, g} = 0 in any
+    other case), generic.
     Errors: the coordinates are not given; f or g contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
     """
@@ -131,7 +133,7 @@ def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
 
 
 def _called(of: Any) -> str:
-    """Return the part of a key that names a function: the key of its step, its symbol, or `formula`."""
+    """Return the part of a key that names a function: the key of its step, its symbol, or "formula"."""
     name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
     return name if name.isidentifier() else "formula"
 

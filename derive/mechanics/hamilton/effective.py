@@ -112,7 +112,9 @@ def _pushed(matter: Matter, q: Coordinate) -> Expr:
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta."""
+    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. Reject momenta of
+    another Lagrangian, and forces outside L that act along the remaining coordinates. For an effective potential
+    energy, only forces that act where all rates vanish are rejected."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -151,7 +153,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     Steps derive the rates of the cyclic coordinates.
     Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
     m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. With the rates
-    substituted, R is T - U - sum of p q_dot, plus the sum of q v . A for charges in magnetic fields.
+    substituted, R is T - U - sum of p q_dot, plus the sum of e v . A over charges e in magnetic fields.
     Errors: no momentum is given; a momentum belongs to another Lagrangian; no coordinate remains; a force outside L
     acts along a remaining coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where R has the other sign.
@@ -240,8 +242,8 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the coordinates that are not cyclic, U_eff = sum of p q_dot - L. The sum is over
-    the cyclic coordinates, and the rates of all other coordinates are zero.
+    """Effective potential energy of the coordinates whose momenta are not given as constants, U_eff = sum of p q_dot -
+    L. The sum is over the coordinates with constant momenta, and the rates of all other coordinates are zero.
 
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default the momenta of all cyclic coordinates

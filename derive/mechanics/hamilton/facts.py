@@ -61,8 +61,7 @@ class PhaseSpace(Fact):
 
     @property
     def in_rates(self) -> dict[Symbol, Expr]:
-        """Each momentum as a function of the rates; second routes from the mass points have confirmed these
-        functions."""
+        """Each momentum as a function of the rates, from the step that derived it."""
         return {p.symbol: explicit(p.value) for p in self.momenta}
 
 

@@ -38,7 +38,7 @@ from derive.steps.step import Quantity, lettered
 __all__ = ["rates_by_momenta"]
 
 LARGEST = 4  # greatest number of coupled rates
-LARGEST_WITH_ANGLES = 2  # the same if the coupling contains sines or cosines; with three rates, H is a page long
+LARGEST_WITH_ANGLES = 2  # the same if the coupling contains sines or cosines; for three rates, H would be a page long
 ZERO = Integer(0)
 
 
@@ -63,7 +63,8 @@ def rates_by_momenta(
     Keys: `key`, _ and the name of the coordinate; for constant momenta, _by_ and the symbols of the momenta follow.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
-    Errors: the momenta do not determine the rates, or too many rates are coupled.
+    Errors: the momenta do not determine the rates; too many rates are coupled; the momenta are not linear in the rates,
+    and L does not contain the rates in one sum of squares only.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]

@@ -52,13 +52,14 @@ Vector = tuple[Expr, ...]
 
 
 def has_impulse(wanted: bool) -> Predicate:
-    """Return a predicate: whether the impulses along the direction of the law add up to more than zero."""
+    """Return a predicate: whether the sum of the impulses in the law, or of their torques, is nonzero exactly if
+    `wanted` is true."""
     return lambda facts: wanted != is_zero(Add(*facts.inputs["impulses"]))
 
 
 def about_a_fixed_axis(struck: bool) -> Predicate:
-    """Return a predicate: whether the point of the law is fixed, and whether impulses have a torque about it. A law
-    with a constant angular momentum contains all bodies of the system."""
+    """Return a predicate: whether the point of the law is fixed, and the sum of the torques about this point is nonzero
+    exactly if `struck` is true. If the sum is zero, the law must also contain all bodies of the system."""
 
     def is_so(facts: Judged) -> bool:
         fixed = not any(explicit(c).has(*facts.inputs["moving"]) for c in facts.inputs["about"])
@@ -69,13 +70,13 @@ def about_a_fixed_axis(struck: bool) -> Predicate:
 
 
 def about_the_centre(facts: Judged) -> bool:
-    """Whether the law has one body, and its point is the centre of mass of this body."""
+    """Whether the point of the law is the centre of mass of its only body."""
     ((_, place, _, _),) = facts.inputs["bodies"]
     return all(is_zero(a - b) for a, b in zip(place, facts.inputs["about"], strict=True))
 
 
 def coordinate_of_the_body(facts: Judged, q: Any) -> bool:
-    """Whether the coordinate moves or rotates the body of the law."""
+    """Whether the coordinate moves or rotates the body to which the law applies."""
     values = [*facts.inputs.get("place", ()), facts.inputs.get("angle", Integer(0)), *facts.inputs.get("centre", ())]
     return any(not is_zero(diff(value, q)) for value in values)
 
@@ -93,7 +94,7 @@ def _velocity(facts: Judged, place: Vector) -> Vector:
 
 
 def momentum_of_the_body(facts: Judged, outcome: str) -> bool:
-    """Whether the left side is the component of the momentum of the body just after the impact."""
+    """Whether the left side is the momentum of the body just after the impact, along the direction of the law."""
     pairs = zip(_velocity(facts, facts.inputs["place"]), facts.inputs["way"], strict=True)
     momentum = facts.inputs["weight"] * Add(*(v * e for v, e in pairs))
     return bool(equal(explicit(facts.result).left, _there(facts, momentum)))
@@ -101,7 +102,7 @@ def momentum_of_the_body(facts: Judged, outcome: str) -> bool:
 
 def angular_momentum_of_the_bodies(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the angular momentum of all particles of the bodies about the point just after the
-    impact, in the sense in which the coordinate rotates its body."""
+    impact. The direction in which the coordinate rotates its body is positive."""
     whole: Expr = Integer(0)
     for mass, place, spread, angle in facts.inputs["bodies"]:
         (x, y), (u, v) = (a - b for a, b in zip(place, facts.inputs["about"], strict=True)), _velocity(facts, place)

@@ -37,7 +37,7 @@ class Impulse:
 
     components   the components that the law uses
     at           the components of the place, or the angle as the only component
-    of           the body on which the impulse acts; None if the body is not stated
+    of           the body or particle on which the impulse acts; None if it is neither stated nor known from the place
     given        the components as the author gave them, for a second route
     """
 
@@ -56,7 +56,8 @@ class Collision:
     restitution   the ratio of the speed of separation to the speed of approach
     letter        the symbol of the impulse; without a normal, the symbol of each component of the impulse also has the
                   axis as an index
-    of            the bodies or particles of the start and of the end; None for one that is not stated
+    of            the bodies or particles of the start and of the end; None for one that is neither stated nor known
+                  from the place
     given         the normal and the restitution as the author gave them, for a second route
     """
 
@@ -133,7 +134,8 @@ def collision(
 class Meeting:
     """One condition on the rates just after an impact, and the impulse that enforces this condition.
 
-    gap          the quantity whose rate the condition determines; for a constraint on rates, the rate itself
+    gap          the quantity whose rate the condition determines, such as the distance along the normal; for a
+                 constraint on rates, the rate itself
     restitution  minus the ratio of the rate just after the impact to the rate just before
     what         "together", "elastic" or "rebound" for a collision; "kept" for a constraint of the system
     ends         the two places of a collision, and the direction of the impulse on the second place, as the author gave
@@ -217,7 +219,8 @@ class Impact:
             raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """Require that each impulse without a stated body acts at a place that moves with a body or a particle."""
+        """Require that a body or a particle moves with the place of each impulse, and with each place of a collision,
+        for which no body is stated."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -279,8 +282,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value in the notation of the page, with the mark "at q = q_0" for each coordinate q in `holds`
-        whose value at the impact is given."""
+        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q in `holds` whose value
+        at the impact is given."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)
@@ -342,7 +345,8 @@ class Impact:
         return [one]
 
     def _check_approach(self, speed: Expr) -> None:
-        """Require that the two places approach each other along the normal: surfaces can push but not pull."""
+        """Require that the two places approach each other along the normal, because surfaces can push but not pull. If
+        the sign of their speed is unknown, it is assumed."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"

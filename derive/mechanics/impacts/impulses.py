@@ -116,7 +116,9 @@ MEETING_CONDITION = Rule(
 
 
 def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Quantity:
-    """Condition on the rates just after an impact, v = -e v_before, where v is a relative velocity of two places.
+    """Condition on the rates just after an impact, v = -e v_before. Here v is a component of the relative velocity of
+    two places, or the rate of a constraint.
+
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; the conditions of constraints come last
     Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
@@ -242,7 +244,8 @@ def work_of_impulses(
 
 
 def _impulses(impact: Impact, rates: Mapping[Symbol, Expr], wanted: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return the unknown impulses that the rates just after the impact determine, by the momenta of the mass points."""
+    """Return the wanted impulses, which follow from the rates just after the impact by the momenta of the mass
+    points."""
     if not wanted:
         return {}
     matter, power = impact.system.matter, impact.power()

@@ -58,7 +58,8 @@ class Struck:
 
 
 def impulses_on_bodies(impact: Impact) -> list[Struck]:
-    """All impulses at places; the impulse of a collision acts on both bodies, in opposite directions."""
+    """The given impulses at places and the impulses of collisions, if they act on a body or a particle. The impulse of
+    a collision acts on both bodies, in opposite directions."""
     found = [Force(each.components, each.at) for each in impact.impulses if len(each.at) > 1]
     for each in impact.meetings:
         if each.ends is not None:
@@ -68,8 +69,8 @@ def impulses_on_bodies(impact: Impact) -> list[Struck]:
 
 
 def _body_at(impact: Impact, place: Vector) -> Any:
-    """The particle or body whose particle at a place moves with the place at the instant of the impact; None for the
-    ground."""
+    """The particle or body of which a point moves with the place at the instant of the impact; None for a place at
+    rest, which is on the ground."""
     slopes = {q: tuple(c.diff(q) for c in place) for q in impact.moving}
     if all(is_zero(impact.there(c)) for slope in slopes.values() for c in slope):
         return None
@@ -82,12 +83,13 @@ def _body_at(impact: Impact, place: Vector) -> Any:
 
 @dataclass(frozen=True)
 class Balance:
-    """A momentum just after an impact, and what it equals.
+    """A law of momentum or of angular momentum in an impact: `after` = `before` + `gained`.
 
-    after    its terms: an expression, or a moment of inertia and an angular velocity
-    before   its value just before the impact
+    after    the terms of the momentum just after the impact, each an expression, or a pair of a moment of inertia and
+             an angular velocity
+    before   the momentum just before the impact
     gained   the impulses, or their torques
-    changes  the changes of the coordinates in the displacement whose virtual work is the law
+    changes  the changes of the coordinates by which Lagrange's equations are multiplied to give this law
     """
 
     after: Sequence[tuple[Any, Expr] | Expr]
@@ -124,9 +126,11 @@ def momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quant
 
     impact   the system, its state and the impulses
     q        a coordinate that moves the centre of mass of one body
-    Second route: the integral of Lagrange's equations over the time of the impact, for the displacement of this body.
+    Second route: the integral of Lagrange's equations over the time of the impact, for a displacement of this body
+    only.
     Outcomes: struck (impulses along the direction change the momentum), kept (no impulse changes it).
-    Errors: no body can move along q alone; it is unknown on which body an impulse acts.
+    Errors: the coordinates do not let one body move with q while all others stay at rest; it is unknown on which body
+    an impulse acts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.8.
     """
     body = body_of(impact.system, q.symbol)
@@ -168,8 +172,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
-    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses: of all bodies about the fixed
-    axis of the body that rotates with a coordinate, or of this body about its centre of mass.
+    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies about
+    the fixed axis of the body that rotates with a coordinate, or for this body only, about its fixed axis or its centre
+    of mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body
@@ -228,12 +233,16 @@ def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Sy
         turned = {each.part: (*rotated(each, about), Integer(int(each.is_body))) for each in bodies}
         if allows(impact.system, turned, impact.there):
             return bodies, about, changes_for(impact.system, turned, impact.there)
-    message = "the coordinates allow no rotation of one body alone, because a connection has no letter for its impulse"
+    message = (
+        "the coordinates do not let one body rotate while all others stay at rest, "
+        "because a connection has no symbol for its impulse"
+    )
     raise Rejected(Complaint("method", message, help="use `method: lagrange`"))
 
 
 def _angular_momentum(body: Alone, about: Vector, sense: Expr) -> list[tuple[Any, Expr] | Expr]:
-    """The angular momentum of a body about a point: I omega, and M r x v unless I is about this point."""
+    """The angular momentum about a point: M r x v for a particle; I omega for a body, and also M r x v unless I is
+    about this point."""
     (x, y), (u, v) = arm(body.centre, about), _velocity(body)
     carried = sense * body.mass * (x * v - y * u)
     if not body.is_body:

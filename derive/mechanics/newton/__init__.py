@@ -1,1 +1,1 @@
-"""Newton's and Euler's laws for each particle and each body, in a plane of motion."""
+"""Newton's and Euler's laws for single particles and bodies, and the conservation of energy. Bodies move in a plane."""

@@ -27,14 +27,14 @@ AGREEMENT_OF_LAWS = Rule(
 
 
 def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str | None = None) -> Quantity:
-    """Newton's law of one body again, from Lagrange's equations: their sum, each times the change of its coordinate in
-    the displacement of this body alone.
+    """Newton's law of one body again, as a sum of Lagrange's equations. Each of these equations is multiplied by the
+    change of its coordinate in a displacement in which only this body moves.
 
     newton    the law from `second_law` or `torque_law`
     lagrange  Lagrange's equations, one for each coordinate
-    Second route: the sum of Lagrange's equations, which come from T and U, is the law, which comes from forces. The
-    result, which may be one of Lagrange's equations, is compared with the law.
-    Outcomes: again.
+    Second route: the sum of Lagrange's equations, which come from T and U, equals the law, which comes from forces. If
+    the sum has only one term, the result is this Lagrange equation; otherwise the result is the law.
+    Outcomes: again (the result and the law are the same equation, up to a factor).
     Errors: the equation of a coordinate is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

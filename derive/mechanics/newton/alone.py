@@ -1,9 +1,9 @@
-"""One particle or body of a system alone: the displacements in which nothing else moves, and the forces on it.
+"""Single particles and bodies of a system: displacements in which nothing else moves, and the forces on the body.
 
-Newton's second law for one body along a direction contains only described forces if the coordinates allow the body to
-move along this direction while all other bodies stay where they are. The forces that the coordinates replace, such as
-the tension of a string whose length they keep, do no work in such a displacement, so they have no component along the
-direction.
+Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
+second law for this body along this direction contains only forces that the description names. The forces that the
+coordinates replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they
+have no component along the direction.
 
 Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.1 and 7.6.
 """
@@ -35,10 +35,10 @@ ZERO = Integer(0)
 class Force:
     """A force on one body.
 
-    components   N, along the axes of the plane
-    at           the place of the particle on which the force acts; None for a couple
+    components   N, along the axes of the plane, or of space for a particle in space
+    at           the place of the material point on which the force acts; None for a couple
     couple       the torque of a couple, N m, positive counterclockwise
-    letter       the symbol of a constraint force in it; None for a force that is known
+    letter       the symbol of the constraint force that `components` or `couple` contains; None for a known force
     """
 
     components: Vector
@@ -64,7 +64,7 @@ class Alone:
     """A particle or a body of a system.
 
     part     the particle or the placed body
-    system   its system
+    system   the system to which it belongs
     """
 
     part: Any
@@ -111,7 +111,7 @@ class Alone:
         return any(c != 0 for c in (*self.shift(q), self.turn(q)))
 
     def carried(self, place: Vector, q: Symbol) -> Vector:
-        """The displacement of the particle of the body at a place."""
+        """The displacement of the point of the body at a place, per unit of the change of the coordinate."""
         if not self.is_body:
             return self.shift(q)
         (dx, dy), turn = self.shift(q), self.turn(q)
@@ -140,7 +140,7 @@ class Alone:
 
     @cached_property
     def forces(self) -> tuple[Force, ...]:
-        """The weight, and the forces of everything that acts on this body."""
+        """All forces and couples on this body, including its weight."""
         return tuple(force for force, on in _forces(self.system) if on is self.part)
 
 
@@ -163,8 +163,8 @@ def bodies_alone(system: System) -> list[Alone]:
 def body_of(system: System, q: Symbol) -> Alone:
     """The body whose equation of motion belongs to a coordinate.
 
-    A body to which fewer coordinates belong chooses first: a wedge chooses its position, and the coordinates of a block
-    on the wedge, which also moves with the wedge, are the block's.
+    A body that moves with fewer coordinates is assigned first. For example, a wedge is assigned its own position. A
+    block on the wedge also moves with this position, so the block is assigned its position along the wedge.
     """
     taken: dict[Symbol, Alone] = {}
     bodies = bodies_alone(system)
@@ -173,10 +173,10 @@ def body_of(system: System, q: Symbol) -> Alone:
             if s not in taken and each.moves_with(s) and _moves_alone(each, s):
                 taken[s] = each
     if q not in taken:
-        why = "because the coordinates keep a connection whose force has no letter"
-        message = f"no body can move along {q.name} alone, {why}"
+        why = "because they keep a connection whose force has no symbol"
+        message = f"the coordinates do not let one body move with {q.name} while all others stay at rest, {why}"
         help_line = (
-            "give each body coordinates of its own, and each string, rod, joint or contact the letter of its force; "
+            "give each body coordinates of its own, and each string, rod, joint or contact a symbol for its force; "
             "or use `method: lagrange`"
         )
         raise Rejected(Complaint("method", message, help=help_line))
@@ -250,7 +250,8 @@ def _forces(system: System) -> tuple[tuple[Force, Any], ...]:
 
 
 def _on_its_body(load: Load | Reaction, system: System) -> list[tuple[Force, Any]]:
-    """The force with the particle or body on which it acts; none for a force on the ground."""
+    """The force with the particle or body on which it acts, as the only item of a list; an empty list for a force on
+    the ground."""
     works = {q: load.work_along(q) for q in system.coordinates}
     if isinstance(load, Reaction) or len(load.place) == 1:
         return [_couple(load, works, system)] if any(not is_zero(work) for work in works.values()) else []
@@ -265,7 +266,8 @@ def _on_its_body(load: Load | Reaction, system: System) -> list[tuple[Force, Any
 
 
 def _couple(load: Load | Reaction, works: Mapping[Symbol, Expr], system: System) -> tuple[Force, Any]:
-    """A couple on the body whose rotation alone determines its work; reject a force that is given by its work alone."""
+    """A couple on the body whose rotation determines the work of the load. If there is no such body, it is unknown on
+    which body the load acts, and the load is rejected."""
     for each in bodies_alone(system):
         torque = next((tidied(work / turn) for q, work in works.items() if (turn := each.turn(q)) != 0), ZERO)
         if all(is_zero(work - torque * each.turn(q)) for q, work in works.items()):
@@ -282,7 +284,7 @@ def _on_no_body(what: str) -> Rejected:
 def moves_like(
     body: Alone, place: Vector, slopes: Mapping[Symbol, Vector], there: Callable[[Any], Any] = explicit
 ) -> bool:
-    """Whether the particle of a body at a place moves with this place.
+    """Whether the point of a body at a place moves with this place.
 
     slopes   coordinate -> the displacement of the place, per unit of the change of the coordinate
     there    a function that substitutes the coordinates at one instant
@@ -307,13 +309,11 @@ def is_same(one: Vector, other: Vector) -> bool:
 
 
 def sense_of(turn: Expr) -> Expr:
-    """1 if a rotation is counterclockwise, otherwise -1; reject a rotation whose sense is unknown."""
+    """1 if a rotation is counterclockwise, -1 if it is clockwise; reject a rotation whose direction is unknown."""
     sign = sign_known(turn)
     if not sign:
         message = f"it is unknown whether the rotation by {turn} per unit of the coordinate is counterclockwise"
-        raise Rejected(
-            Complaint("method", message, help="give ranges or numbers for the letters that decide this sense")
-        )
+        raise Rejected(Complaint("method", message, help="give ranges or numbers for the symbols that decide this"))
     return Integer(sign)
 
 

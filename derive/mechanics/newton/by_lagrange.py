@@ -1,7 +1,7 @@
-"""The second route of Newton's equations: Lagrange's equations for the displacement of one body alone.
+"""The second route of Newton's equations: Lagrange's equations for a displacement in which only one body moves.
 
-In a displacement of one body alone, the sum of Lagrange's equations times the changes of their coordinates is the
-equation of this body. Lagrange's equations come from the energies and from the derivatives of the constraints, and not
+Each of Lagrange's equations is multiplied by the change of its coordinate in this displacement. The sum is the equation
+of motion of this body. Lagrange's equations come from the energies and from the derivatives of the constraints, and not
 from forces on bodies.
 """
 
@@ -26,7 +26,8 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class MovedAlone(Fact):
-    """The changes of the coordinates in which only the body of a law moves."""
+    """The changes of the coordinates in the displacement whose virtual work is a law. For a law of one body, only the
+    body to which the law applies moves in this displacement."""
 
     missing = "is not a law of one body"
     changes: tuple[tuple[Symbol, Expr], ...]

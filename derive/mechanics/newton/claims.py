@@ -21,7 +21,8 @@ SLOPES = {"up_the_slope": 1, "down_the_slope": -1}
 
 
 def of_masses(several: bool, alike: bool = False) -> Predicate:
-    """Return a predicate: whether the system has several masses, and whether another one equals that of the law."""
+    """Return a predicate: whether the system has several masses exactly if `several`, and another mass equals the mass
+    of the body in the law exactly if `alike`."""
 
     def is_so(facts: Judged) -> bool:
         masses = facts.inputs["masses"]
@@ -32,7 +33,7 @@ def of_masses(several: bool, alike: bool = False) -> Predicate:
 
 
 def at_rest(wanted: bool) -> Predicate:
-    """Return a predicate: whether the left side of the equation is zero because all bodies are at rest."""
+    """Return a predicate: whether the left side of the equation is zero, as for bodies at rest, exactly if `wanted`."""
     return lambda facts: is_zero(explicit(facts.result).left) == wanted
 
 
@@ -73,7 +74,8 @@ def _is_fixed(place: Vector, moving: Any) -> bool:
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the mass times the acceleration along the displacement of the coordinate, and not
-    against it."""
+    against it. For an outcome at rest, the left side must be zero, and so must this product if all rates and
+    accelerations are zero."""
     way, moving = _way(facts), list(facts.inputs["moving"])
     along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
     left = explicit(facts.result).left
@@ -94,7 +96,10 @@ def _still(value: Expr, moving: Any) -> Expr:
 
 def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the rate of change of the angular momentum of the particles of the body about the point:
-    the sum of m r x a, in the sense in which the coordinate rotates the body."""
+    the sum of m r x a. The direction in which the coordinate rotates the body is positive.
+    If the word `term` is "alone", the rate must be the moment of inertia about the point times the angular
+    acceleration. For an outcome at rest, the left side must be zero, and so must this rate if all rates and
+    accelerations are zero."""
     moving, angle = list(facts.inputs["moving"]), facts.inputs["angle"]
     arm = tuple(a - b for a, b in zip(facts.inputs["place"], facts.inputs["about"], strict=True))
     whole = facts.inputs["weight"] * _cross(arm, _acceleration(facts))
@@ -131,7 +136,7 @@ def force_at_the_point(facts: Judged, letter: Any) -> bool:
 
 
 def _is_at_rest(facts: Judged, about: Vector) -> bool:
-    """Whether the particle of the body at this place is at rest in every motion that the coordinates allow."""
+    """Whether the point of the body at this place is at rest in every motion that the coordinates allow."""
     for q in facts.inputs["moving"]:
         (dx, dy), turn = _way(facts, q), diff(facts.inputs["angle"], q)
         x, y = (a - b for a, b in zip(about, facts.inputs["place"], strict=True))

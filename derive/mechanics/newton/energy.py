@@ -38,8 +38,8 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
 
     system   particles and bodies; only forces with a potential energy, and constraint forces, act on them
     Second route: by Newton's second law for the mass points, the rate of change of E is the power of the forces without
-    a potential energy, which vanishes for all velocities that the constraints allow.
-    Outcomes: free (no constraint force has a letter), constrained (constraint forces act, but do no work).
+    a potential energy. This power vanishes for all velocities that the constraints allow.
+    Outcomes: free (no constraint force has a symbol), constrained (constraint forces with symbols act, but do no work).
     Errors: a force without a potential energy does work, or the positions or the potential energy depend on the time.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.1 and 5.4.
     """
@@ -53,7 +53,7 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
         return by_functions_of_time(found, moving), Add(*works, lost)
 
     if not is_zero(Add(*(a - b for a, b in [along_the_motion(kinetic.value + potential.value)]))):
-        message = "the energy is not conserved: a force without a potential energy does work, or something is driven"
+        message = "the energy is not conserved: a force without a potential energy does work, or a motion is prescribed"
         raise Rejected(Complaint("method", message, help="use `method: newton` or `method: lagrange`"))
     return establish(
         TOTAL_ENERGY,
@@ -93,10 +93,10 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
     """Equation of motion of a system with one coordinate, from the constant energy: dE/dt = q_dot (...) = 0.
 
     energy   the energy from `total_energy`
-    system   its system
+    system   the system to which this energy belongs
     q        the only coordinate
     Second route: Lagrange's equation. Check: q_dot times the left side is the rate of change of E.
-    Errors: the system has several coordinates.
+    Errors: the system has several coordinates, or a constraint force has a symbol.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.4 and 11.2.
     """
     moving = list(system.coordinates)

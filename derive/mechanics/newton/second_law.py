@@ -21,7 +21,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["second_law"]
 
-OUTCOMES: Mapping[str, Predicate] = {  # of the laws of one body
+OUTCOMES: Mapping[str, Predicate] = {  # of `second_law` and `torque_law`
     f"{outcome}{suffix}": claims.both(claims.of_masses(several, alike), claims.at_rest(suffix == "_at_rest"))
     for outcome, several, alike in (("alone", False, False), ("of_several", True, False), ("alike", True, True))
     for suffix in ("", "_at_rest")
@@ -44,13 +44,14 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
     """Newton's second law for the body that moves with a coordinate, m a = sum of F, along the direction in which the
     coordinate moves it.
 
-    system   particles and bodies in a plane, and the forces on them
+    system   particles, bodies that move in a plane, and the forces on them
     q        a coordinate that moves the centre of mass of one body without rotation
     at_rest  whether the system is at rest, so that the forces add up to zero
-    Second route: Lagrange's equations, for the displacement of this body alone.
-    Outcomes: alone (the system has one mass), of_several (the mass of this body differs from the others), alike
-    (another body has the same mass), alone_at_rest, of_several_at_rest, alike_at_rest.
-    Errors: the system moves in space; no body can move along q alone; q rotates the body.
+    Second route: Lagrange's equations, for a displacement in which only this body moves.
+    Outcomes: alone (the system has one mass), of_several (the mass of this body differs from all others), alike
+    (another body has the same mass); for bodies at rest, alone_at_rest, of_several_at_rest, alike_at_rest.
+    Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q
+    rotates the body.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 2.4 and 3.1.
     """
     body = body_of(system, q.symbol)
@@ -87,7 +88,7 @@ def at_rest_in(equation: Relation, system: System, at_rest: bool) -> Relation:
 
 
 def scope_of(system: System) -> Scope:
-    """The coordinates of a system and the symbols of its constraint forces."""
+    """A scope with the coordinates of a system and the symbols of its constraint forces."""
     forces = {each.force: each.kind_of_force or "" for each in system.constraints}
     return Scope(coordinates={**system.coordinates, **forces}, differ=EVERYTHING)
 

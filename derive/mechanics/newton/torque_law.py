@@ -44,8 +44,9 @@ CONTACT = "contact"
 class About:
     """A point about which torques are taken.
 
-    word   "axis" (fixed), "centre_of_mass", "contact", or "point" (of several unknown forces, at rest)
-    place  its place
+    word   "axis" (a fixed point), "centre_of_mass", "contact", or "point" (for a body at rest: a point where unknown
+           forces act)
+    place  the components of its position, m
     """
 
     word: str
@@ -69,18 +70,19 @@ TORQUE_LAW = Rule(
 def torque_law(
     system: System, q: Coordinate, key: str | None = None, about: str = "", at_rest: bool = False
 ) -> Quantity:
-    """Sum of the torques on the body that rotates with a coordinate, I alpha = sum of tau, in the sense in which the
-    coordinate increases.
+    """Sum of the torques on the body that rotates with a coordinate, I alpha = sum of tau. The direction in which the
+    body rotates if the coordinate increases is positive.
 
     system   particles and bodies in a plane, and the forces on them
     q        a coordinate that rotates one body
-    about    "contact" for a point of contact, about which the angular momentum also has the term of the centre of mass;
-             by default the fixed axis of the body, or else its centre of mass
-    at_rest  whether the system is at rest, so that the torques add up to zero; they are then taken about the point at
-             which most of the unknown forces act
-    Second route: Lagrange's equations, for the rotation of this body alone.
+    about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
+             centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
+    at_rest  whether the system is at rest, so that the torques add up to zero. They are then taken about the point
+             where most of the unknown forces act, if the coordinates let only this body rotate about this point
+    Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.
-    Errors: the system moves in space; no body can rotate alone; a force without a letter has a torque.
+    Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; a
+    force without a symbol has a torque.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7.
     """
     body = body_of(system, q.symbol)
@@ -126,14 +128,16 @@ def torque_law(
 
 
 def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
-    """The sum of the torques; if it is zero, all signs change where all would be negative."""
+    """The sum of the torques. If the body is at rest and all terms are negative, all signs are reversed, because the
+    sum is zero."""
     found = sum_of(terms)
     negative = all(term.could_extract_minus_sign() for term in explicit(found).as_ordered_terms())
     return sum_of([-term for term in terms]) if at_rest and negative else found
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
-    """The symbols of the unknown forces that act at the point of the torques at rest; a sentence names two of them."""
+    """The symbols of at most two unknown forces that act at the point about which torques at rest are taken; the
+    sentence names them."""
     if point.word != "point":
         return {}
     here = [f.letter for f in body.forces if f.at is not None and f.letter is not None and is_same(f.at, point.place)]
@@ -141,9 +145,10 @@ def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
 
 
 def _point(body: Alone, about: str, at_rest: bool) -> About:
-    """Return the point about which the body can rotate alone.
+    """Return the first point about which the body can rotate while all other bodies stay at rest.
 
-    Forces without a letter, which keep the body on the path that the coordinates describe, then have no torque.
+    Forces without a symbol, which keep the body on the path that the coordinates describe, have no torque about this
+    point.
     """
     choices = _points_at_rest(body) if at_rest else _points_of_contact(body) if about == CONTACT else []
     if body.axis is not None:
@@ -152,8 +157,8 @@ def _point(body: Alone, about: str, at_rest: bool) -> About:
     for each in choices:
         if is_free(body, rotated(body, each.place), Integer(1)):
             return each
-    message = "a force that has no letter has a torque about the centre of mass"
-    help_line = "give the friction a letter, `friction: {rolling: F}`; or use `method: angular_momentum`"
+    message = "a force without a symbol has a torque about the centre of mass"
+    help_line = "give the friction a symbol, `friction: {rolling: F}`; or use `method: angular_momentum`"
     raise Rejected(Complaint("method", message, help=help_line))
 
 
@@ -164,7 +169,8 @@ def _points_at_rest(body: Alone) -> list[About]:
 
 
 def _points_of_contact(body: Alone) -> list[About]:
-    """The points of contact whose friction has a letter, and the point of the body that is always at rest."""
+    """The points where forces with symbols act, such as friction, and the point of the body that is always at rest, if
+    there is one."""
     touched = [each.place for each in _points_at_rest(body)]
     resting = _resting_point(body)
     return [About(CONTACT, place) for place in (*touched, *([resting] if resting is not None else []))]

@@ -44,13 +44,13 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     body    a composite body; the moments of cavities are subtracted
     axis    the body axis that is parallel to the axis of the moment: "x", "y" or "z"
     point   a point on the axis
-    A step derives the moment I_part of each part about the parallel axis through its centre of mass, at the distance d.
-    The result is None if some part has no body axis parallel to the axis. The result is also None if some part is
-    composite and its parallel body axis has another name.
+    For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
+    of the part. The distance between the two axes is d. The result is None if some part has no body axis parallel to
+    `axis`, or if some part is composite and its parallel body axis has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
-    Outcomes: moved (the centre of some part is off the axis), on_axis (all centres are on the axis), alone (all
-    centres are on the axis, and only one part has a nonzero moment).
+    Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
+    has a nonzero moment), on_axis (all centres are on the axis, and no part or several parts have a nonzero moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
@@ -139,8 +139,8 @@ def _by_shape(
 ) -> Quantity:
     """Moment of inertia about an axis through the centre of mass of a part, without an integral.
 
-    Outcomes: none (all of the mass is on the axis, so the moment is zero), flat (half of the moment about the symmetry
-    axis).
+    Outcomes: `none` (all of the mass is on the axis, so the moment is zero), `flat` (half of the moment about the
+    symmetry axis).
     Source: the same as for `_own_moment`.
     """
     k, centre = AXES.index(axis), body.middle

@@ -103,8 +103,9 @@ class Composite(Body):
     mass     the mass of a uniform whole, whose parts have masses in proportion to their sizes
     points   names for positions in the whole, such as a pivot
     Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
-    Errors: there is no part; two parts have the same name; the mass of the whole vanishes; one mass is given for parts
-    of different dimensions.
+    Errors: there is no part; the names of two parts have the same first word; the parts cannot form a body, for example
+    because two of them overlap; the mass of the whole is not positive; one mass is given for parts of different
+    dimensions, or for particles.
     """
 
     id: ClassVar[str] = "body_of_several_parts"
@@ -163,7 +164,7 @@ class Composite(Body):
 
     @property
     def flat_across(self) -> str | None:
-        """The first axis along which the body has no extent; None if there is no such axis."""
+        """The first axis whose coordinate is zero for all particles of the body; None if there is no such axis."""
         return next((axis for k, axis in enumerate("xyz") if all(is_zero(r[k]) for _, r in self.particles())), None)
 
     @cached_property
@@ -317,7 +318,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
     body    the whole, with its parts
     start   the point from which the centre of mass is measured
     Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
-    Outcomes: generic, cut_out.
+    Outcomes: generic, cut_out (some part is a cavity).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
     terms = [scaled(part.mass, start.seen(part.centre)) for part in body.parts]
@@ -419,7 +420,8 @@ TENSOR_OF_PART = Rule(
 
 
 def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str, key: str) -> Quantity:
-    """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d).
+    """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d). If R is 1 and d is zero, this
+    is the step that derives I, the tensor of the part about its centre of mass.
 
     body    the whole
     part    one of the parts of the whole; R is the rotation of the part, and d is the displacement of its centre of

@@ -28,8 +28,8 @@ from derive.steps.claims import both, lasts, letters_in, negated, never_vanishes
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
 
-# moments of uniform bodies in tables: words -> the point, the axes, and a function of the sizes, in the order of the
-# shape's lengths
+# moments of uniform bodies that tables give: words -> the point, the axes, and the moment divided by the mass, as a
+# function of the sizes in the order of `measures`
 _TABLE: Mapping[str, tuple[str, str, Callable[..., Expr]]] = {
     "rod_about_its_end": ("end", "xy", lambda length: length**2 / 3),
     "rod_about_its_centre": ("centre", "xy", lambda length: length**2 / 12),
@@ -71,7 +71,8 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """Whether the result is a diagonal entry, and integrals over the mass of functions odd in x, y or z vanish."""
+    """Whether the result is a diagonal entry, and every function that is odd in x, y or z has a zero integral over the
+    mass of the body. One such function is tested for each axis."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -95,7 +96,8 @@ def _moments_of(tensor: Any) -> list[Expr]:
 
 def tensor(different: int | None, round_body: bool = False) -> Predicate:
     """Judge whether the result is a diagonal tensor with this number of distinct moments; if no number is given,
-    whether the result is a tensor that is not diagonal."""
+    whether the result is a tensor that is not diagonal. With `round_body`, the moments about x and y must also be
+    equal, and the particles must show that the body is round."""
 
     def is_so(facts: Judged) -> bool:
         tensor = facts.result
@@ -138,9 +140,11 @@ def axis_of_symmetry(facts: Judged) -> bool:
 
 
 def moments_compared(wanted: str) -> Predicate:
-    """Judge whether all moments are equal ("always"), or whether all nonzero differences have fixed signs ("never").
+    """Judge how the moments compare.
 
-    For any other `wanted`, judge whether the result states the value of a symbol for which all moments are equal.
+    With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
+    the symbols: every difference that is not identically zero has a fixed sign, and there is at least one.
+    With any other `wanted`, the result must state the value of a symbol for which all moments are equal.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -188,13 +192,14 @@ def to_first_order(facts: Judged, speed: Any) -> bool:
 
 
 def another_component(facts: Judged, letter: Any) -> bool:
-    """Whether the small components and the component along the axis are three distinct components of one vector."""
+    """Whether the two small components and the component along the axis are distinct, and the named component belongs
+    to the same vector as the component along the axis."""
     named = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
     return len(set(named)) == 3 and letter.name.rpartition("_")[0] == named[0].name.rpartition("_")[0]
 
 
 def small_one(which: str) -> Naming:
-    """Judge whether this linear equation contains the rate of the named component."""
+    """Judge whether the equation with the role `which` contains the rate of the named component."""
     return lambda facts, letter: explicit(facts.quantities[which].value).has(rate(letter))
 
 
@@ -295,7 +300,7 @@ def euler(torque: bool, coupled: str) -> Predicate:
 
 def given_as(sort: str) -> Predicate:
     """Judge whether the name of the function in the script begins with the word `sort`, and the result has the given
-    components."""
+    components and is not zero."""
 
     def is_so(facts: Judged) -> bool:
         given = all(is_zero(one - other) for one, other in zip(facts.result, facts.inputs["given"], strict=True))
@@ -309,7 +314,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced, and whether its axes differ from the axes of the whole."""
+    """Judge whether the part is displaced exactly if `moved`, and its axes differ from the axes of the whole exactly if
+    `turned`."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -377,8 +383,9 @@ def _sign(value: Expr) -> int | None:
 
 
 def order_is(wanted: str) -> Predicate:
-    """Judge the moment about the axis: greatest, least, between the other two ("unstable"), or equal to one of them
-    ("marginal"). For "symmetric" the other two must be equal; for "conditional" the order must be unknown."""
+    """Judge whether the moment about the axis compares with the other two as `wanted` states: "greatest", "least",
+    between them ("unstable"), or equal to one of them ("marginal"). For "symmetric" the other two must be equal; for
+    "conditional" the order must be unknown."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -416,19 +423,21 @@ _KINDS = {"omega": "angular speed", "inertia": "moment of inertia", "momentum": 
 
 
 def of_their_kinds(facts: Judged, outcome: str) -> bool:
-    """Whether each vector or tensor of rotation has the kind of its role."""
+    """Whether the inputs with the roles "omega", "inertia" and "momentum" have the kinds of quantity that `_KINDS`
+    lists."""
     return all(q.step.kind == _KINDS.get(role, q.step.kind) for role, q in facts.quantities.items())
 
 
 def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
-    """Whether each input has the kind of its role, and the sentence names Euler's equations if and only if the axes are
-    principal axes."""
+    """Whether these inputs have the kinds that `_KINDS` lists, and the sentence names Euler's equations if and only if
+    the axes are principal axes."""
     along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
     return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
 
 
 def vanish_again(facts: Judged, outcome: str) -> bool:
-    """Whether the word "kept" is used only if an earlier tensor about another point also has no products of inertia."""
+    """Whether the word of the sentence is "first", or is "kept" and an earlier, different tensor also has no products
+    of inertia."""
     tensor = facts.quantities["inertia"]
     before = [e.value for e in tensor.ancestors() if isinstance(e.value, MatrixBase) and e.value.shape == (3, 3)]
     again = any(each.is_diagonal() and each != tensor.value for each in before)
@@ -452,7 +461,7 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole that the sentence names is the index of the symbol, as in I_z, and is parallel to
-    the axis of the part."""
+    the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

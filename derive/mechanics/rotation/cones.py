@@ -51,7 +51,8 @@ AXIS_OF_SYMMETRY = Rule(
 
 
 def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_symmetry") -> Quantity:
-    """Unit vector along the symmetry axis of a body with two equal principal moments: the axis of the third moment.
+    """Unit vector along the symmetry axis of a body with exactly two equal principal moments: the axis of the third
+    moment.
 
     inertia   tensor (3, 3), kg m^2, along principal axes
     Second route: the second moments of the body, the integral of r r dm, are equal for all directions perpendicular to
@@ -172,8 +173,8 @@ def precession_rate(
 
     inertia    tensor (3, 3), kg m^2, along principal axes, with two moments equal to I
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
-    Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e; and the sum of m r x (u x
-    r) over particles, with u = w - Omega_p L/|L|, is along the axis.
+    Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e. Also, with u = w -
+    Omega_p L/|L|, the integral of r x (u x r) dm over the body is along the axis.
     Errors: the body has no symmetry axis; L is along this axis, whose direction is then constant.
     Source: Landau, Lifshitz, *Mechanics*, section 33.
     """
@@ -195,7 +196,8 @@ def precession_rate(
         return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
 
     def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
-        """Check with particles that w minus the precession gives an angular momentum along the axis only."""
+        """Check that w minus the precession gives an angular momentum along the axis only, by an integral over the
+        mass."""
         rest = explicit(omega.value) * length_by_turning(L) - L * found
         moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
         return explicit(Cross(axis, moved)), column(0, 0, 0)

@@ -68,11 +68,11 @@ NO_TORQUE = (Integer(0), Integer(0), Integer(0))
 
 @dataclass(frozen=True)
 class RigidBody(Placeable, OfParticles):
-    """A rigid body of any shape.
+    """A rigid body given by its principal moments of inertia, not by its shape.
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    mass      kg, needed for all results except those about free rotation
+    mass      the mass, kg; only results about free rotation do not need it
     moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
               the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
@@ -159,7 +159,8 @@ class RigidBody(Placeable, OfParticles):
         return principal_tensor(self)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Return six particles, at +1 and -1 on each axis, which together have the second moments of the body."""
+        """Return six particles, at +1 and -1 on each axis, which together have the second moments of the body about the
+        origin. Their mass and their centre of mass may differ from those of the body."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 
@@ -261,11 +262,10 @@ def rate_in_space(
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; by default the rates of omega remain unknown
     Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
-    the rate of L . n for a direction n that is fixed in space. The direction n has
-    n_dot = -omega x n in the body.
+    the rate of L . n for a direction n that is fixed in space. In the body, this direction has n_dot = -omega x n.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
-    Errors: an argument is a quantity of another kind.
+    Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     require_kind("rate_in_space", "momentum", momentum, "angular momentum")
@@ -317,8 +317,8 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Return the outcome: whether L is constant in space, or in space and in the body; `generic` if the equations of
-    motion are not substituted."""
+    """Return the outcome: whether L is constant in space, and if it is, whether L is also constant in the body;
+    "generic" if the equations of motion are not substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):
@@ -342,8 +342,9 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
     rate     rate of change of the angular momentum in space, vector (3), N m, along the principal axes of the body
     torque   N about the same point, three components along the same axes, N m; by default zero
     Second route: the components of the sum of m r x a over particles.
-    Outcomes: coupled (a product of components of omega remains), driven (with a torque), uncoupled (no product remains,
-    so this component of omega is constant), isotropic (no product remains in any of the three equations).
+    Outcomes: driven (a torque acts); without a torque, coupled (a product of components of omega remains in this
+    equation), uncoupled (no product remains in this equation, so this component of omega is constant), isotropic (no
+    product remains in any of the three equations).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.5.
     """
     x, y, z = (_euler_equation(rate, i, torque) for i in range(3))
@@ -421,7 +422,7 @@ def rate_in_body(
     Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations from the
     equations.
     Outcomes: zero (L is constant in the body), in_general (without torque), driven (a torque acts).
-    Errors: an argument is a quantity of another kind.
+    Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6.
     """
     require_kind("rate_in_body", "momentum", momentum, "angular momentum")

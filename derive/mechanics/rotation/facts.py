@@ -80,14 +80,17 @@ class RateOfMomentum(Fact):
 
 
 class RateByParticles(Fact):
-    """The rate of change of a quantity of a body, without equations of motion. Each quantity has a subclass."""
+    """The rate of change of a quantity of a body, without equations of motion. A subclass computes it for one quantity,
+    such as the angular momentum."""
 
     missing = "does not come from particles"
 
     def rate(self) -> Any:
-        """Return the rate as a sum over the particles, from their accelerations."""
+        """Return the rate from the accelerations of the particles of the body, as a sum or an integral over its
+        mass."""
         raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class
 
     def in_any_axes(self, torque: Any) -> Any:
-        """Return the rate under this torque, along arbitrary body axes: the tensor may have products of inertia."""
+        """Return the rate of a scalar under this torque, or the scalar product of a vector with its rate. The body axes
+        are arbitrary, so the tensor may have products of inertia."""
         raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class

@@ -14,7 +14,8 @@ __all__: list[str] = []
 
 
 def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
-    """Require a moment of this mass about the centre of mass, and for a flat body an axis normal to its plane."""
+    """Require a constant moment of this mass about the centre of mass, as far as the mass and the point are known. For
+    a flat or straight body, also require an axis normal to the plane of motion."""
     body, about = inertia.subject.body, inertia.subject
     require_kind(verb, "moments", inertia, "moment of inertia")
     require_constant(verb, "moment of inertia", inertia)

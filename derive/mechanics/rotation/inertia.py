@@ -74,9 +74,10 @@ def inertia_tensor(
     body         a body with mass M
     about        a named point of the body: "centre", "corner", "apex", ...
     coordinates  the coordinates of integration, "cartesian" or "cylindrical", if the body has both
-    The axes are the body axes. In general, a step derives each of the six entries. For a body that is round about z,
-    steps derive only the two distinct entries that symmetry leaves. For a body with mirror planes normal to its three
-    axes, steps derive only the moments.
+    The axes are the body axes. In general, a step derives each of the six entries. If the body is round about z and the
+    point is on this axis, steps derive only the two distinct entries that symmetry leaves. If three mirror planes
+    through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
+    parts are added instead.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
     mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
@@ -136,6 +137,7 @@ def moment_of_inertia(
     about   a named point of the body on the axis of the moment
     Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
     over its cells.
+    The moment of a composite body is derived from its parts.
     Errors: the body has no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
@@ -176,9 +178,9 @@ def moment_seen(
 ) -> Moment:
     """Moment of inertia about an axis, with words that specify how the sentence names this axis.
 
-    seen   terms of the sentence. The term `seen` is own (a body axis), mapped (the body is defined by a position map),
-           across_plane (normal to the plane of motion) or part. For a part, the term `whole` is the axis of the whole
-           body that is parallel to the axis of the moment
+    seen   words of the sentence by name. The word `seen` is "own" (a body axis), "mapped" (the body is defined by a
+           position map), "across_plane" (normal to the plane of motion) or "part". For a part, the word `whole` is the
+           axis of the whole body that is parallel to the axis of the moment
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Source: the same as for `moment_of_inertia`.
     """
@@ -222,8 +224,9 @@ def quoted(body: Body, about: str, axis: str) -> dict[str, str]:
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     """Return the entries to integrate.
 
-    For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if the
-    plane normal to each axis is a mirror plane of the body.
+    For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
+    each axis, the plane through the point and normal to this axis is a mirror plane of the body. This is tested only
+    for a body with a single region, by its limits.
     """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
@@ -350,8 +353,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """For a moment, return the squared distance from the axis, and the same distance from |e x r|^2; for a product of
-    inertia, return an empty mapping."""
+    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis. Both
+    must be equal. For a product of inertia, return an empty mapping."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)
@@ -376,8 +379,8 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
     the integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
-    Errors: the tensor is already about the centre of mass; the centre is not measured from the point of
-    the tensor.
+    Errors: the tensor is already about the centre of mass; the centre is not measured from the point of the tensor; no
+    step derives the entries of the tensor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = tensor_there.needed(OfBody).body
@@ -399,7 +402,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     Second route: each entry, and the whole tensor, integrated about the other point; also, the trace must be twice the
     integral of r.r dm.
     Outcomes: outward.
-    Errors: the tensor is not about the centre of mass; the axes differ.
+    Errors: the tensor is not about the centre of mass; the axes differ; no step derives the entries of the tensor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = inertia.needed(OfBody).body
@@ -497,7 +500,8 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
     if entry is None and (i == j or not is_zero(there.value[i, j])):
         message = f"no step derives this entry of `{there.key}`"
-        raise Rejected(Complaint("no-entries", message, help='`inertia_tensor(body, about="...")` derives all entries'))
+        help_line = '`inertia_tensor(body, about="...")` derives the entries of a body without parts'
+        raise Rejected(Complaint("no-entries", message, help=help_line))
     # If c is measured from a point on the axis of a round body, only the component of c along the axis is not zero.
     apart = [k for k in range(3) if k != i and not (pairs == ROUND and centre.value[k] == 0)]
 

@@ -31,10 +31,11 @@ ISOTROPIC_WHERE = Rule(
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
     """Condition under which all three principal moments are equal, I_1 = I_3, solved for one symbol: h = 2R.
 
-    moments   principal moments (3), kg m^2, two of them equal
+    moments   principal moments (3), kg m^2, at least two of them equal
     letter    the symbol of a positive quantity; or the expression that the script gives for it, such as 2b for h
     Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
-    moments has opposite signs for slightly greater and slightly smaller values of the symbol.
+    moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is derived, the
+    sign of this difference is checked instead.
     Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
     (one moment is greater for all values of the symbols).
     Errors: all three moments are distinct; the equation does not have exactly one positive root for the symbol.
@@ -113,7 +114,7 @@ def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, 
 
 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
-    """Return the only positive root, and 2 if the equation contains only the square of the symbol, otherwise 1.
+    """Return the only positive root, and 2 if the equation contains only even powers of the symbol, otherwise 1.
 
     The result is None if the equation does not have exactly one positive root.
     """
@@ -149,7 +150,8 @@ def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, An
 
 
 def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
-    """Return the difference of the moments slightly above and below the root, and values with the required signs."""
+    """Return the difference of the moments above the root, this difference below the root, and the root itself; and the
+    same magnitudes with the required signs."""
     letter, bound = found.sides
     u = Dummy("u", positive=True)
     beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))

@@ -158,8 +158,8 @@ def perturbation_rate_squared(
 
     linear   the two linear equations from `linearised_rotation`
     Second route: Omega^2 is proportional to the product of the two curvatures of the conserved quantity L^2/2 - I_z T
-    at the steady rotation. Also, by the accelerations of particles, the square of the matrix of the linearised motion
-    has the trace -2 Omega^2.
+    at the steady rotation. Also, the matrix of the linearised motion is computed from the accelerations of particles;
+    the square of this matrix has the trace -2 Omega^2.
     Outcomes: greatest, least (Omega^2 is positive, and the moment about the axis is the greatest of the three, or the
     least), unstable (negative), marginal (zero, because another moment is equal to the moment about the axis),
     symmetric (the two other moments are equal), conditional (the sign depends on the order of the moments).
@@ -282,14 +282,17 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
     squared   the result of `perturbation_rate_squared`, 1/s^2
     Check: for components proportional to e^(i Omega t), or e^(kappa t), the determinant of the two linear equations is
     zero; and the rate is not negative.
-    Outcomes: stable, symmetric, conditional, unstable (the result is kappa).
-    Errors: Omega^2 vanishes, so a perturbation grows linearly in time and has no rate.
+    Outcomes: unstable (the result is kappa); stable, symmetric, conditional (the result is Omega).
+    Errors: Omega^2 vanishes, so a perturbation grows linearly in time and has no frequency and no growth rate.
     Source: Landau, Lifshitz, *Mechanics*, section 37.
     """
     of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
     outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
     if outcome == "marginal":
-        message = f"`{squared.key}` vanishes: a perturbation grows linearly in time, without a rate"
+        message = (
+            f"`{squared.key}` vanishes: a perturbation grows linearly in time, "
+            "so it has no frequency and no growth rate"
+        )
         raise Rejected(Complaint("no-rate", message))
     grows = outcome == "unstable"
     value = explicit(squared.value)
@@ -309,7 +312,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
         The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate vanishes.
+        where the rate vanishes. If none of the tried points is suitable, the sign is not checked.
         """
         letters = sorted(value.free_symbols, key=str)
         for turn in range(len(letters) + 1):
@@ -356,8 +359,8 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
     equations   Euler's equations in the order x, y, z, without torque, for a body with I_x = I_y
     Second route: the rate of the azimuth of omega, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2 + omega_y^2),
     with the angular accelerations from the accelerations of particles.
-    Outcomes: oblate (in the sense of omega_z, because I_z > I_x), prolate (in the opposite sense), generic (the sense
-    depends on the moments).
+    Outcomes: oblate (in the direction of omega_z, because I_z > I_x), prolate (in the opposite direction), generic (the
+    direction depends on the moments).
     Errors: the moments about x and y differ; all three moments are equal; a torque acts.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.6; Taylor, *Classical Mechanics*, section 10.8.
     """

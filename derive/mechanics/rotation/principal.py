@@ -53,8 +53,9 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
-    The moments of a diagonal tensor are in the order of the axes; other moments are in increasing order.
-    Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor; for a diagonal
+    The moments of a diagonal tensor are in the order of the axes. Other moments are in the order of their values with
+    every symbol equal to 1, the smallest first.
+    Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor. For a diagonal
     tensor, also I e = I_k e for the unit vector e of each axis.
     Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
     Errors: the characteristic polynomial is a cubic without a rational factor, so its roots have no useful closed form.
@@ -247,7 +248,7 @@ def _invariants(t: Any) -> tuple[Expr, Expr, Expr]:
 
 
 def _roots(inertia: Quantity) -> Any:
-    """Return the eigenvalues, for a diagonal tensor in the order of its axes, otherwise in increasing order."""
+    """Return the eigenvalues, for a diagonal tensor in the order of its axes, otherwise in the order of `_size`."""
     if inertia.value.is_diagonal():
         return column(*(inertia.value[k, k] for k in range(3)))
     common, rest = factored_matrix(inertia.value)

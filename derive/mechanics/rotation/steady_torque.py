@@ -95,7 +95,8 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 
 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
-    """Return the line ((I_z - I_y) omega_y omega_z, ...) along principal axes: Euler's equations without omega_dot."""
+    """Return the line ((I_z - I_y) omega_y omega_z, ...) along principal axes: Euler's equations without omega_dot. The
+    list is empty if the axes are not principal axes."""
     if not inertia.value.is_diagonal():
         return []
     named = {parent.key[-2:]: parent.symbol for parent in _moments(inertia)}

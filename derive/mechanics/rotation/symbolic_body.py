@@ -1,7 +1,8 @@
 """Symbolic bodies: symbols for the mass, the distance of the centre of mass, and the principal moments about a point.
 
-A result for a symbolic body is true for every body whose centre of mass is on a principal axis through the point.
-`put_in(result, *body.values)` substitutes the values of the given body.
+A result for a symbolic body is true for every body whose centre of mass is on a principal axis through the point. If
+two moments of the symbolic body have the same symbol, these moments of the body must be equal. `put_in(result,
+*body.values)` substitutes the values of the given body.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
     body     a body whose axes at the point are principal axes, with its centre of mass on the z axis
     about    the point, which is the "pivot" of the result
     symbol   the symbol of the moments: I_x and I_z if I_x = I_y, otherwise I_x, I_y and I_z
-    Each moment is also compared with the sum over equimomental particles, in addition to the second route of its step.
+    Only a composite body gets a symbol for its mass; any other body keeps its own mass. Each moment is also compared
+    with the sum over equimomental particles, in addition to the second route of its step.
     Errors: the axes through the point are not principal axes; the centre of mass is not on the z axis.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """

@@ -137,7 +137,7 @@ def moment_about(
 
     inertia     tensor I (3, 3), kg m^2
     direction   d, three components or a vector along the axis
-    symbol      the symbol of the moment; its index is the symbol of the unit vector
+    symbol      the symbol of the moment; the index of this symbol, here n, becomes the symbol of the unit vector
     Second route: the sum of m |n x r|^2 over equimomental particles.
     Errors: d vanishes; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.

@@ -167,7 +167,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     through   a point of the body on the axis of rotation; this point stays at rest
     Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
     times |d|.
-    Outcomes: left_handed (the rate is negative), right_handed.
+    Outcomes: left_handed (the rate is known to be negative), right_handed (any other rate).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     body = along.subject.body
@@ -244,8 +244,8 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
 
 
 def whether_zero(v: Any) -> str:
-    """Return the outcome: `zero` if v vanishes, `generic` if v is known to be nonzero for all values of its symbols,
-    otherwise `in_general`."""
+    """Return the outcome: "zero" if v vanishes, "generic" if v is known to be nonzero for all values of its symbols,
+    otherwise "in_general"."""
     if is_zero(v):
         return "zero"
     common, rest = factored_matrix(v)
@@ -302,8 +302,8 @@ def kinetic_energy(
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return the line of the kinetic energy with an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    The list is empty in all other cases: the axes must be principal axes with moments that are not all equal, moments
-    and components must be numbers up to a common factor, and two components must be nonzero.
+    The list is empty unless the axes are principal axes with moments that are not all equal. The moments must also be
+    numbers up to a common factor, and so must the components. At least two components must be nonzero.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -436,7 +436,8 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
-    """Write a length that contains a root with a sum of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 + 225)."""
+    """If a length contains a root, write it as a root of a sum of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 +
+    225)."""
     if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
         return length
     squares = [entry**2 for entry in rest if entry != 0]
@@ -467,6 +468,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     Check: |a||b| sin theta = |a x b| and a.b sin theta = |a x b| cos theta, which together determine one angle from 0
     to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
+    Errors: a or b vanishes; a and b belong to different bodies.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
     """
     cosine = cosine_between(a, b, "cosine" if key == "angle_between" else f"{key}_cosine", symbol)
