@@ -62,7 +62,8 @@ class Motion:
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the place is in the range of the coordinate, and the motion does not turn back before it."""
+        """Whether the place is in the range of the coordinate, and the squared rate is negative at none of the places
+        tried on the way there."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False
@@ -135,7 +136,7 @@ def sign_of_friction(motion: Motion, place: Expr) -> int:
         except (Undefined, NoNumber, TypeError):
             continue
     if len(signs) != 1:
-        message = "`slips`: the sense in which the body slips depends on the values of the letters"
+        message = "`slips`: the direction in which the body slips depends on the values of the letters"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return signs.pop()
 
@@ -167,7 +168,7 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if it is always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
+    """Return the condition; None if it is known to be always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)
