@@ -163,9 +163,10 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
     Second route: as `accelerations`.
-    Outcomes: generic (the multiplier is the constraint force), negative (also, the force is always negative, and the
-    sentence states its direction), multiplier (the gradient of f with respect to the position of the particle does not
-    have length 1; the sentence states the length), isolated and eliminated (as for `accelerations`), zero.
+    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force and is
+    always negative; the sentence states the direction in which it acts), multiplier (the gradient of f with respect to
+    the position of the particle does not have length 1; the sentence states the length), isolated and eliminated (as
+    for `accelerations`), zero.
     Errors: no constraint is enforced by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -189,7 +190,8 @@ def _not_all_negative(left: Expr) -> Expr:
 
 
 def _told(of: Constraint) -> Relation:
-    """Return a constraint without a minus sign in front: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
+    """Return the relation of a constraint. If the right side is zero and the left side begins with a minus sign, change
+    the sign: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
     is_negative = of.right == 0 and of.left.could_extract_minus_sign()
     return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
 

@@ -260,8 +260,8 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name, after the key of the Lagrangian as a prefix if this is not the default key of
-    the Lagrangian."""
+    """Return the key of a step, which is the name. If the Lagrangian does not have the default key, the key of the
+    Lagrangian is a prefix."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

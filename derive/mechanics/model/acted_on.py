@@ -80,7 +80,7 @@ def _check_gradients(system: WithParts) -> None:
     the gradient."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
-        message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
+        message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can enforce it"
         help_line = "use the constraint without a square: `x - y` in place of `(x - y)**2`"
         raise WrongPart.of(part, Complaint("constrained", message, help=help_line))
 

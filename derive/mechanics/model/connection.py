@@ -1,7 +1,7 @@
 """Connections of bodies with each other and with the ground, such as contacts, strings, massless rods and joints.
 
-A connection itself has no effect on the motion: the constraints and forces that are created together with it have. For
-drawings, the connection records which forces act on which material points.
+A connection itself has no effect on the motion. The functions that return it also return constraints and forces, which
+do have an effect. For drawings, the connection records which forces act on which material points.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class PointForce:
 class Connection(Part):
     """A connection, such as a contact, a string or a joint.
 
-    forces   the forces of its constraints and of its friction, for drawings; empty if no symbol is given for a force
+    forces   the forces of its constraints and of its friction on material points, for drawings; may be empty
     """
 
     forces: tuple[PointForce, ...]

@@ -154,9 +154,9 @@ class Constraint(Part):
     def kind_of_force(self) -> str | None:
         """The kind of the multiplier, or None if the kind is unknown.
 
-        The kind is "force" if the forces on material points are known. Otherwise it is found from the first term of f
-        that is a number times a coordinate, or times a rate: a force for a length, a torque for an angle, and in
-        general an energy divided by the kind of the coordinate.
+        The kind is "force" if the forces on material points are known. Otherwise it follows from the first term of f
+        that is a number times a coordinate, or times a rate: "force" for a length, "torque" for an angle, and for
+        any other coordinate the kind with the dimension of an energy divided by the coordinate.
         """
         if self.forces:
             return "force"

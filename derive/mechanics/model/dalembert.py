@@ -28,7 +28,7 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class MassPoint:
-    """A mass, in kg, at a place, in m; or a second moment, in kg m^2, at the end of a vector without a unit."""
+    """A mass, in kg, at a place, in m; or a second moment, in kg m^2, at the end of a dimensionless vector."""
 
     mass: Expr
     place: Vector

@@ -36,8 +36,8 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
     condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients; a
                 condition that already expresses the coordinate itself is returned unchanged
     The constant of integration is zero: it is assumed that all coordinates are zero in one position of the system.
-    Check: the time derivative of the result is the rate in the condition. If all coordinates are zero, the result is
-    zero.
+    Check: the time derivative of the result is the value of the rate in the condition. If all coordinates are zero, the
+    result is zero.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """

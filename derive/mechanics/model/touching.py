@@ -56,7 +56,8 @@ def _foot(placed: PlacedBody, curve: Curve) -> Location:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve."""
+    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve, unless
+    this is known to be true."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:

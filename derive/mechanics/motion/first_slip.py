@@ -44,7 +44,7 @@ class Motion:
 
     @property
     def values(self) -> list[Expr]:
-        """Return F, mu_s N, the squared rate and the start, with the given numbers."""
+        """Return F, mu_s N, the squared rate and the start, with the given numbers substituted."""
         mu_N = self.contact.limit.coefficient * self.contact.N
         return [*map(with_numbers, (self.contact.F, mu_N, squared_by_energy(self.speed), self.start))]
 
@@ -56,7 +56,7 @@ class Motion:
         return with_numbers(meaning(self.unknown, value)[self.q])
 
     def margin(self, at: Expr, point: Mapping[Symbol, Expr]) -> Expr:
-        """mu_s N - |F| at a place, N."""
+        """mu_s N - |F| at a place, in newtons."""
         F, most, *_ = self.values
         there = {**point, self.q: at}
         return value_at(most, there) - abs(value_at(F, there))

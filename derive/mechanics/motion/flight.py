@@ -631,7 +631,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
 
 
 def _in_time(value: Expr) -> Expr:
-    """Write a polynomial in the time as a power of the time and a factor."""
+    """Write a polynomial in the time as a power of the time, multiplied by a polynomial with a constant term."""
     terms = [(n, tidied(c)) for n, c in enumerate(reversed(value.expand().as_poly(TIME).all_coeffs()))]
     kept = [(n, presented(c, in_sums=False)) for n, c in terms if not is_zero(c)]
     least = min(n for n, _ in kept)

@@ -69,8 +69,8 @@ SLIPS = Rule(
 def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str = "slips") -> tuple[Quantity, ...]:
     """Condition for static friction to suffice, |F| <= mu_s N, solved for one letter; or the place of the first slip.
 
-    friction   the friction F of a contact with a coefficient mu_s of static friction, N
-    normal     the normal force N of the same contact in the same state, N
+    friction   the friction F of a contact with a coefficient mu_s of static friction, in newtons
+    normal     the normal force N of the same contact in the same state, in newtons
     letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
     If the letter is the coordinate of a motion whose forces follow from conservation of energy, the result is the first
     place with |F| = mu_s N that the motion reaches from its start. Otherwise the result is the condition |F| <= mu_s N.
