@@ -653,7 +653,7 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
         how = "contradict" if _contradict(problem.constraints) else "repeat"
-        message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
+        message = f"the constraints enforced by {names} {how} one another, so the forces are not determined"
         return Rejected(
             Complaint("constraints", message, help="remove constraints that follow from the other constraints")
         )

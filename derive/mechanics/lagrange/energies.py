@@ -146,8 +146,8 @@ def _squared_speed(system: System, mover: Mover) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined; a long line
-    is left out."""
+    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined. The line is
+    left out if it is long, or if each square is a single term."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 

@@ -122,18 +122,19 @@ def contact(
     of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`; or a fixed
                place, such as the edge of a table, that touches a surface which a body carries
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
-    normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
-               coordinates allow the body to leave the surface
-    rolling    True if the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
-               the surface with the free side on the left. In space, the friction has two components along axes in the
-               surface, such as F_x and F_y; if only one horizontal axis is in the surface, the component named after
-               the other horizontal axis is perpendicular to the first axis
+    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
+               if the coordinates allow the body to leave the surface
+    rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
+               the coordinates alone keep the body on the surface. The friction is positive along the surface with the
+               free side on the left. In space, it has two components along axes in the surface, such as F_x and F_y.
+               If only one horizontal axis is in the surface, the component named after the other horizontal axis is
+               perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
     direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
                this direction. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
-    force      with `static`: the symbol of the friction F, N, positive as for `rolling`
+    force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
     from the surface is the distance of the centre of the body from the surface, minus the radius of the body. In space,
     a disc, a hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along

@@ -406,7 +406,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable just where the others do not exist, and the others are stable where they exist.
+    """Whether an equilibrium is stable exactly where the others do not exist, and the others are stable where they
+    exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
     than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
