@@ -315,7 +315,8 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return the difference; several terms of the second expression are in brackets, with a positive first term."""
+    """Return the difference. If the second expression has several terms, they are in brackets; if all these terms are
+    negative, the opposite of this expression is added in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first

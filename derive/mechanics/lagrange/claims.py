@@ -280,11 +280,12 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
-    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation,
-    or with respect to the rate of this coordinate if the function contains rates. If the sentence also states a
-    multiplier in terms of a force, the factor of this force is that derivative times the ratio of the multiplier to the
-    force. Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The
-    term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions require.
+    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
+    If the function contains rates, it is the derivative with respect to the rate of this coordinate. If the sentence
+    also states a multiplier in terms of a force, the factor of this force is that derivative times the ratio of the
+    multiplier to the force. Friction terms in the generalized force, which are proportional to a constraint force, are
+    not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
+    require.
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -309,8 +310,11 @@ def _slope(function: Expr, q: Any) -> Expr:
 
 
 def multiplier_of(i: int) -> Naming:
-    """Return the predicate for the multiplier of the i-th function in a sentence: the factor of this multiplier in the
-    equation is the derivative of the function with respect to the coordinate or its rate."""
+    """Return the predicate for the multiplier of the i-th function in a sentence.
+
+    The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
+    of the equation, or to the rate of this coordinate.
+    """
 
     def is_so(facts: Judged, letter: Any) -> bool:
         q = facts.inputs["coordinate"]

@@ -1,5 +1,8 @@
-"""Checks of a system: the place of each force moves with a part of the system, each constraint has a gradient along
-which its force can act, and friction has a second body on which the opposite force acts."""
+"""Checks of what the forces of a system act on.
+
+The place of each force must move with a part of the system. Each constraint must have a gradient, along which its force
+acts. Friction between two bodies must act on both of them.
+"""
 
 from __future__ import annotations
 

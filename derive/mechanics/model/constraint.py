@@ -44,8 +44,10 @@ class StaticLimit:
 
 @dataclass(frozen=True)
 class Constraint(Part):
-    """A constraint f = c, enforced by a force with the virtual work lambda df; or a_1 q_1_dot + ... = c, enforced
-    by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
+    """A constraint that a force enforces.
+
+    For a constraint f = c on coordinates, the virtual work of the force is lambda df. For a constraint
+    a_1 q_1_dot + a_2 q_2_dot + ... = c on rates, it is lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
     left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
@@ -155,8 +157,8 @@ class Constraint(Part):
         """The kind of the multiplier, or None if the kind is unknown.
 
         The kind is "force" if the forces on material points are known. Otherwise it follows from the first term of f
-        that is a number times a coordinate, or times a rate: "force" for a length, "torque" for an angle, and for
-        any other coordinate the kind with the dimension of an energy divided by the coordinate.
+        that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque" for an
+        angle. For any other coordinate, it is the kind with the dimension of an energy divided by the coordinate.
         """
         if self.forces:
             return "force"

@@ -119,8 +119,8 @@ def contact(
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`; or a fixed
-               place, such as the edge of a table, that touches a surface which a body carries
+    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`. If a body
+               carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
     normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
                if the coordinates allow the body to leave the surface
@@ -140,7 +140,7 @@ def contact(
     a disc, a hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along
     the axis of the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the
     plane is then the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
-    held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve: its centre
+    held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre
     must be one radius from the curve, along the normal at a point whose horizontal distance is a coordinate.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
@@ -311,9 +311,9 @@ def _frictions(touch: Contact, letter: str, direction: Any) -> dict[Symbol, Loca
 def _ways_along(touch: Contact) -> dict[str, Location]:
     """Return perpendicular unit vectors along a surface in space, by the names of axes.
 
-    If two axes are in the surface, the vectors are along these axes. Otherwise the first vector is along a horizontal
-    axis in the surface, and the second vector is perpendicular to this axis; if the surface faces upwards, the second
-    vector points to the side of the other horizontal axis.
+    If two axes are in the surface, the vectors are along these axes. Otherwise one vector is along a horizontal axis in
+    the surface, and the other vector is perpendicular to this axis. The other vector has the name of the other
+    horizontal axis; if the surface faces upwards, it points to the positive side of this axis.
     """
     n = touch.normal.components
     flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}

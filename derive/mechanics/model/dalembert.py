@@ -38,7 +38,7 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a generalized force along a coordinate, such as a torque along an angle, N m.
 
-    place   the components of the place, or the coordinate as the only component
+    place   the components of the place; for a generalized force, the coordinate or the angle as the only component
     held   pairs of a symbol in the place, such as a component of the position of a particle in its body, and the value
            of this symbol; the symbol is constant in every displacement
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces

@@ -35,7 +35,7 @@ ZERO = Integer(0)
 class _AtPlace(Part):
     """A force at a place, or along a coordinate.
 
-    at   the components of the place, or the coordinate as the only component
+    at   the components of the place; for a force along a coordinate or an angle, this quantity as the only component
     of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
     """
 

@@ -45,9 +45,8 @@ def no_slip(
 
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
-    ground   a place on the surface, if the surface moves without rotation; the axes in which the surface is at rest,
-             such as those of a turntable; or the body that carries the surface; by default the surface is at rest in
-             space
+    ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
+             rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
     fixes    the coordinate whose rate is preferred when the first rate is isolated; by default the coordinate of the
              last rotation. A rate with a constant factor is isolated before any rate with a factor that varies
     Each independent condition isolates another rate. A condition with constant coefficients can be integrated, so it

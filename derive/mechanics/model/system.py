@@ -334,7 +334,8 @@ class System:
             )
 
     def _check_what_acts(self) -> None:
-        """Require forces and constraints to depend only on coordinates of this system."""
+        """Require the places of forces, the potential energies and the constraints to depend only on coordinates of
+        this system."""
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:

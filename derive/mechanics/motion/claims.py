@@ -86,9 +86,9 @@ def _is_negative(root: Expr) -> bool:
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place exactly under the stated condition.
 
-    If the result contains a rate with its sign at the start, each place must also lie ahead of the start; it must lie
-    behind the start if the motion turns back first. If contact or a taut string has to last until the motion is there,
-    a sentence with a condition must say so.
+    If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
+    motion turns back first, behind it. If contact or a taut string has to last until the motion is there, a sentence
+    with a condition must say so.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}

@@ -803,14 +803,14 @@ PASSES_THROUGH = Rule(
 
 
 def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str = "passes") -> Quantity:
-    """Condition for a free flight to pass through a place: when the particle is above or below the place, or there, the
-    height of the particle minus the height of the place is zero.
+    """Condition for a free flight to pass through a place: at the time at which the particle has the horizontal
+    position of the place, it also has the height of the place.
 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the height of the particle at the time at which it is above or below the place; numerically, this time is
-    positive.
+    Check: the height of the particle at the time at which it has the horizontal position of the place. Numerically,
+    this time is positive.
     Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.

@@ -77,7 +77,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N and
     -F <= mu_s N. If it is known, the sentence states the direction of the slip: the body slips against the friction
     that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
-    Check: at random numbers, the result and |F| <= mu_s N are both true or both false; along a motion, |F| < mu_s N
+    Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
     Outcomes: sticks, always, cannot (the condition is never true); needs_none (F = 0); slips, slips_squared (solved
     after squaring), at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).

@@ -45,7 +45,7 @@ def steady_motion(
     """Condition of a steady motion, dL/dq = 0 at q_dot = 0, for each coordinate q that is not cyclic; the cyclic
     coordinates have constant rates.
     of      the Lagrangian, J, which must not contain the time; or the equation of motion of one coordinate, with the
-            values of conserved momenta substituted: these momenta determine the rates of the cyclic coordinates
+            values of conserved momenta substituted. These momenta determine the rates of the cyclic coordinates
     rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
     at      constant values of other coordinates, `{theta: alpha}`; a coordinate that is not given keeps its symbol
     key     the key; if there are several conditions, the name of the coordinate is appended

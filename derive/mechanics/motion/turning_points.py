@@ -115,8 +115,10 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the term `lasts` for a sentence that states the condition under which the motion comes to these places;
-    empty if there is no such condition, or if neither contact nor a taut string is needed."""
+    """Return the term `lasts` for a sentence that states the condition under which the motion comes to these places.
+
+    The result is empty if there is no such condition, or if neither contact nor a taut string is needed.
+    """
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 
@@ -171,8 +173,8 @@ def _unknown_sign(of: Quantity, come: Arrival, ahead: int | None) -> Rejected:
 
 
 def _side_of_start(come: Arrival, sense: int) -> int | None:
-    """Return 1 if the place lies ahead of the start, where the motion goes first, -1 if it lies behind the start, 0 if
-    it is the start, and None if this is unknown."""
+    """Return 1 if the place lies ahead of the start, where the motion goes first, and -1 if it lies behind. Return 0 if
+    the place is the start, and None if this is unknown."""
     q, start = come.begun.coordinate, come.begun.start
     if come.place in (oo, -oo):
         return sense if come.place == oo else -sense
@@ -197,7 +199,8 @@ def _turns_back(come: Arrival, sense: int) -> bool:
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that f is positive between start and place, if f is not negative at the place."""
+    """Whether algebra shows that f is not negative between the start and the place, if f is not negative at the
+    place."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):

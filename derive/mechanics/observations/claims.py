@@ -65,7 +65,8 @@ def numbers(values: Iterable[Any], *more: Any, tried: int = 12) -> list[Point]:
 
 
 def for_each_form(quantity: Quantity, is_so: Callable[[Expr, Point], bool | None], *others: Any) -> bool:
-    """Whether a statement about a quantity is true of its value, and of its first line where this line has a number."""
+    """Whether a statement about a quantity is true of its value and, at points where the first line of its derivation
+    can be evaluated, also of this line."""
     value, *lines = forms(quantity)
     points = numbers([value], *others)
     return everywhere(points, lambda point: is_so(value, point)) and all(
@@ -742,7 +743,7 @@ def is_the_amplitude(facts: Judged, told: Relation) -> bool:
 
 def longer_by(facts: Judged, told: Expr) -> bool:
     """Whether the integral for the period at the stated amplitude exceeds its value at a very small amplitude by this
-    percentage, to the figures that are shown, and the percentage is less than 5."""
+    percentage, to the figures that are shown. The percentage must be less than 5."""
     f, q, letter, _ = facts.inputs["swing"].args
     letters = letters_of(explicit(f)) - {q, letter}
 

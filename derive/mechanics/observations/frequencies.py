@@ -305,8 +305,10 @@ class OneCoordinate:
         return tidied(slope.diff(self.q) / mu - slope * mu.diff(self.q) / (2 * mu**2))
 
     def path(self, mass: Symbol) -> Expr | None:
-        """Return s with T = m s_dot^2/2 and U = U_0 + m omega^2 s^2/2 if U - U_0 is proportional to 1 - cos(q - q_0),
-        where q_0 is the equilibrium; otherwise None."""
+        """Return s with T = m s_dot^2/2 and U = U_0 + m omega^2 s^2/2.
+
+        U - U_0 must be proportional to 1 - cos(q - q_0), where q_0 is the equilibrium; otherwise the result is None.
+        """
         turned = self.q - self.lowest
         height = self.energy - self.energy.xreplace({self.q: self.lowest})
         size = tidied(2 * height / (self.square * mass) / (1 - cos(turned)))
