@@ -213,7 +213,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "shadow": [("letter-clash", 9, "`p_x` is already a symbol of this problem")],
     "singular_q": [("singular-coordinates", 11, "the mass matrix has no inverse there")],
     "sph_lin": [("singular-coordinates", 12, "the mass matrix has no inverse there")],
-    "sq_constraint": [("constrained", 8, "so no force can keep it")],
+    "sq_constraint": [("constrained", 8, "so no force can enforce it")],
 }
 
 # problem -> the edits by which its author fixes the error, and the answers then, by hand

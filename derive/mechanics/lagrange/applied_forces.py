@@ -125,7 +125,7 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
 
 
 def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
-    """Return (dx/dt)^2 + (dy/dt)^2 + ... over the components that change."""
+    """Return (dx/dt)^2 + (dy/dt)^2 + ... over the components that change; if none changes, only the first term."""
     fast = [TIME, *moving]
     changing = [c for c in place if c.has(*fast)] or [*place][:1]
     squares = [Pow(TimeRate(c, *moving), 2) for c in changing]
@@ -245,7 +245,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     of            the Lagrangian, J
     q             one of its coordinates
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
-    A step derives the generalized force Q.
+    If forces without a potential energy act on the system, a step derives their generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
     Outcomes: applied (forces without a potential energy act along q), kept (constraint forces act along q), both (both
     kinds act along q), free (neither kind acts along q).
@@ -315,7 +315,8 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return the difference; several terms of the second expression are in brackets, with a positive first term."""
+    """Return the difference. If the second expression has several terms, they are in brackets; if all these terms are
+    negative, the opposite of this expression is added in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first

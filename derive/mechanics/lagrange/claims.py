@@ -188,8 +188,8 @@ def free_bodies(facts: Judged) -> int:
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
-    """Whether the page assumes u > 0 for each distance |u| that a step replaces by u. The sentence must mention
-    stretched springs exactly if one of these assumptions is about a spring."""
+    """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u. The
+    sentence must mention stretched springs exactly if one of these assumptions is about a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
@@ -197,7 +197,7 @@ def on_the_sides_that_are_assumed(facts: Judged) -> bool:
 
 def equation_of(facts: Judged, q: Any) -> bool:
     """Whether the factors of the accelerations are proportional to the second derivatives of L with respect to q_dot
-    and each rate."""
+    and each rate. If all these derivatives are zero, the equation must contain q or its rate."""
     L, moving = value_of_role(facts, "lagrangian"), facts.quantities["lagrangian"].coordinates
     residual = explicit(facts.result).residual
     inertia = {s: diff(L, rate(q), rate(s)) for s in moving}
@@ -223,11 +223,13 @@ def has_rates(condition: Expr) -> bool:
 
 
 def is_stretched(facts: Judged) -> bool:
-    """Whether the symbol in the result is a multiplier that differs from the constraint force. The symbol is the force
-    if the gradient of the condition with respect to the position of the particle has the length `gradient`, which is 1
-    except for curves.
+    """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
-    The gradient (J J^T)^-1 J a comes from virtual work, and its length is computed numerically."""
+    The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
+    length `gradient`, which is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a, where J contains
+    the derivatives of r with respect to the coordinates, and a those of f. Its length is computed numerically. If the
+    position or the condition is not given, the symbol is taken as the force.
+    """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
@@ -249,8 +251,8 @@ Told = Callable[[Judged, str], bool]
 
 
 def of_its_coordinate(facts: Judged, outcome: str) -> bool:
-    """Whether the equation sets the momentum equal to the stated value, and contains the rate of the coordinate of this
-    momentum."""
+    """Whether the equation sets the momentum equal to the stated value, up to a common factor, and contains the rate of
+    the coordinate of this momentum."""
     moving = rate(facts.inputs["coordinate"]) in letters_in(facts.result)
     return (
         moving
@@ -276,11 +278,15 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 
 
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
-    """Whether the factor of each force in the equation is the derivative of a stated function with respect to the
-    coordinate of the equation, or with respect to its rate if the function contains rates. If the sentence also states
-    a multiplier in terms of its force, the factor contains their ratio. The generalized force may contain a friction
-    term that is proportional to a multiplier; this term is not counted. The word `between` must agree with the stated
-    functions."""
+    """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
+
+    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
+    If the function contains rates, it is the derivative with respect to the rate of this coordinate. If the sentence
+    also states a multiplier in terms of a force, the factor of this force is that derivative times the ratio of the
+    multiplier to the force. Friction terms in the generalized force, which are proportional to a constraint force, are
+    not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
+    require.
+    """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
     multipliers = {number: explicit(v.right) for number, v in stated.items() if isinstance(v, Relation)}
@@ -297,14 +303,18 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
 
 
 def _slope(function: Expr, q: Any) -> Expr:
-    """The derivative of a constraint function with respect to a coordinate, or to its rate if it contains rates."""
+    """The derivative of a constraint function with respect to a coordinate; with respect to the rate of the coordinate,
+    if the function contains rates."""
     slope: Expr = diff(function, rate(q) if has_rates(function) else q)
     return slope
 
 
 def multiplier_of(i: int) -> Naming:
-    """Return the predicate for the multiplier of the i-th function in a sentence: the factor of this multiplier in the
-    equation is the derivative of the function with respect to the coordinate or its rate."""
+    """Return the predicate for the multiplier of the i-th function in a sentence.
+
+    The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
+    of the equation, or to the rate of this coordinate.
+    """
 
     def is_so(facts: Judged, letter: Any) -> bool:
         q = facts.inputs["coordinate"]
@@ -361,7 +371,8 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
-    """Whether the constraint is enforced by what the sentence names; friction enforces a constraint on velocities."""
+    """Whether the constraint is enforced by what the sentence names, such as a string; friction must enforce a
+    constraint on velocities. A sentence with the word "formula" names nothing, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True
@@ -370,13 +381,14 @@ def names_the_enforcer(facts: Judged, outcome: str) -> bool:
 
 
 def _keeps_one_constant(facts: Judged) -> bool:
-    """Whether the constraint is of one coordinate alone, so that its second rate vanishes."""
+    """Whether the left side of the result is the second rate of one coordinate, and the constraint does not contain the
+    time."""
     left, condition = explicit(facts.result).left, facts.inputs["condition"]
     return left in {rate(q, 2) for q in condition.free_symbols} and not depends_on_time(condition)
 
 
 def kept_constant(facts: Judged, q: Any) -> bool:
-    """Whether the acceleration of this coordinate is what vanishes."""
+    """Whether the result sets the acceleration of this coordinate equal to a value."""
     return bool(explicit(facts.result).left == rate(q, 2))
 
 
@@ -400,8 +412,8 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     """Whether the equations that the sentence names, if it names any, give the result together with earlier unknowns.
 
-    At trial numbers, these equations are linear in the unknowns. They are solved for the first of them, without the
-    formula of the step.
+    With trial numbers for the other symbols, these equations are linear in the unknowns. They are solved for the
+    unknown of the step, without the formula of the step.
     """
     equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
     if not equations:
@@ -443,10 +455,8 @@ def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:
 
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
-    """Whether a constraint on the coordinates holds identically for the stated value of a coordinate.
-
-    Values of other coordinates may have been substituted in this value.
-    """
+    """Whether one of the constraints that contain this coordinate holds identically for the values that the sentence
+    states for this and other coordinates."""
     values = {s: v for s, v in _values_by_constraints(facts).items() if s in facts.inputs["moving"]}
     about = [each for each in facts.inputs["constraints"] if each.has(told.left)]
     return any(is_zero(explicit(each).xreplace(values)) for each in about)
@@ -472,7 +482,8 @@ multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 
 
 def multiplier_negative(facts: Judged) -> bool:
-    """Whether, numerically, the force is negative, and acts on the body in the sense that the sentence states."""
+    """Whether the symbol of the result is a force that is negative at trial numbers, and that acts on the body in the
+    direction that the sentence states."""
     x, y = facts.inputs["positive"]
     word, of_slope, _ = facts.words["sense"].partition("_slope")
     across, beside, wanted = {"up": (y, x, 1), "down": (y, x, -1), "right": (x, y, 1), "left": (x, y, -1)}[word]

@@ -145,7 +145,8 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     Keys: acceleration_ and the name of the coordinate.
-    Outcomes: generic (with constraints), unconstrained, zero.
+    Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
+    eliminated (from these equations, after other unknowns are eliminated), zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
     for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
@@ -156,14 +157,16 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
 
 
 def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
-    """Constraint forces, the multipliers lambda, from the equations of motion and the constraints.
+    """Constraint forces or multipliers lambda, from the equations of motion and the constraints.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
     Second route: as `accelerations`.
-    Outcomes: generic (the multiplier is the constraint force), multiplier (the gradient of f with respect to the
-    position of the particle does not have length 1; the sentence states its length), zero.
+    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force and is
+    always negative; the sentence states the direction in which it acts), multiplier (the gradient of f with respect to
+    the position of the particle does not have length 1; the sentence states the length), isolated and eliminated (as
+    for `accelerations`), zero.
     Errors: no constraint is enforced by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -187,13 +190,15 @@ def _not_all_negative(left: Expr) -> Expr:
 
 
 def _told(of: Constraint) -> Relation:
-    """Return a constraint without a minus sign in front: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
+    """Return the relation of a constraint. If the right side is zero and the left side begins with a minus sign, change
+    the sign: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
     is_negative = of.right == 0 and of.left.could_extract_minus_sign()
     return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
-    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0."""
+    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0; None for any other
+    constraint."""
     contained = [q for q in moving if of.residual.has(q, rate(q))]
     if len(contained) != 1 or of.in_rates or depends_on_time(of.residual):
         return None
@@ -271,7 +276,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
 
 def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
-    """Return the steps of these unknowns, in the order of `isolated_in_order`; each step uses the earlier ones."""
+    """Return the steps of these unknowns. If the formula of an unknown contains other unknowns, the steps of the others
+    are established first, in the order of `isolated_in_order`."""
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     forces = {each.force: each for each in problem.constraints}
     order, every = _isolated(problem), [*problem.used, *rates]
@@ -325,7 +331,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the constraints by which values replace coordinates in the equations."""
+        """Return the eliminated unknowns, and the relations q = value for the coordinates whose values are substituted
+        in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         present = {s for each in self.equations for s in explicit(each.value).free_symbols}
         known = self.problem.known
@@ -482,7 +489,7 @@ def _places(problem: _Problem) -> tuple[Expr, ...]:
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """Collect a force by accelerations and by squares of rates, if accelerations remain in the force."""
+    """Collect a value by accelerations and by squares of rates, if some accelerations are not solved for."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -518,7 +525,7 @@ def constraint_force(
     if strange:
         message = f"`constraint_force`: this system has no coordinate {strange[0]}"
         raise Rejected(Complaint("wrong-argument", message, help=f"it has {', '.join(map(str, problem.moving))}"))
-    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # the second route reads this
+    as_given = {getattr(q, "symbol", q): value for q, value in along.items()}  # for the second route
     works = {c: tidied(Add(*(c.along(q) * dq for q, dq in way.items()))) for c in problem.constraints}
     missing = [c for c, work in works.items() if not is_zero(work) and c not in [each.constraint for each in kept]]
     if missing:
@@ -563,7 +570,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
     """Return the two sides of d'Alembert's principle: the virtual work of m a - F, and zero.
 
-    Each coordinate has a displacement of its own, so the terms of two coordinates cannot cancel.
+    The symbols of the displacements of the coordinates differ, so the terms of two coordinates cannot cancel.
     """
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
@@ -646,7 +653,7 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
         how = "contradict" if _contradict(problem.constraints) else "repeat"
-        message = f"the constraints kept by {names} {how} one another, so the forces are not determined"
+        message = f"the constraints enforced by {names} {how} one another, so the forces are not determined"
         return Rejected(
             Complaint("constraints", message, help="remove constraints that follow from the other constraints")
         )

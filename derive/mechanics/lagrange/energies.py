@@ -61,8 +61,9 @@ MANY = 8  # greatest number of terms in a line with squares of velocities; a lon
 
 @dataclass(frozen=True)
 class Mover:
-    """A particle, or a body that is not held at a fixed point: its kinetic energy contains (1/2) M v^2.
+    """A particle or a body whose kinetic energy contains the term (1/2) M v^2.
 
+    A body has no such term if it is held at a point about which its inertia is known.
     letter   the index of the symbol v; empty if v has no index
     """
 
@@ -79,8 +80,8 @@ class Mover:
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
     """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
 
-    If a body has a name, this name replaces the number. The name of the system and the index of the Lagrangian follow,
-    if there are any.
+    If a body has a name, the first word of this name replaces the number. The first word of the name of the system and
+    the index of the Lagrangian follow, if there are any.
     """
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
@@ -145,14 +146,15 @@ def _squared_speed(system: System, mover: Mover) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined; a long line
-    is left out."""
+    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined. The line is
+    left out if it is long, or if each square is a single term."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[Form]:
-    """Return the line with the squares of the components of the velocity; a long line is left out."""
+    """Return the line with the squares of the components of the velocity; the line is left out if it is long, or if at
+    most one component changes."""
     velocity = [by_rates(explicit(TimeRate(c, *moving)), moving) for c in place]
     changing = [v for v in velocity if v != 0]
     many = sum(len(Add.make_args(v)) for v in changing) > MANY
@@ -193,7 +195,7 @@ class Turning:
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
-        """Return the energy in components along principal axes; terms with equal moments are combined."""
+        """Return the energy in components. If the axes are principal axes, terms with equal moments are combined."""
         tensor, omega = value_behind(self.inertia), value_behind(self.omega)
         if self.is_plane or not tensor.is_diagonal():
             return explicit(self.energy(tensor, omega))
@@ -214,7 +216,7 @@ def _factored(component: Expr) -> Expr:
 
 
 def _turnings(system: System) -> list[Turning]:
-    """Return the rotations of the bodies of a system; identical bodies have one common inertia step."""
+    """Return the rotations of the bodies of a system; identical bodies have one common step for their inertia."""
     found: list[Turning] = []
     known: list[tuple[PlacedBody, Any]] = []
     for i, placed in enumerate(system.bodies):
@@ -255,9 +257,9 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
     system   particles and bodies
 
-    Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. A body that is held at
-    a fixed point has no term with v, and its I is about the fixed point. Steps derive the square of each speed, each
-    angular velocity and each inertia.
+    Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
+    point about which its inertia is known, the body has no term with v, and I is about this point. Steps derive the
+    square of each speed, each inertia that is not given and, in space, each angular velocity.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of inertia of a body are known only about a point other than the required one.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -334,7 +336,8 @@ POTENTIAL_ENERGY = Rule(
 
 
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
-    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs.
+    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs, plus
+    the other potential energies of the system.
 
     system   particles and bodies, with weights, springs and other potential energies
 

@@ -1,4 +1,4 @@
-"""Facts that results, in addition to their values, pass to later steps."""
+"""Facts that results pass to later steps, in addition to their values."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class FromLagrangian(Fact):
 
 @dataclass(frozen=True)
 class Energies(Fact):
-    """The two energies whose difference is a Lagrangian."""
+    """The two energies whose difference is a Lagrangian, and its term for magnetic fields, if there is one."""
 
     missing = "is not a Lagrangian from `lagrangian`"
     kinetic: Quantity
@@ -71,7 +71,7 @@ class Energies(Fact):
 
 
 def energies_of(lagrangian: Quantity) -> Energies | None:
-    """Return the two energies of a Lagrangian; None for a Lagrangian that is given as a formula."""
+    """Return the energies of which a Lagrangian consists; None for a Lagrangian that is given as a formula."""
     return None if lagrangian.fact(Varied) is not None else lagrangian.needed(Energies)
 
 

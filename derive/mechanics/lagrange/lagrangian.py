@@ -136,7 +136,7 @@ def equation_of_motion(
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
-    Errors: L does not depend on q.
+    Errors: L contains neither q nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     required(of.coordinates, q, "equation_of_motion", of)
@@ -260,8 +260,8 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name, with the key of the Lagrangian as a prefix if the Lagrangian does not have
-    the default key."""
+    """Return the key of a step, which is the name. If the Lagrangian does not have the default key, the key of the
+    Lagrangian is a prefix."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

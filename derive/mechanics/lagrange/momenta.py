@@ -69,7 +69,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     q    one of its coordinates
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Outcomes: generic, zero.
-    Errors: L does not depend on q.
+    Errors: L contains neither q nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.
     """
     required(of.coordinates, q, "conjugate_momentum", of)

@@ -1,5 +1,8 @@
-"""Checks of a system: each force acts on a particle, each reaction acts on a body, and a force can enforce each
-constraint."""
+"""Checks of what the forces of a system act on.
+
+The place of each force must move with a part of the system. Each constraint must have a gradient, along which its force
+acts. Friction between two bodies must act on both of them.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +39,11 @@ class WrongPart(Rejected):
 
 
 class WithParts(Protocol):
-    """The interface of a system that these checks use; `acting` lists each part, the name of its force, and the place
-    of this force."""
+    """The interface of a system that these checks use.
+
+    `acting` lists the forces for which the script does not state the body on which they act. Each item is a part of
+    the system, the name of its force, such as "drag", and the place where this force acts.
+    """
 
     @property
     def described(self) -> Described: ...
@@ -52,15 +58,18 @@ class WithParts(Protocol):
 
 
 def check_what_is_acted_on(system: WithParts) -> None:
-    """Reject a place that moves with no particle, a constraint without a gradient, and friction without a second
-    body."""
+    """Reject a force whose place moves with no particle, a constraint whose gradient vanishes wherever the constraint
+    holds, and friction for which the second body is not stated."""
     _check_particles(system)
     _check_gradients(system)
     _check_partners(system)
 
 
 def _check_particles(system: WithParts) -> None:
-    """Require each place of a force to move with a body or a particle, or to be fixed to the ground."""
+    """Require the place of a force to move with a body, a particle or a massless rod, or to be fixed to the ground.
+
+    This is required only if the script does not state the body on which the force acts.
+    """
     acting = system.acting
     for i in places_that_move_alone(system.described.description, [place for _, _, place in acting]):
         part, what, place = acting[i]
@@ -74,16 +83,17 @@ def _check_gradients(system: WithParts) -> None:
     the gradient."""
     for lost in conditions_that_nothing_keeps(system.described.description):
         part = next((each for each in system.constraints if each.force == lost.multiplier), None)
-        message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can keep it"
+        message = f"the gradient of {lost.residual} vanishes wherever the constraint holds, so no force can enforce it"
         help_line = "use the constraint without a square: `x - y` in place of `(x - y)**2`"
         raise WrongPart.of(part, Complaint("constrained", message, help=help_line))
 
 
 def _check_partners(system: WithParts) -> None:
-    """Require the second body of a force that contains a constraint force, such as friction.
+    """Require that the script states the body that exerts a force, if this force contains the symbol of a constraint
+    force, as the friction mu N does.
 
     The opposite force acts on this second body. The second body need not be stated if the system has only one mass, or
-    if all such forces add up to zero.
+    if all forces that contain a constraint force add up to zero.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

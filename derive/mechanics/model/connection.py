@@ -1,7 +1,7 @@
-"""Connections of bodies with each other and with the ground: contacts, strings, massless rods and joints.
+"""Connections of bodies with each other and with the ground, such as contacts, strings, massless rods and joints.
 
-A connection itself does not act on a system: it yields constraints and forces, which act. For drawings, the connection
-records which forces act on which material points.
+A connection itself has no effect on the motion. The functions that return it also return constraints and forces, which
+do have an effect. For drawings, the connection records which forces act on which material points.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from derive.steps.record import coordinates_in
 class PointForce:
     """A force on a material point: `size` times `direction`, N.
 
-    size   the symbol of a constraint force, or a formula such as mu N for friction
+    size   the symbol of a constraint force; for sliding friction 1, and `direction` contains the factor mu N
     at     the place where the force acts
     of     the body or particle on which the force acts; None for the ground
     """
@@ -46,7 +46,10 @@ class PointForce:
 
 @dataclass(frozen=True)
 class Connection(Part):
-    """A contact, a string, a rod or a joint, with the forces that it exerts."""
+    """A connection, such as a contact, a string or a joint.
+
+    forces   the forces of its constraints and of its friction on material points, for drawings; may be empty
+    """
 
     forces: tuple[PointForce, ...]
 

@@ -44,14 +44,16 @@ class StaticLimit:
 
 @dataclass(frozen=True)
 class Constraint(Part):
-    """A constraint f = c, enforced by a force with the virtual work lambda df; or a_1 q_1_dot + ... = c, enforced
-    by a force with the virtual work lambda (a_1 dq_1 + a_2 dq_2 + ...).
+    """A constraint that a force enforces.
+
+    For a constraint f = c on coordinates, the virtual work of the force is lambda df. For a constraint
+    a_1 q_1_dot + a_2 q_2_dot + ... = c on rates, it is lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
     left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
     force     the symbol of the multiplier; if `gradient` is not 1, the symbol of the force
     in_rates  whether the constraint is linear in the rates
-    forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a joint; second
+    forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a hinge; second
               routes use these forces in place of the derivatives of f
     enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
               the enforcer is unknown
@@ -81,8 +83,11 @@ class Constraint(Part):
         return [each for each in self.forces if each.of is not None]
 
     def sense(self, side: int) -> str:
-        """Return the direction in which the force on the first body acts if it has this sign: up, down, right or left;
-        empty if the force is not in a plane, or if the direction depends on the symbols."""
+        """Return where the force on the first body points if the symbol of the force has the sign `side`.
+
+        The result is "up" or "down" if the force has a vertical component, otherwise "right" or "left". It is empty if
+        the force is not in a plane, or if the sign of the component is unknown.
+        """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
         if len(signs) != 2 or signs[1] is None or not (signs[1] or signs[0]):
             return ""
@@ -90,8 +95,11 @@ class Constraint(Part):
         return words[signs[1] or signs[0] or 0]
 
     def acts(self, side: int) -> str:
-        """Return the direction as `sense` does for a vertical or horizontal force, and `up_slope` or `down_slope` for
-        the friction of a slope; empty for any other oblique force."""
+        """Return the result of `sense` for a vertical or horizontal force.
+
+        For an oblique friction of constant direction, such as that of a slope, the result is "up_slope" or
+        "down_slope". For any other oblique force, it is empty.
+        """
         sense = self.sense(side)
         if not sense or sense in ("right", "left") or is_zero(self.acting[0].direction[0]):
             return sense
@@ -146,9 +154,11 @@ class Constraint(Part):
 
     @property
     def kind_of_force(self) -> str | None:
-        """The kind of the multiplier: a force if f is a length, a torque if f is an angle; None if the kind is unknown.
+        """The kind of the multiplier, or None if the kind is unknown.
 
-        The first term that is a number times a coordinate, or times a rate, determines the kind.
+        The kind is "force" if the forces on material points are known. Otherwise it follows from the first term of f
+        that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque" for an
+        angle. For any other coordinate, it is the kind with the dimension of an energy divided by the coordinate.
         """
         if self.forces:
             return "force"
@@ -174,7 +184,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
 
     condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
     equals      c
-    force       the symbol of the multiplier: a force if f is a length
+    force       the symbol of the multiplier: a force if f is a length, a torque if f is an angle
     """
     try:
         left, right = explicit(as_expr(condition)), explicit(as_expr(equals))

@@ -119,27 +119,29 @@ def contact(
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`; or a fixed
-               place, such as the edge of a table, that touches a surface which a body carries
-    on         a surface, `plane(...)` or `circle(...)`; or another round body
-    normal     the symbol of the normal force, N, along the unit normal; positive if the surface pushes. Needed if the
-               coordinates allow the body to leave the surface
-    rolling    True if the body does not slip; or the symbol of the friction that prevents slipping, N, positive along
-               the surface with the free side on the left. In space, the friction has two components along axes in the
-               surface, such as F_x and F_y; if only one horizontal axis is in the surface, the component named after
-               the other horizontal axis is perpendicular to the first axis
+    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`. If a body
+               carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a table
+    on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
+    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
+               if the coordinates allow the body to leave the surface
+    rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
+               the coordinates alone keep the body on the surface. The friction is positive along the surface with the
+               free side on the left. In space, it has two components along axes in the surface, such as F_x and F_y.
+               If only one horizontal axis is in the surface, the component named after the other horizontal axis is
+               perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
-    direction  with `sliding`: the direction in which the material point of the body slips over the surface; with
-               `rolling` or `static`: the direction in which the friction on the body is positive; a vector, "right" or
-               "left"
+    direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
+               this direction. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
-    force      with `static`: the symbol of the friction F, N, positive as for `rolling`
+    force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
-    from the surface is the distance of its centre minus its radius. In space, a disc, a hoop, a cylinder or a cone
-    touches a plane at the lowest point of a rim: with the unit vector e along its axis and the unit normal n, its
-    distance is the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
-    held at its apex. The coordinates must keep a round body on a curve.
+    from the surface is the distance of the centre of the body from the surface, minus the radius of the body. In space,
+    a disc, a hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along
+    the axis of the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the
+    plane is then the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
+    held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre
+    must be one radius from the curve, along the normal at a point whose horizontal distance is a coordinate.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -167,8 +169,8 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries the surface if the surface moves with coordinates, or if it is rough and rotates in
-    time."""
+    """Require that a body carries the surface if the surface moves with coordinates, or if the contact has friction and
+    the surface rotates with time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
@@ -228,7 +230,8 @@ def _check_reached(touch: Contact) -> None:
 
 
 def _check(touch: Contact) -> None:
-    """Check that the normal is a unit vector, and that the place of contact is as far from the surface as the body."""
+    """Check that the normal is a unit vector, and that the distance of the place of contact from the surface, along
+    this normal, is the distance of the body from the surface."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
     gap = touch.gap / touch.surface.gradient(touch.at)
@@ -270,8 +273,8 @@ def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Pa
 
 
 def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticLimit | None = None) -> list[Constraint]:
-    """Return the constraints that the material points in contact do not move over each other; friction enforces
-    them."""
+    """Return the constraints on the rates that friction enforces: the material points in contact do not move over each
+    other. A constraint that all motions in these coordinates satisfy is left out."""
     if not symbol:
         message = "static friction needs the symbol of its force"
         raise Rejected(Complaint("missing-key", message, help="give it as `force`, `{static: mu_s, force: F}`"))
@@ -308,9 +311,9 @@ def _frictions(touch: Contact, letter: str, direction: Any) -> dict[Symbol, Loca
 def _ways_along(touch: Contact) -> dict[str, Location]:
     """Return perpendicular unit vectors along a surface in space, by the names of axes.
 
-    If two axes are in the surface, the vectors are along these axes. Otherwise the first vector is along a horizontal
-    axis in the surface, and the second vector is perpendicular to this axis; if the surface faces upwards, the second
-    vector points to the side of the other horizontal axis.
+    If two axes are in the surface, the vectors are along these axes. Otherwise one vector is along a horizontal axis in
+    the surface, and the other vector is perpendicular to this axis. The other vector has the name of the other
+    horizontal axis; if the surface faces upwards, it points to the positive side of this axis.
     """
     n = touch.normal.components
     flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
@@ -372,11 +375,12 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
 
 
 def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
-    """Return a coefficient of friction; require that the normal force, which it multiplies, is an unknown."""
+    """Return a coefficient of friction. The normal force, which the coefficient multiplies, must be a constraint force:
+    the coordinates alone must not keep the body on the surface."""
     mu = as_expr(coefficient)
     require_constant("contact", "coefficient of friction", mu)
     if touch.is_kept:
-        message = f"the coordinates keep the body on the surface, so its normal force `{letter}` is unknown"
+        message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
         help_line = f"give the body a coordinate for its distance from the surface, and the contact `normal: {letter}`"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return mu

@@ -1,9 +1,9 @@
 """The mass points and forces of the system of a Lagrangian; second routes start from these points and forces.
 
 A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
-the rotation. Each further point is the end of a unit vector fixed in the body, and its `mass` is a second moment, in
-kg m^2. Kinetic energy, momenta and virtual work are then derived only from the positions of these points as functions
-of t.
+the rotation. Each further point is the end of a vector that rotates with the body: the unit vector of a body axis, or
+the sum of two such unit vectors. The `mass` of such a point is a second moment, in kg m^2. Kinetic energy, momenta and
+the virtual work of inertial forces are then derived only from the positions of these points as functions of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -28,7 +28,7 @@ Vector = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class MassPoint:
-    """A mass, in kg, at a place in space, in m; or a second moment, in kg m^2, at the end of a unit vector."""
+    """A mass, in kg, at a place, in m; or a second moment, in kg m^2, at the end of a dimensionless vector."""
 
     mass: Expr
     place: Vector
@@ -36,8 +36,9 @@ class MassPoint:
 
 @dataclass(frozen=True)
 class Load:
-    """A force, in N, at a place, in m; or a torque, in N m, along an angle.
+    """A force, in N, at a place, in m; or a generalized force along a coordinate, such as a torque along an angle, N m.
 
+    place   the components of the place; for a generalized force, the coordinate or the angle as the only component
     held   pairs of a symbol in the place, such as a component of the position of a particle in its body, and the value
            of this symbol; the symbol is constant in every displacement
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces

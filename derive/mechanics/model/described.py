@@ -1,4 +1,5 @@
-"""The input of the witness, an independent check: the parts of a system before a condition eliminates a coordinate."""
+"""The input of the witness, which is an independent numerical check: a description of the parts of a system, before
+conditions eliminate coordinates."""
 
 from __future__ import annotations
 
@@ -75,8 +76,8 @@ def described(
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
     bodies   the bodies among the parts
-    known    coordinate -> its formula in other coordinates; the condition behind this formula is a part of the
-             description
+    known    coordinate -> its formula in other coordinates; the description contains the condition that the coordinate
+             is equal to this formula
     """
     found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
     for part in parts:
@@ -92,7 +93,10 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move, but are fixed neither to a body or a particle nor to the ground."""
+    """The indices of the places that move with coordinates, but with no particle, body or massless rod at a particle.
+
+    The result is empty if the Lagrangian is given as a formula, or if the witness cannot compute the places.
+    """
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:
@@ -103,7 +107,8 @@ def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]
 
 
 def conditions_that_nothing_keeps(of: plain.Description) -> list[plain.Condition]:
-    """The constraints whose gradient vanishes wherever the constraint holds."""
+    """The constraints whose gradients vanish in all states that the witness tests; these states satisfy all
+    constraints."""
     if not any(each.multiplier is not None for each in of.conditions):
         return []
     from derive.witness.constraints import without_gradient

@@ -20,7 +20,7 @@ __all__: list[str] = []
 
 Lengths: TypeAlias = list[Quantity]
 
-LONG = 4  # a distance that is a square root of at least this many terms has its own symbol
+LONG = 4  # a distance has its own symbol if it contains the square root of a sum of at least this many terms
 LETTERS = ("s", "u", "w")
 
 

@@ -1,8 +1,8 @@
 """Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
 potential energy as a function of coordinates and time.
 
-A couple acts only along its angle, and drag on a coordinate only along this coordinate. All other forces act at a
-place.
+A couple acts along its angle, drag on a coordinate along this coordinate, and the force of a potential energy along
+each coordinate that the energy contains. The other forces act at a place.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ ZERO = Integer(0)
 class _AtPlace(Part):
     """A force at a place, or along a coordinate.
 
-    at   the components of the place, or the coordinate as the only component
+    at   the components of the place; for a force along a coordinate or an angle, this quantity as the only component
     of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
     """
 
     at: Vector
     of: Any
     verb: ClassVar[str]  # the function of a script that creates the force
-    what: ClassVar[str]  # its name in messages
+    what: ClassVar[str]  # the name of the force in messages
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         own: Any = self
@@ -74,7 +74,7 @@ class GivenForce(_AtPlace):
     """A force at a place, N; or a generalized force Q along a coordinate q, with the work Q dq.
 
     Q is a torque if q is an angle.
-    of   the body or particle on which the force acts, or "massless"; None if the script does not state it
+    of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
     by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
 
@@ -149,7 +149,8 @@ class StoredEnergy(Part):
         return {"energies": [self.energy]}
 
     def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """The generalized force -dU/dq along each coordinate, and -dU/dt along t, the rate at which U decreases."""
+        """The generalized force -dU/dq along each coordinate, and -dU/dt along t, the rate at which U decreases if all
+        coordinates are constant; only those that are not zero."""
         slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
 
@@ -185,7 +186,7 @@ class Charge(Part):
 
     @property
     def stored(self) -> StoredEnergy | None:
-        """The potential energy in a uniform electric field, U = -q E . r."""
+        """The potential energy in a uniform electric field, U = -q E . r; None without an electric field."""
         if is_nothing(self.electric):
             return None
         place = self.at.components
@@ -221,7 +222,7 @@ def _place(verb: str, at: Any) -> Location:
 
 
 def force(components: Any, at: Location, of: Any = None, by: Any = None) -> GivenForce:
-    """A given force at a place, N; its components are constants, or formulas in the coordinates and the time t.
+    """A given force at a place, N; its components may be constants, or formulas in the coordinates and the time t.
 
     of   the body or particle on which the force acts, needed if the place does not move with this body; or "massless"
     for a part without mass

@@ -1,8 +1,8 @@
 """The factor between a multiplier and the constraint force: the length of the gradient of the condition in space.
 
 For a condition f = c with the multiplier lambda, the virtual work of the constraint force is lambda df, so the force on
-a particle is lambda times the gradient of f. If there is only one particle and this gradient has the length 1, lambda
-is the magnitude of the force.
+a particle is lambda times the gradient of f. If there is only one particle and this gradient has the length 1, the
+magnitude of the force is |lambda|.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
 section III.2.
@@ -24,8 +24,8 @@ from derive.steps.step import Quantity
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
     """The length of the gradient of a condition with respect to the position of a single particle.
 
-    The coordinates must allow every displacement of this particle. The result is None if they do not, if there are
-    bodies or several particles, or if the condition is on rates.
+    The coordinates must allow every displacement of this particle, without redundant coordinates. The result is None if
+    they do not, if the system is not a single particle, or if the condition is on rates.
     """
     described = description_behind(lagrangian)
     description = described.description if described is not None else None

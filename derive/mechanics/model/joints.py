@@ -1,4 +1,4 @@
-"""Joints between bodies, motors and dashpots."""
+"""Joints (hinges and rigid joints), motors and dashpots."""
 
 from __future__ import annotations
 
@@ -42,7 +42,8 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     """A frictionless hinge, which keeps two points together; in space it is a ball joint.
 
     of, to   the two points: points of bodies, particles, or fixed places
-    force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z
+    force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. A component does
+             not appear if the coordinates alone keep the two points together along its axis
     The opposite force acts on `to`.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
     """
@@ -70,10 +71,10 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
     """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
-
     of, to   points of bodies, as for `pin`
     force    as for `pin`
     torque   the symbol of the couple on `of`, N m
+    The angle keeps the value that it has where all coordinates are zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
     """
     bodies = [end_of(each)[1] if is_end(each) else None for each in (of, to)]
@@ -108,7 +109,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 
     on      the angle: a coordinate, or a formula that contains coordinates
     turns   the value of the angle, a function of time such as `Omega*t`
-    torque  the symbol of the torque of the motor, N m; positive in the sense in which the angle increases
+    torque  the symbol of the torque of the motor, N m; positive in the direction in which the angle increases
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     require_no_coordinate("motor", "value of the angle", as_expr(turns))
@@ -120,7 +121,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 class DragAlong(Damper):
     """Drag -c d_dot along a distance d. Second routes use the forces on the material points at both ends.
 
-    ends   two pairs: a place, and the body or particle at this place; in place of the body, None for the ground
+    ends   for each end, the place and the body or particle there; None in place of a body for the ground
     """
 
     ends: tuple[tuple[Location, Any], tuple[Location, Any]] = ((Location(()), None), (Location(()), None))
@@ -131,7 +132,7 @@ class DragAlong(Damper):
         return replace(super().moved(known), ends=ends)
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """The forces c (u.v) u on the start and -c (u.v) u on the end.
+        """The forces c (u.v) u on the start and -c (u.v) u on the end, without a force on the ground.
 
         The unit vector u points from the start to the end; v is the velocity of the end relative to the start.
         """
@@ -163,7 +164,8 @@ class Dashpot(Connection):
 
 
 def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
-    """A dashpot between two points at the distance d: it acts on each of them with the force c d_dot, against d_dot.
+    """A dashpot between two points at the distance d. Its force on each point has the magnitude c |d_dot| and opposes
+    the change of d.
 
     constant     c, kg/s
     start, end   particles, bodies, points of bodies, or places

@@ -33,9 +33,11 @@ INTEGRATED = Rule(
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
     """Integral of a linear relation between rates with constant coefficients: s = R theta from s_dot = R theta_dot.
 
-    condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients
+    condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients; a
+                condition that already expresses the coordinate itself is returned unchanged
     The constant of integration is zero: it is assumed that all coordinates are zero in one position of the system.
-    Check: the time derivative of the result is the condition; if all coordinates are zero, the result is zero.
+    Check: the time derivative of the result is the value of the rate in the condition. If all coordinates are zero, the
+    result is zero.
     Errors: the condition cannot be integrated.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3.
     """
@@ -72,7 +74,8 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     names        the names of the components, which are also the keys of their steps; by default x and y, or x, y and z.
                  The last axis points upwards
     If you make a `point` from these components, speeds and energies contain the symbols of the components.
-    Check: the time derivative of the result is the velocity of the place, with the conditions substituted for rates.
+    Check: the time derivative of the result equals the velocity of the place, in which the rates are replaced by their
+    values from the conditions.
     Another check: where all coordinates are zero, the result is equal to the component before the substitution.
     Outcomes: centre (of a body), place.
     Errors: a condition cannot be integrated; the numbers of names and components differ.

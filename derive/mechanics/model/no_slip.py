@@ -45,12 +45,12 @@ def no_slip(
 
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
-    ground   a place on the surface, if the surface moves without rotation; the axes in which the surface is at rest,
-             such as those of a turntable; or the body that carries the surface; by default the surface is at rest in
-             space
-    fixes    the coordinate whose rate is isolated, if possible; by default the coordinate of the last rotation
-    There is one condition for each rate that can be isolated. A condition that can be integrated may be a part of a
-    `System`; such a condition expresses one coordinate by other coordinates.
+    ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
+             rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
+    fixes    the coordinate whose rate is preferred when the first rate is isolated; by default the coordinate of the
+             last rotation. A rate with a constant factor is isolated before any rate with a factor that varies
+    Each independent condition isolates another rate. A condition with constant coefficients can be integrated, so it
+    may be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, with a constant position in the body.
     If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
     velocity, each condition is satisfied.
@@ -67,7 +67,8 @@ def no_slip(
 def rolling_constraint(
     body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
 ) -> tuple[Constraint, ...]:
-    """Conditions of rolling as constraints, each with the symbol of its force: `force`, or F_1 and F_2 for two."""
+    """Conditions of rolling as constraints, each with the symbol of its force: F if `force` is "F" and there is one
+    condition, otherwise F_1, F_2 and so on."""
     conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
     _check_against_particle(body, at, ground, conditions)
     letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
@@ -160,7 +161,8 @@ class _Condition:
 def _independent(
     body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
 ) -> Iterator[_Condition]:
-    """The conditions of rolling, each solved for a rate; a condition that follows from earlier ones is skipped."""
+    """The conditions of rolling, each with the rate that it determines; a condition that follows from earlier ones is
+    skipped."""
     _check(body, at, ground)
     known: dict[Symbol, Expr] = {}
     first = [fixes.symbol] if fixes is not None else []

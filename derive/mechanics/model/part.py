@@ -45,16 +45,19 @@ class Part:
 
     @property
     def acts_by(self) -> Vector:
-        """Expressions in forces or conditions; each of their coordinates must be in `depends_on` of some part."""
+        """Expressions on which the action of the part depends, such as the place of a force, a potential energy or a
+        constraint. Each of their coordinates must be in `depends_on` of some part."""
         return ()
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """Pairs of the name of the part and a place; it is not stated on which object the part acts there."""
+        """The places where the part acts on an object that the script does not state, each after the name of the part,
+        such as "spring"."""
         return ()
 
     def weighed(self, gravity: Expr) -> Sequence[Any]:
-        """Return the weight of the part, if it is not that of `masses` at their places."""
+        """Return parts that correct the weight if the mass of this part is not at the places in `masses`, as for a
+        rope; otherwise nothing."""
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:

@@ -129,7 +129,8 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
     """Axes along which the inertia of a body in space is constant and its angular velocity has short components.
 
-    If the last rotations are about an axis of symmetry, the result is the axes before these rotations.
+    If the last rotations are about an axis of symmetry, the result is the axes before these rotations; the first
+    rotation is always kept.
     """
     axes: Any = placed.turned
     count = len(axes.turns)
@@ -188,7 +189,7 @@ def inertia_of(placed: PlacedBody) -> Inertia:
 
 
 def _check_moments(placed: PlacedBody) -> None:
-    """Check moments that are given about the pivot.
+    """Check moments that are given about a pivot other than the centre of mass.
 
     Reject the moments if the body is not held at the pivot, or if the step of one moment is about the centre of mass.
     """

@@ -1,4 +1,4 @@
-"""Strings and massless rods: inextensible, with the same tension everywhere."""
+"""Inextensible strings and ropes, massless rods, pulleys and smooth wires."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ class Pulley(Connection):
 
 @dataclass(frozen=True)
 class Line(Connection):
-    """A string or a massless rod.
+    """A string, a rope or a massless rod.
 
-    through   one end, the pulleys in order, and the other end; each is a place, or a pulley with a radius
+    through   one end, the pulleys or holes in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
     """
@@ -60,7 +60,7 @@ class Line(Connection):
 
     @property
     def places(self) -> tuple[Location, ...]:
-        """The ends, and the centres of the pulleys between them."""
+        """The ends, and the holes and centres of pulleys between them."""
         return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
 
     def weighed(self, gravity: Expr) -> Sequence[Part]:
@@ -79,9 +79,9 @@ class Line(Connection):
 class WeightOfRope(StoredEnergy):
     """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
 
-    energy   the sum of (mass) g (height of the middle) over the straight pieces, minus that of the particle, J
-    force    if all pieces move by ds along the rope, the weight does the work (M/l) g (y_0 - y_1) ds, with the heights
-             y_0 and y_1 of the two ends; this is the work of a force along the rope on the first end
+    energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
+    force    a force along the rope on the first end that does the work of the weight. If all pieces move by ds along
+             the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
     at       the first end
     """
 
@@ -169,7 +169,8 @@ def string(
     Or, with `mass_of`, a uniform rope, whose mass is that of a particle.
 
     start, end   particles, points of bodies, or places in space
-    length       the length of the straight pieces, m; it may be a function of the time, for a string that is pulled in
+    length       the total length of the straight pieces, m; it may be a function of the time, for a string that is
+                 pulled in
     over         the pulleys or holes between the ends. For a hole, or for a pulley of negligible radius, give a place,
                  a particle or a point of a body
     tension      the symbol of the tension, N; positive if the string pulls. The symbol and the length are required if
@@ -198,7 +199,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     still = not any(coordinates_in(at) or depends_on_time(at) for at in map(column_of, line.places[1:-1]))
     if not still or any(_rotates(b - a) for a, b in pairwise(line.places)):
         message = "the pieces of a rope with mass must move along themselves, but their places or directions change"
-        raise Rejected(Complaint("wrong-argument", message, help="describe a rope that rotates as rods"))
+        raise Rejected(Complaint("wrong-argument", message, help="describe a rotating rope as several rods"))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
         message = "the speed of the rope differs from the speed of the particle that has its mass"
@@ -317,15 +318,15 @@ def _touched(each: Any, k: int) -> list[Location]:
 
 
 def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    """Return the total length of the pieces if it contains neither coordinates nor the time; otherwise None."""
+    """Return the total length of the pieces if it contains no coordinates; otherwise None."""
     lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces])
     return tidied(Add(*lengths)) if lengths is not None else None
 
 
 def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | None:
-    """Return the lengths of the pieces if their sum is constant; otherwise None.
+    """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
-    The length of a piece on a fixed line is u or -u. All choices of the signs are tried until the sum is constant.
+    The length of a piece on a fixed line is u or -u. All choices of the signs are tried until the coordinates cancel.
     """
     lengths = [raw_distance(*piece).replace(Abs, lambda size: size) for piece in pieces]
     for signs in product((1, -1), repeat=len(lengths)):
@@ -337,7 +338,8 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | N
 
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
-    """Check a line without a symbol for its force: its length must be constant, and equal to a given length."""
+    """Check a string or rod without a symbol for its force: its length must contain no coordinates, and must equal the
+    given length, if a length is given."""
     what = "rod" if verb == "massless_rod" else "string"
     key = "force" if verb == "massless_rod" else "tension"
     if kept is None:

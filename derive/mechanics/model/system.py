@@ -1,8 +1,8 @@
 """Mechanical systems: particles and bodies, the forces on them, and the conditions on their motion.
 
-Places are formulas in the coordinates, so geometric constraints between particles are built into the places. The
-energies are derived from the places; for second routes (d'Alembert's principle), the mass points and the forces on them
-are also derived from the places.
+Places are formulas in the coordinates, so geometric constraints between particles can be built into the places. The
+energies are derived from the places. Second routes (d'Alembert's principle) use mass points and the forces on them,
+which are derived from the same places.
 """
 
 from __future__ import annotations
@@ -92,10 +92,8 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass at the centre of mass, and second moments at the ends of unit vectors that rotate with the body.
-
-        The second moments come from the particles of the body, so no inertia tensor is used.
-        """
+        """The mass at the centre of mass, and second moments at the ends of vectors that rotate with the body: unit
+        vectors of the body axes, and sums of two of them."""
         placed = self.placed
         spread = central_second_moments(placed.body)
         points = [MassPoint(placed.body.mass, placed.centre.components)]
@@ -109,7 +107,7 @@ class MovingBody(Part):
         return [point for point in points if point.mass != 0]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """The body for the witness, with the place of its given point, and its centre relative to this point."""
+        """The body for the witness: the place of its given point, and its centre of mass relative to this point."""
         placed = self.placed
         axes = placed.in_plane if placed.is_plane else (0, 1, 2)
         arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))
@@ -215,8 +213,8 @@ def weight(gravity: Expr) -> Weight:
 def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
     """A massless spring between two places, U = (1/2) k (r - l)^2, with k in N/m and the natural length l in m.
 
-    massless   whether the spring may end at a massless joint; by default each end must move with a body, a particle
-    or the ground
+    massless   whether the spring may end at a massless joint; by default each end must be fixed to the ground, or move
+               with a body, a particle or a massless rod
     """
     require_constant("spring", "spring constant", constant)
     require_constant("spring", "natural length", natural)
@@ -336,7 +334,8 @@ class System:
             )
 
     def _check_what_acts(self) -> None:
-        """Require forces and constraints to depend only on coordinates of this system."""
+        """Require the places of forces, the potential energies and the constraints to depend only on coordinates of
+        this system."""
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
@@ -364,7 +363,8 @@ class System:
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """The parts with an end whose body or particle is not stated; each with its name and the place of this end."""
+        """The forces for which the script does not state the body on which they act: the part, the name of the force,
+        and the place where the force acts."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
@@ -391,7 +391,10 @@ class System:
 
 
 def _with_weights(parts: Sequence[Part]) -> list[Part]:
-    """Return the parts, and the weights of those whose mass is not at one place, such as a rope."""
+    """Return the parts, and the weights of those whose mass is not at one place, such as a rope.
+
+    Reject a potential energy that is the weight of such a part, because it would count twice.
+    """
     gravity = next((part.gravity for part in parts if isinstance(part, Weight)), None)
     weights = [] if gravity is None else [each for part in parts for each in part.weighed(gravity)]
     for each in (part for part in parts if isinstance(part, StoredEnergy)):
@@ -459,7 +462,7 @@ def _near_rest(each: Central) -> Central | None:
     """The potential with the branch that is positive where all coordinates are zero.
 
     If the line between the two places has no fixed direction, the potential is unchanged. If neither u nor -u is known
-    to be positive there, the result is None.
+    to be positive there, or if u contains no coordinates, the result is None.
     """
     if each.along is None:
         return each

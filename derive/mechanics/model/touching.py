@@ -20,7 +20,8 @@ ZERO = Integer(0)
 
 
 def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Location]:
-    """Return the place where a round body touches a surface, its distance from the surface, and the unit normal."""
+    """Return the place where a round body touches a surface, the distance of the body from the surface, and the unit
+    normal."""
     if surface.is_two_sided:
         message = "a round body touches a plane, a curve, a circle or a sphere, but not a rail"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
@@ -55,7 +56,8 @@ def _foot(placed: PlacedBody, curve: Curve) -> Location:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve."""
+    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve, unless
+    this is known to be true."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
@@ -81,7 +83,8 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
 
     The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
-    its lowest point has the length of the radius; it is opposite to the component of the normal along the rim.
+    the lowest point of this rim is one radius long. It is opposite to the projection of the normal of the plane onto
+    the plane of the rim. If the body touches the plane along a line, `_lower` chooses an end of this line.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
         message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
@@ -100,7 +103,7 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
 
 
 def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
-    """Return the height along the axis and the radius of each rim; the tangent of an angle becomes a fraction, so that
+    """Return the height along the axis and the radius of each rim; sin/cos replaces the tangent of an angle, so that
     sums are shorter."""
     outline = _outline(placed)
     assert outline is not None
@@ -143,10 +146,10 @@ def _own(placed: PlacedBody, *own: Expr) -> Location:
 
 
 def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location, Expr]) -> tuple[Location, Expr]:
-    """Return the lower of the lowest points of two rims; each point has its distance from the plane.
+    """Return the lower of the lowest points of two rims, each given with its distance from the plane.
 
-    A body that touches the plane along the line between the two points must be held at one of them; then it does not
-    slip anywhere on the line if it does not slip at the other point.
+    If the distances are equal, the body touches the plane along the line between the two points. It must then be held
+    at one of them, and the other point is returned: a body that does not slip there slips nowhere on the line.
     """
     difference = tidied(one[1] - other[1])
     sign = sign_known(difference)
@@ -164,7 +167,7 @@ def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location
 
 
 def radius_of(placed: PlacedBody) -> Expr:
-    """Return the radius of a body that is round in the plane of motion, or of a ball in space."""
+    """Return the radius of a body that is round in the plane of motion, or of a ball; reject other bodies."""
     radius = _round_radius(placed)
     if radius is None:
         message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"

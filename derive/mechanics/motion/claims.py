@@ -52,8 +52,9 @@ def released(at_rest: bool) -> Predicate:
 
 
 def moves_off(wanted: int | None) -> Predicate:
-    """Whether, numerically, the rate has this sign just after the start, and the result has the same sign; for None,
-    whether the trial numbers do not agree on a sign, and the result is not negative."""
+    """Judge the sign of a rate. With a sign `wanted`, the rate must have this sign just after the start at all trial
+    numbers, and the result must have the same sign. With None, the trial numbers must not determine the sign, and the
+    result must be written without a minus sign."""
 
     def is_so(facts: Judged) -> bool:
         known = facts.inputs["known"]
@@ -74,7 +75,7 @@ AHEAD = [
 
 
 def has_sense(facts: Judged, fact: SignedRate) -> bool:
-    """Whether the result is the root with the sign of the stated sense."""
+    """Whether the result is the rate of the coordinate, with the sign that the fact states."""
     return facts.symbol == rate(fact.coordinate) and _is_negative(facts.result) == (fact.sense == -1)
 
 
@@ -83,10 +84,11 @@ def _is_negative(root: Expr) -> bool:
 
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the motion reaches each place just under the stated condition, and the place lies ahead of
-    the start if the result keeps the sign that a rate has at the start.
+    """Whether, numerically, the motion reaches each place exactly under the stated condition.
 
-    A sentence with a condition also says so if contact or a taut string has to last until the motion is there.
+    If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
+    motion turns back first, behind it. If contact or a taut string has to last until the motion is there, a sentence
+    with a condition must say so.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -266,7 +268,8 @@ def _constraint_of(force: Quantity) -> Constraint | None:
 
 
 def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the friction on the body is opposite to the sense of the slip that the sentence states."""
+    """Whether, numerically, the friction on the body is opposite to the direction of the slip that the sentence
+    states."""
     if "sense" not in facts.words:
         return True
     constraint = _constraint_of(facts.quantities["friction"])
@@ -279,7 +282,7 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the body that would slip by the name that the contact has for it."""
+    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -300,7 +303,7 @@ def sticks_where(wanted: bool | None) -> Predicate:
     """Whether, numerically, |F| <= mu_s N exactly where the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
-    for one of two senses, forces in the other sense are not tested, and F must have both signs.
+    for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -456,7 +459,8 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Whether the terms without a highest rate are absent ("plain"), "cancel" or "remain", as `wanted` states."""
+    """Judge the terms without a highest rate: there are none ("plain"), their sum is zero ("cancel"), or their sum is
+    not zero ("remain")."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -526,7 +530,8 @@ def is_the_place_of_departure(facts: Judged) -> bool:
 
 
 def speeds_up(wanted: bool) -> Predicate:
-    """Whether a force acts along the axis of this component; for `wanted=False`, whether no force acts along it."""
+    """Whether a constant force acts along the axis of this component; for `wanted=False`, whether no force acts along
+    this axis."""
 
     def is_so(facts: Judged) -> bool:
         bend = diff(facts.result, TIME, 2)
@@ -573,7 +578,7 @@ def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr
 
 
 def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
-    """The value of a coordinate at which a constraint that is linear in this coordinate is satisfied."""
+    """A list with the value of a coordinate at which a constraint that is linear in this coordinate is satisfied."""
     slope = diff(residual, s)
     return [tidied(-residual.subs(s, 0) / slope)]
 

@@ -43,11 +43,12 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
 
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
-    One step derives the product of each equation and its factor; if there are several products, another step adds them.
+    For each equation whose factor is not zero, a step derives the product of the equation and the factor. If there are
+    several products, another step adds them.
     Second route: differentiate Q as a function of time and substitute the highest rates from the equations. Also
     subtract the sum of the products from dQ/dt without substituting the highest rates. Integrate one motion
-    numerically. If Q belongs to a body, also sum the contributions of its particles, and repeat this sum for an inertia
-    tensor that is not diagonal.
+    numerically. If Q belongs to a rotating body, also sum the contributions of the particles of the body. If the torque
+    on the body is known, repeat this sum for an inertia tensor that is not diagonal.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -218,7 +219,8 @@ def _sum(
 
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
-    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if the other terms are multiples of P."""
+    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if all other terms are multiples of one product
+    P; otherwise no line."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)
@@ -240,7 +242,8 @@ def _added(sides: Sequence[Expr]) -> list[Expr]:
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """Return whether the terms without a highest rate are absent ("plain"), "cancel", or "remain" in the sum."""
+    """Return the word for the terms that contain no highest rate: "plain" if there are none, "cancel" if their sum is
+    zero, "remain" otherwise."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"

@@ -70,7 +70,7 @@ def speed_from_energy(
     q            the coordinate
     start        value of q at the start
     start_rate   value of q_dot at the start, by default 0, for a release from rest
-    motion       the equation of motion, or q_ddot from it; needed if the forces behind the energy are unknown
+    motion       the equation of motion, or q_ddot from it; needed if the energy does not determine the forces on q
     A separate step states that the energy has its initial value.
     Second route: half the derivative of q_dot^2 with respect to q is q_ddot from `motion`, or from d'Alembert's
     principle for the mass points. With this q_ddot the energy is constant. At the start the rate has the given value.
@@ -168,7 +168,7 @@ def _energy_kept(
 
 
 def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> Expr:
-    """Return q_ddot from the equation of motion, or from d'Alembert's principle."""
+    """Return q_ddot from the equation of motion or, if none is given, from d'Alembert's principle."""
     matter = energy.fact(Matter)
     if motion is not None and motion.symbol == q.acceleration:
         return tidied(explicit(motion.value))
@@ -219,12 +219,13 @@ RATE_BY_ENERGY = Rule(
     squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
-    """Rate of a coordinate, the root of its square; the sign is that of the motion from its start.
+    """Rate of a coordinate, the root of its square, with the sign that the rate has just after the start.
 
     squared   q_dot^2 from `speed_from_energy`
+    The sign is that of the initial rate or, at a start from rest, that of the acceleration.
     Check: the square of the result is q_dot^2.
-    Outcomes: grows, falls (the coordinate increases, or decreases, from the start: the start values, or the
-    acceleration at a start from rest, decide), size (the result is |q_dot|, because the sign depends on the symbols).
+    Outcomes: grows (the coordinate increases from the start), falls (the coordinate decreases from the start), size
+    (the result is |q_dot|, because the sign is unknown).
     Errors: the argument is not the square of a rate from conservation of energy.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
@@ -274,7 +275,8 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
     squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
     order     the highest power of A in the series
-    The series has its own symbol, tau_lim. Numerical values of the period come from the integral.
+    If the period depends on the amplitude, the series has a symbol of its own, such as tau_lim, and numerical values of
+    the period come from the integral.
     Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion. Check: the numerical value
     of the integral.
     Outcomes: exact (the period does not depend on the amplitude), expanded.
@@ -363,7 +365,8 @@ def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order
             told = Rational(str(found.xreplace(there).evalf(mp.dps)))
             rests.append(mp.mpf(str((abs(2 * half / told - 1) / small**order).evalf(mp.dps))))
     if not (rests[1] <= rests[0] * 0.6 or rests[1] <= NOISE):
-        return Verdict(Grade.REFUTED, f"the integral differs by {mp.nstr(rests[1], 5)} times the last power")
+        apart = f"{mp.nstr(rests[1], 5)} times the last power of the amplitude"
+        return Verdict(Grade.REFUTED, f"the relative difference between the integral and the series is {apart}")
     return Verdict(Grade.APPROXIMATION, f"to order {order} in the amplitude, numerically")
 
 

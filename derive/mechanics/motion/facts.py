@@ -1,4 +1,4 @@
-"""Facts about results, in addition to their values, for later steps."""
+"""Facts about motions that results pass to later steps, in addition to their values."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class Steady(Fact):
-    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and the conditions."""
+    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and the conditions, which
+    are expressions that vanish in this motion."""
 
     missing = "is not the condition of a steady motion, as `steady_motion` yields it"
     lagrangian: Quantity
@@ -43,8 +44,8 @@ class ByEnergy(Fact):
 
 @dataclass(frozen=True)
 class SignedRate(Fact):
-    """The sense of a motion from its start, 1 if the coordinate increases, otherwise -1. The rate has this sign until
-    the motion turns back."""
+    """The direction of a motion from its start: `sense` is 1 if the coordinate increases, and -1 if it decreases. The
+    rate has this sign until the motion turns back."""
 
     missing = "is not the rate of a coordinate from conservation of energy"
     coordinate: Symbol
@@ -61,9 +62,11 @@ class Arrival:
     place      the value of `unknown` at the place, which may be infinite
     reached    the condition under which the motion reaches the place; None if the motion always reaches it
     is_found   whether the place was derived from this motion; then `reached` is None
-    sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0
+    sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if it does not, or
+               if the motion starts from rest
     turned     whether the motion turns back before it comes to the place, so that the rate has the opposite sign there
-    lasts      what may end before the motion comes to the place: "contact", "taut" (a string), or "" for neither
+    lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
+               the tension of a string, "" if there is neither
     """
 
     begun: ByEnergy

@@ -44,7 +44,7 @@ class Motion:
 
     @property
     def values(self) -> list[Expr]:
-        """Return F, mu_s N, the squared rate and the start, with the given numbers."""
+        """Return F, mu_s N, the squared rate and the start, with the given numbers substituted."""
         mu_N = self.contact.limit.coefficient * self.contact.N
         return [*map(with_numbers, (self.contact.F, mu_N, squared_by_energy(self.speed), self.start))]
 
@@ -56,13 +56,14 @@ class Motion:
         return with_numbers(meaning(self.unknown, value)[self.q])
 
     def margin(self, at: Expr, point: Mapping[Symbol, Expr]) -> Expr:
-        """mu_s N - |F| at a place, N."""
+        """mu_s N - |F| at a place, in newtons."""
         F, most, *_ = self.values
         there = {**point, self.q: at}
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the place is in the range of the coordinate, and the motion does not turn back before it."""
+        """Whether the place is in the range of the coordinate, and the squared rate is negative at none of the places
+        tried on the way there."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False
@@ -135,7 +136,7 @@ def sign_of_friction(motion: Motion, place: Expr) -> int:
         except (Undefined, NoNumber, TypeError):
             continue
     if len(signs) != 1:
-        message = "`slips`: the sense in which the body slips depends on the values of the letters"
+        message = "`slips`: the direction in which the body slips depends on the values of the letters"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return signs.pop()
 
@@ -167,7 +168,7 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if it is always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
+    """Return the condition; None if it is known to be always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

@@ -189,7 +189,11 @@ class Departure:
 
     @cached_property
     def orbit(self) -> Orbit | None:
-        """The circle P(q) on which the particle was, with the centre P + P''; None if P + P'' depends on q."""
+        """The circle on which the particle was; None if it was not on a circle.
+
+        For the place P(q) of the particle, with an angle q, the centre of a circle is P + P''. The centre and the
+        radius must not depend on q.
+        """
         centre = [tidied(c + diff(c, self.q, 2) * self._bend) for c in self.curve]
         radius = tidied(sqrt(tidied(Add(*((c - m) ** 2 for c, m in zip(self.curve, centre, strict=True))))))
         if any(c.has(self.q) for c in [*centre, radius]):
@@ -325,7 +329,7 @@ def where(conditions: Sequence[Relation]) -> Iterator[None]:
 
 
 def _place_of(departure: Departure, key: str) -> Quantity:
-    """The symbol for the value of the coordinate at the departure."""
+    """The step that introduces the symbol for the value of the coordinate at the departure."""
     unknown, place = departure.lost.value.sides
     named = unknown.xreplace({departure.q: departure.letter})
     return establish(
@@ -495,7 +499,8 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
         return (_misses(first, second, target, key),)
     if back is not None and sign_known(back - time) != 1:
         message = (
-            f"`lands`: it is not known whether the particle reaches the plane before it is on its circle at {back}"
+            "`lands`: it is not known whether the particle reaches the plane before it meets its circle again, "
+            f"at the time {back}"
         )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)
@@ -626,7 +631,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
 
 
 def _in_time(value: Expr) -> Expr:
-    """Write a polynomial in the time as a power of the time and a factor."""
+    """Write a polynomial in the time as a power of the time, multiplied by a polynomial with a constant term."""
     terms = [(n, tidied(c)) for n, c in enumerate(reversed(value.expand().as_poly(TIME).all_coeffs()))]
     kept = [(n, presented(c, in_sums=False)) for n, c in terms if not is_zero(c)]
     least = min(n for n, _ in kept)
@@ -798,15 +803,16 @@ PASSES_THROUGH = Rule(
 
 
 def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str = "passes") -> Quantity:
-    """Condition for a free flight to pass through a place: the height at the time at which the particle is above or
-    below the place, minus the height of the place, is zero.
+    """Condition for a free flight to pass through a place: at the time at which the particle has the horizontal
+    position of the place, it also has the height of the place.
 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the height of the particle at the time at which it is above or below the place; numerically, this time is
-    positive.
-    Errors: the particle passes through the place in any case or never, or it is not known whether the place is ahead.
+    Check: the height of the particle at the time at which it has the horizontal position of the place. Numerically,
+    this time is positive.
+    Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
+    not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)

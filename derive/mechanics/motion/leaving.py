@@ -36,7 +36,8 @@ from derive.steps.step import Form, Level, Quantity, is_zero
 __all__ = ["leaves_contact"]
 
 POINTS = 40
-ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))  # and beyond
+# fractions of the way from the start to the place; the last one is beyond the place
+ON_THE_WAY = (Rational(1, 20), Rational(2, 5), Rational(3, 4), Rational(99, 100), Rational(101, 100))
 
 
 LEAVES_CONTACT = Rule(
@@ -220,7 +221,8 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
     """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket.
 
-    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola.
+    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola. If no factor that can
+    vanish would remain, nothing is split off.
     """
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)

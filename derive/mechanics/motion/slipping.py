@@ -69,15 +69,15 @@ SLIPS = Rule(
 def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str = "slips") -> tuple[Quantity, ...]:
     """Condition for static friction to suffice, |F| <= mu_s N, solved for one letter; or the place of the first slip.
 
-    friction   the friction F of a contact with a coefficient mu_s of static friction, N
-    normal     the normal force N of the same contact in the same state, N
+    friction   the friction F of a contact with a coefficient mu_s of static friction, in newtons
+    normal     the normal force N of the same contact in the same state, in newtons
     letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
     If the letter is the coordinate of a motion whose forces follow from conservation of energy, the result is the first
-    place with |F| = mu_s N that the motion reaches from its start. Otherwise the result is the condition |F| <= mu_s N;
-    if the sign of F depends on the symbols, there is a condition for each sense, F <= mu_s N and -F <= mu_s N. The
-    sentence states the sense of the slip: the body slips against the friction that acts on it. Since |F| <= mu_s N, the
-    body slips before N vanishes, unless F = 0.
-    Check: at random numbers, the result and |F| <= mu_s N are both true or both false; along a motion, |F| < mu_s N
+    place with |F| = mu_s N that the motion reaches from its start. Otherwise the result is the condition |F| <= mu_s N.
+    If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N and
+    -F <= mu_s N. If it is known, the sentence states the direction of the slip: the body slips against the friction
+    that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
+    Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
     Outcomes: sticks, always, cannot (the condition is never true); needs_none (F = 0); slips, slips_squared (solved
     after squaring), at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
@@ -125,12 +125,12 @@ def _needs_none(contact: Friction, key: str) -> Quantity:
 
 
 def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: bool) -> Quantity:
-    """Return the condition for the body not to slip in one sense: side F <= mu_s N, where `side` is 1 or -1."""
+    """Return the condition for the body not to slip in one direction: side*F <= mu_s*N, where `side` is 1 or -1."""
     excess = contact.excess(side)
     known = sign_for_all(excess)
     result = solved_for_limit(contact, side, "<=", unknown) if known is None else None
     if result is not None and (found := _sign_of_difference(result)) is not None:
-        known, result = -1 if holds(Integer(found), result.operator) else 1, None  # such as P <= a negative bound
+        known, result = -1 if holds(Integer(found), result.operator) else 1, None  # such as mu <= -1
     mark = ">" if known == 1 else "<="
     moving = changes(contact.F - contact.N, named_coordinates())
     return establish(
@@ -165,7 +165,8 @@ def _sign_of_difference(relation: Relation) -> int | None:
 
 
 def _same_truth(found: Relation, contact: Friction, side: int, mark: str) -> Verdict:
-    """Check at random points that the result and side F <= mu_s N (or >) are both true or both false, where N > 0."""
+    """Check that the result and side*F <= mu_s*N are both true or both false for random numbers with N > 0. If `mark`
+    is ">", the second relation is side*F > mu_s*N."""
     F, N, mu, difference = map(with_numbers, (contact.F, contact.N, contact.limit.coefficient, found.residual))
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:

@@ -46,12 +46,15 @@ class Friction:
         return {"friction": self.friction, "normal": self.normal, "coefficient": self.limit.coefficient}
 
     def excess(self, side: int) -> Expr:
-        """The excess of the friction in one sense over its largest value, side F - mu_s N, in N."""
+        """The friction in one direction (`side`, 1 or -1) minus its largest possible value: side*F - mu_s*N, in
+        newtons."""
         return tidied(side * self.F - self.limit.coefficient * self.N)
 
     def words(self, side: int) -> dict[str, str]:
-        """Return the word for the body, and the word for the direction of the slip if F has this sign: opposite to the
-        friction on the body."""
+        """Return the words of the sentence: the body that would slip and, if it is known, the direction of the slip.
+
+        The body slips against the friction that acts on it; `side` is the sign of F.
+        """
         sense = self.constraint.sense(-side)
         return {**self.limit.words, "sense": sense} if sense else self.limit.words
 
@@ -78,7 +81,7 @@ def friction_of(friction: Quantity, normal: Quantity) -> Friction:
 
 
 def condition_to_push(N: Expr) -> Relation | None:
-    """Return the condition for the surface to push; None if the surface always pushes."""
+    """Return the condition for the surface to push; None if N is known to be positive."""
     unsure = [each.as_base_exp() for each in Mul.make_args(N) if sign_known(each) != 1]
     if unsure and all(power.is_even for _, power in unsure):
         return Relation(Mul(*(base for base, _ in unsure)), "!=", 0)
@@ -86,7 +89,7 @@ def condition_to_push(N: Expr) -> Relation | None:
 
 
 def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> Relation:
-    """Solve the relation between side F and mu_s N for the unknown, where N > 0."""
+    """Solve the relation between side*F and mu_s*N for the unknown, where N > 0 and `side` is 1 or -1."""
     if unknown == contact.limit.coefficient:
         return Relation(unknown, TURNED[mark], _with_tangents(presented(side * contact.F / contact.N)))
     excess = _in_terms_of(contact.excess(side), unknown)
@@ -95,7 +98,7 @@ def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> 
 
 
 def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
-    """Return the solved line; the line before it has an additional factor that does not vanish, such as N > 0."""
+    """Return the line with the solution. The line before it differs by a factor that does not vanish, such as N > 0."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
         pushing = Mul.make_args(contact.N)
@@ -137,7 +140,8 @@ def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr
 
 
 def sampled(is_so: Callable[[Mapping[Symbol, Expr]], bool | None], letters: set[Symbol], of: Expr) -> Verdict:
-    """Return the verdict on a statement at random points; `is_so` returns None where the statement has no meaning."""
+    """Return the verdict on a statement with random numbers for the symbols; `is_so` returns None for numbers with
+    which the statement has no meaning."""
     seen = 0
     for point in numbers_for(letters, of):
         try:

@@ -25,7 +25,7 @@ Flow: TypeAlias = Callable[..., Sequence[complex]]
 
 
 def followed(value: Expr, its_rate: Expr, motion: Mapping[Symbol, Expr]) -> Verdict:
-    """Whether Q(1) - Q(0) is the integral of dQ/dt from t = 0 to t = 1 along one motion.
+    """Check numerically that Q(1) - Q(0) is the integral of dQ/dt from t = 0 to t = 1 along one motion.
 
     value, its_rate   Q and the claimed dQ/dt
     motion            a mapping from each highest rate to its value by the equations of motion

@@ -22,7 +22,8 @@ from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 
 QUARTERS = [n * pi / 2 for n in range(-4, 5)]
-TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}  # PARTS of a distance
+# number of sets of trial numbers, fractions of a distance, signs of operators
+TRIED, PARTS, SIGNS = 24, [Rational(n, 16) for n in range(1, 16)], {">": 1, "<": -1}
 
 
 def squared_by_energy(speed: Quantity) -> Expr:
@@ -43,7 +44,8 @@ def condition_to_reach(
     The motion turns back where f = 0. The motion reaches the place if f is not negative at the place, nor between the
     start and the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the
     start and the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
-    Errors: the motion turns back before the place, always or for some values of the symbols.
+    Errors: the motion turns back before the place, always or for some values of the symbols; the place is an unstable
+    equilibrium, which the motion only approaches.
     """
     begun = speed.needed(ByEnergy)
     q = begun.coordinate
@@ -113,7 +115,10 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the term `lasts` for a sentence with the condition under which the motion comes to these places."""
+    """Return the term `lasts` for a sentence that states the condition under which the motion comes to these places.
+
+    The result is empty if there is no such condition, or if neither contact nor a taut string is needed.
+    """
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 
@@ -126,7 +131,7 @@ def _may_end(speed: Quantity) -> str:
 
 
 def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
-    """Whether a motion whose rate vanishes at the place comes to the place, where it turns back.
+    """Whether a motion whose rate vanishes at the place is known to come to this place, where it turns back.
 
     If the slope of f = q_dot^2 vanishes there too, the place is an unstable equilibrium, and the motion only approaches
     it. A motion with f = 0 at infinity, such as that with the escape velocity, does go to infinity.
@@ -168,7 +173,8 @@ def _unknown_sign(of: Quantity, come: Arrival, ahead: int | None) -> Rejected:
 
 
 def _side_of_start(come: Arrival, sense: int) -> int | None:
-    """Return 1 if the place lies ahead of the start, where the motion goes first, and -1 if it lies behind."""
+    """Return 1 if the place lies ahead of the start, where the motion goes first, and -1 if it lies behind. Return 0 if
+    the place is the start, and None if this is unknown."""
     q, start = come.begun.coordinate, come.begun.start
     if come.place in (oo, -oo):
         return sense if come.place == oo else -sense
@@ -193,7 +199,8 @@ def _turns_back(come: Arrival, sense: int) -> bool:
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that f is positive between start and place, if f is not negative at the place."""
+    """Whether algebra shows that f is not negative between the start and the place, if f is not negative at the
+    place."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):

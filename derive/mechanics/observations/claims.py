@@ -1,6 +1,7 @@
 """Predicates of observations.
 
-They compute numbers at trial points: of the answer, and of the first line of its derivation before any simplification.
+Most of them compare numbers at trial points. They compute the value of the answer and, where possible, of the first
+line of its derivation, which is not yet simplified.
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ def numbers(values: Iterable[Any], *more: Any, tried: int = 12) -> list[Point]:
 
 
 def for_each_form(quantity: Quantity, is_so: Callable[[Expr, Point], bool | None], *others: Any) -> bool:
-    """Whether a statement about a quantity is true of its value, and of its first line where this line has a number."""
+    """Whether a statement about a quantity is true of its value and, at points where the first line of its derivation
+    can be evaluated, also of this line."""
     value, *lines = forms(quantity)
     points = numbers([value], *others)
     return everywhere(points, lambda point: is_so(value, point)) and all(
@@ -87,7 +89,7 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
 
 
 def squared_rate(facts: Judged, number: Expr) -> Expr:
-    """Return the square of an angular frequency, from the frequency or, if the answer is one, from the period."""
+    """Return the square of an angular frequency, from this frequency or, if the answer is a period, from the period."""
     return 4 * pi**2 / number**2 if facts.words["seen"] == "period" else number**2
 
 
@@ -103,7 +105,8 @@ def swings_like_a_pendulum(facts: Judged) -> bool:
 
 
 def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
-    """Whether the stated length is the result without gravity in it, a symbol with this value, or a given length."""
+    """Whether the stated length is the result, which must then not contain g, or a symbol. If it is a symbol, another
+    predicate checks its value, or the outcome checks the acceleration that is stated with it."""
     if told == facts.result:
         return facts.inputs["g"] not in told.free_symbols
     return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
@@ -179,7 +182,10 @@ def rate_on_the_circle(facts: Judged, told: Any) -> bool:
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
-    """Judge the ratio of two frequencies by its minimal polynomial: this has degree 1 for a rational number."""
+    """Judge the ratio of two frequencies: its minimal polynomial has degree 1 if the ratio is a rational number.
+
+    Both must be frequencies of the linear equations. For a rational ratio, there must be no third mode.
+    """
 
     def is_so(facts: Judged) -> bool:
         slow, fast = (facts.quantities[role] for role in ("slow", "fast"))
@@ -246,8 +252,8 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
 def isochronous(facts: Judged) -> bool:
     """Whether T = mu q_dot^2/2 and U have d^2U/ds^2 = omega^2 with ds = sqrt(mu) dq, at all trial points.
 
-    The derivatives are difference quotients of the energies; U must not be a square of q with a constant mu, for which
-    the equation of motion is linear anyway.
+    The derivatives are difference quotients of the energies. Also, mu must depend on q: with a constant mu, the
+    equation of motion would be linear anyway.
     """
     q, mu, energy, square = (facts.inputs[role] for role in ("q", "mu", "energy", "square"))
     step = Rational(1, 10**9)
@@ -316,7 +322,7 @@ def _is_allowed(place: Relation) -> bool:
 
 
 def names_a_letter(facts: Judged) -> bool:
-    """Whether the sentence names at least one symbol; each of these symbols has a predicate."""
+    """Whether the sentence names at least one symbol; another predicate judges each of these symbols."""
     return "letter_1" in facts.inputs
 
 
@@ -326,7 +332,7 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer has the same value for other values of the symbol, but some equation behind it does not."""
+    """Whether the answer does not change with the symbol, although some equation from which it was derived does."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -349,7 +355,7 @@ def only_shifts_the_equilibrium(facts: Judged) -> bool:
 
 
 def is_pure_angle(facts: Judged, angle: Expr) -> bool:
-    """Whether the stated angle is a number that satisfies the condition."""
+    """Whether the stated angle is a number that satisfies the equation of the answer."""
     of = facts.quantities["of"]
     left, right = of.value.sides if isinstance(of.value, Relation) else (of.symbol, of.value)
     (moving,) = left.free_symbols
@@ -358,7 +364,7 @@ def is_pure_angle(facts: Judged, angle: Expr) -> bool:
 
 
 def is_rounded(facts: Judged, told: Amount) -> bool:
-    """Whether the number of degrees differs from the angle by less than half a unit of the last place."""
+    """Whether the number of degrees differs from the angle by at most half a unit of the last place."""
     rounded = told.args[0]
     number = value_at(rounded.args[0], {})
     return bool(abs(value_at(facts.inputs["angle"], {}) * 180 / pi - number).evalf(30) <= half_a_unit(rounded))
@@ -401,7 +407,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable just where the others do not exist, and the others are stable where they exist.
+    """Whether an equilibrium is stable exactly where the others do not exist, and the others are stable where they
+    exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
     than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
@@ -432,7 +439,7 @@ def is_this_multiple(facts: Judged) -> bool:
 
 
 def are_in_order(facts: Judged) -> bool:
-    """Whether the first of several values is the greatest and the last one the least, by the stated ratio."""
+    """Whether several values are in falling order, and the first one divided by the last one is the stated ratio."""
     count = sum(role.startswith("case_") for role in facts.quantities)
     values = [explicit(facts.quantities[f"case_{i}"].value) for i in range(1, count + 1)]
 
@@ -540,7 +547,7 @@ def circles(facts: Judged) -> bool:
     """Whether the acceleration is the velocity turned by a right angle, multiplied by a constant rate.
 
     The squared speed then does not change, and the direction of the velocity turns at the constant rate. A constraint
-    fixes each other distance: without it, the path may be a helix.
+    must fix every other coordinate that is a length; otherwise the path may be a helix.
     """
     rate_, (u, v) = facts.result, facts.inputs["rates"]
     if not _is_constant(rate_, facts.quantities["of"]) or not _others_are_fixed(facts.quantities["of"], u, v):
@@ -653,7 +660,8 @@ def holds_everywhere(facts: Judged) -> bool:
 
 
 def has_one_sign(facts: Judged) -> bool:
-    """Whether the sign of the force is the same for all values of the coordinate, but not for all given values."""
+    """Whether the sign of the force is the same for all values of the coordinate, but depends on the values of the
+    given symbols."""
     of, q = explicit(facts.quantities["of"].value), facts.inputs["q"]
     seen = set()
     if not _is_constant(of.xreplace({q: Integer(1)}), facts.quantities["of"]):
@@ -725,7 +733,7 @@ def multiplies_the_symbols(facts: Judged, told: Relation) -> bool:
 
 
 def has_an_amplitude(facts: Judged) -> bool:
-    """Whether the integral for the period depends on the stated symbol, its amplitude."""
+    """Whether the stated symbol is the amplitude in the integral for the period."""
     return bool(facts.inputs["swing"].args[2] == facts.inputs["letter"])
 
 
@@ -735,7 +743,7 @@ def is_the_amplitude(facts: Judged, told: Relation) -> bool:
 
 def longer_by(facts: Judged, told: Expr) -> bool:
     """Whether the integral for the period at the stated amplitude exceeds its value at a very small amplitude by this
-    percentage, to the figures that are shown."""
+    percentage, to the figures that are shown. The percentage must be less than 5."""
     f, q, letter, _ = facts.inputs["swing"].args
     letters = letters_of(explicit(f)) - {q, letter}
 

@@ -30,7 +30,7 @@ MULTIPLE = Rule(
 
 
 def multiple(view: View) -> Observed:
-    """Two velocities of one part whose ratio is a number other than 1 and -1."""
+    """Two velocities of one part whose ratio is a rational number other than 1 and -1."""
     found = [q for q in view.values() if _is_rate(q) and not is_zero(q.value)]
     for pair in combinations(found, 2):
         ratios = [tidied(explicit(of.value) / explicit(other.value)) for of, other in (pair, pair[::-1])]
@@ -42,7 +42,8 @@ def multiple(view: View) -> Observed:
 
 
 def _is_rate(q: Quantity) -> bool:
-    """Whether an answer is a velocity, or a sum of velocities; a frequency is neither."""
+    """Whether an answer is a velocity, or a combination of answers with at least one velocity; frequencies of
+    vibrations do not count."""
     adds_rates = q.step.rule == "answers.combination" and any(parent.step.kind in RATES for parent in q.parents)
     return (q.step.kind in RATES or adds_rates) and q.step.rule.partition(".")[0] != "vibrations"
 
@@ -70,7 +71,8 @@ ORDER = Rule(
 
 
 def order(view: View) -> Observed:
-    """Constant accelerations for several special cases in the order of their size, if their ratios are numbers."""
+    """Constant accelerations for several special cases in the order of their size, if their ratios are positive
+    rational numbers."""
     cases = [
         q
         for q in view.values("acceleration")
@@ -185,7 +187,8 @@ def linear_equations(of: Quantity) -> Linear | None:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return whether the symbol is the constant of a spring, or the mass of one coordinate, and the matrix with it."""
+    """Return the outcome, "spring" for a spring constant or "mass" for the mass of a single coordinate, and the matrix
+    that contains the symbol; otherwise an empty outcome."""
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}
@@ -292,7 +295,7 @@ def polhode(view: View) -> Observed:
 
 
 def _conserved(kept: Sequence[Quantity], rule: str) -> Quantity | None:
-    """Return the quantity of this rule whose rate of change was found to vanish."""
+    """Return the quantity of this rule whose rate of change was found to vanish, or None."""
     return next((p for q in kept for p in q.ancestors() if p.step.rule == rule), None)
 
 

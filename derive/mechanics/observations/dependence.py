@@ -155,7 +155,8 @@ ANGLE = Rule(
 
 
 def angle(view: View) -> Observed:
-    """An angle that is a pure number, in degrees, and the sizes of the system on which it does not depend."""
+    """An angle that is a pure number, in degrees, and the masses, lengths and other symbols of the system on which it
+    does not depend."""
     for of in view.answers:
         told = of.value if isinstance(of.value, Relation) else Relation(of.symbol, "=", of.value)
         is_number = isinstance(told.right, Expr) and not explicit(told.right).free_symbols
@@ -193,7 +194,7 @@ def _angle_for_all(
 
 
 def _in_degrees(size: Expr) -> Amount:
-    """Return an angle in degrees, to one decimal."""
+    """Return an angle in degrees, rounded to three figures; from 100 degrees on, to four figures."""
     degrees = size / DEGREE
     return Amount(rounded_form(degrees, 4 if abs(degrees) >= 100 else 3), "degree", DEGREE)
 
@@ -354,7 +355,8 @@ def resonance(view: View) -> Observed:
 
 
 def _free_frequency(of: Quantity) -> Expr | None:
-    """Return the squared frequency of the free oscillation, from the coefficients of the equation of motion."""
+    """Return the squared frequency of the free oscillation, from the coefficients of the equation of motion; None if
+    there is no such equation."""
     for each in (q for q in of.ancestors() if isinstance(q.value, Relation) and len(q.coordinates) == 1):
         (q,), residual = each.coordinates, explicit(each.value.residual)
         inertia, stiffness = residual.diff(rate(q, 2)), residual.diff(q)

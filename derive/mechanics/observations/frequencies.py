@@ -49,7 +49,8 @@ PENDULUM = Rule(
 
 
 def pendulum(view: View) -> Observed:
-    """Simple pendulum with the same frequency: omega^2 = g/l."""
+    """Simple pendulum with the same frequency: its length l = g/omega^2 or, for a given length l, the acceleration
+    omega^2 l that replaces g."""
     for of in view.values("angular speed", "time"):
         for g in view.gravity if _seen(of) else ():
             found = _like_a_pendulum(view, _squared(of), g)
@@ -147,7 +148,8 @@ def orbit(view: View) -> Observed:
 
 
 def _has_polar_coordinates(view: View) -> bool:
-    """Whether the Lagrangian of the page has two coordinates, a positive distance and an angle."""
+    """Whether exactly one coordinate of the page's Lagrangian is an angle and exactly one other is positive, and is a
+    length; other coordinates do not matter."""
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
     known = lagrangian.coordinates if lagrangian is not None else {}
     return sorted(kind for q, kind in known.items() if kind == "angle" or q.is_positive) == ["angle", "length"]
@@ -303,7 +305,10 @@ class OneCoordinate:
         return tidied(slope.diff(self.q) / mu - slope * mu.diff(self.q) / (2 * mu**2))
 
     def path(self, mass: Symbol) -> Expr | None:
-        """Return s with T = m s_dot^2/2 and U = U_0 + m omega^2 s^2/2, for U that grows as 1 - cos(q)."""
+        """Return s with T = m s_dot^2/2 and U = U_0 + m omega^2 s^2/2.
+
+        U - U_0 must be proportional to 1 - cos(q - q_0), where q_0 is the equilibrium; otherwise the result is None.
+        """
         turned = self.q - self.lowest
         height = self.energy - self.energy.xreplace({self.q: self.lowest})
         size = tidied(2 * height / (self.square * mass) / (1 - cos(turned)))
@@ -322,7 +327,8 @@ def exact(view: View) -> Observed:
 
 
 def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
-    """Return the Lagrangian of a page whose only coordinate oscillates about an equilibrium."""
+    """Return the Lagrangian of a page whose only coordinate oscillates about an equilibrium, and its parts; None if the
+    page has no such Lagrangian of the form mu(q) q_dot^2/2 - U(q)."""
     linear = next((fact for q in view.shown if (fact := q.fact(Linear)) is not None), None)
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
     if linear is None or lagrangian is None or len(linear.place) != 1 or len(lagrangian.coordinates) != 1:
@@ -360,7 +366,7 @@ PAIR = Rule(
 
 
 def pair(view: View) -> Observed:
-    """Sum and product of two frequencies, if these have no root."""
+    """Sum and product of two frequencies, if the sum and the product contain no root, but a frequency does."""
     found = [q for q in view.values("angular speed") if q.step.rule == "vibrations.gyroscopic_frequency"]
     for one, other in pairwise(found):
         added = tidied(explicit(one.value) + explicit(other.value))
@@ -401,7 +407,7 @@ THIRTY_DEGREES = Amount(Integer(30), "degree", pi / 180)
 
 
 def longer(view: View) -> Observed:
-    """Size of the correction to the period for an amplitude of 30 degrees."""
+    """How much longer the period is at an amplitude of 30 degrees than at small amplitudes, in percent."""
     for of in view.answers:
         whole = of.fact(WholeSwing)
         letter = whole.time.args[2] if whole is not None else None

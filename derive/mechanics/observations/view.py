@@ -1,6 +1,7 @@
 """The part of a page that an observation is about, and what the steps of all observations have in common.
 
-An observation is a step without lines of its own. Its rule has the predicate, and its sentence names the answer.
+An observation is a step without lines of its own. The predicate in its rule decides whether the observation is true.
+The sentence of the observation names the answer that it is about.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class View:
         return [letter for letter in self.letters if letter in symbols]
 
     def values(self, *kinds: str) -> Iterator[Quantity]:
-        """Yield the exact answers of these kinds (by default, of every kind) whose value is one expression."""
+        """Yield the exact answers of these kinds (by default, of every kind) that have a symbol, and whose value is one
+        expression."""
         for each in self.answers:
             is_number = isinstance(each.value, Expr) and not is_matrix(each.value) and each.symbol is not None
             if is_number and each.exact and (not kinds or each.step.kind in kinds):
@@ -60,7 +62,7 @@ class View:
 
 
 def observation(rule: Rule, law: Law, inputs: Mapping[str, Any], **more: Any) -> Quantity:
-    """Return the step of an observation: one line without a symbol, whose inputs may be about any subject.
+    """Return the step of an observation: it has no symbol, and its inputs may belong to different bodies or systems.
 
     more   further arguments of `establish`: its key, routes, outcome and phrase data
     """
