@@ -242,9 +242,7 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
     others = [rate(s, n) if n else s for s in coordinates_of(equation) if s != q.symbol for n in range(3)]
     other = next((s for s in others if left.has(s)), None)
     if other is not None:
-        message = (
-            f"`{equation.key}` is not an equation in {q.symbol.name} alone: it contains {other.name}, which also moves"
-        )
+        message = f"`{equation.key}` is not an equation in {q.symbol.name} alone: it also contains {other.name}"
         help_line = f"substitute the value of {other.name} from another equation"
         raise Rejected(Complaint("not-linear", message, help=help_line))
 

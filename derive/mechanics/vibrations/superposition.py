@@ -112,9 +112,7 @@ def _check_displaced(given: Mapping[Coordinate, Expr], together: Linear) -> None
     for q in given:
         if all(s.symbol != q.symbol for s in together.displacements):
             names = ", ".join(s.symbol.name for s in together.displacements)
-            message = (
-                f"`motions_by_modes` needs initial values of displacements, {names}, but {q.symbol.name} is not one"
-            )
+            message = f"`motions_by_modes` needs values of the displacements {names}, but {q.symbol.name} is not one"
             raise Rejected(Complaint("wrong-argument", message))
 
 
