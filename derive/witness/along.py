@@ -111,7 +111,7 @@ def conserved(claim: Claim) -> Verdict | None:
 
 
 def kept(claim: Claim) -> Verdict | None:
-    """Test whether an energy stays equal to its initial value."""
+    """Test whether the left side of an equation of energy conservation stays constant along the motion."""
     return _unchanging(claim, explicit(claim.value).left) if isinstance(claim.value, Relation) else None
 
 

@@ -56,7 +56,8 @@ class Pair:
 class Force:
     """A force in N at the position `place`; or a torque in N m, if `place` has only one component, an angle.
 
-    body   the index of a body: the force acts on the particle of this body at `place`; by default, on `place` itself
+    body   the index of a body: the force acts on the particle of this body at `place`; by default, the force acts on a
+           point whose position is `place` at all times
     """
 
     components: Vector
@@ -66,7 +67,8 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A drag force -c v, where v is the velocity of `place`; or a drag torque, if `place` is an angle.
+    """A drag force -c v, where c is `constant` and v is the velocity of `place`; or a drag torque, if `place` is an
+    angle.
 
     body   the index of a body: v is then the velocity of the particle of this body at `place`
     """
@@ -102,7 +104,7 @@ class Condition:
 class Description:
     """A mechanical system as it is described, or a given Lagrangian in place of masses and forces.
 
-    coordinates   each coordinate with its kind: "angle", "length"
+    coordinates   each coordinate with its kind, such as "angle" or "length"
     gravity       the acceleration of free fall against the last axis, m/s^2
     energies      potential energies in the coordinates, J
     lagrangian    the Lagrangian in J, if it is given

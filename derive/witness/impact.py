@@ -45,7 +45,7 @@ class After:
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """The rates just after an impact, and its impulses; None if the momentum balance does not determine them."""
+    """The rates just after an impact, and the impulses; None if the momentum balance does not determine them."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]

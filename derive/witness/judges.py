@@ -1,4 +1,4 @@
-"""The witness's test for the steps of each rule."""
+"""The rules whose steps the witness tests, each with its test."""
 
 from __future__ import annotations
 

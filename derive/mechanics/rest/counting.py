@@ -22,7 +22,8 @@ LITTLE = 1e-9
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
-    """Whether the changes of sign can be counted: there is one coordinate, and the ends of its range are excluded."""
+    """Whether the changes of sign can be counted: there is one coordinate, and its range, if it has one, does not
+    include its ends."""
     known = range_of(sought[0])
     return len(sought) == 1 and (known is None or True not in known.closed)
 

@@ -45,6 +45,9 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
     place    the equilibrium values of the coordinates
     points   numbers for the symbols of the energy, such that the energy falls in some direction
+
+    If gyroscopic forces act, all points are tried with several values of the other symbols; otherwise a few points are
+    enough. The result is also true if `_motion` gives no matrices for some numbers.
     """
     tried = 0
     for point in points:

@@ -16,7 +16,7 @@ from derive.steps.rule import Judged
 
 DIGITS = 60
 STEP = 14  # a small displacement is 10^-STEP
-TURNS = 12  # steps of Newton's method; each step doubles the number of correct digits
+TURNS = 12  # largest number of steps of Newton's method; each step about doubles the number of correct digits
 
 
 def signs_on_constraints(facts: Judged, points: Sequence[Mapping[Any, Expr]]) -> set[int]:
