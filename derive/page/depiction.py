@@ -1,8 +1,9 @@
 """The position, caption and alternative text of each drawing on a page.
 
 The alternative text is derived from the expressions of the marks, so the text changes with the inputs.
-A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part after which all its
-steps are derived. A problem may move a drawing to a later part, but never to an earlier one.
+A drawing appears in the statement if it shows only inputs. If it leads to steps, it appears in the part that derives
+the first of these steps. Otherwise it appears in the first part after which all its steps are derived. A problem may
+move a drawing to a later part, but never to an earlier one.
 """
 
 from __future__ import annotations
@@ -44,7 +45,10 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the drawings, in the order of the page; none if no drawing has a caption."""
+    """Return the figure numbers of the drawings, in the order of the page; none if no drawing has a caption.
+
+    A drawing that leaves out conditions has a caption, which states these conditions.
+    """
     placed = [(index, d) for d in drawings if (index := _index(problem, d, derivation)) is not None]
     captioned = {p.key for p in problem.drawings if p.caption}
     if not any(d.key in captioned or _left_out(d) for _, d in placed):
@@ -131,8 +135,8 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for values for a plot, and for each name with a value that is a symbol of neither drawing nor
-    problem."""
+    """Return an error if `values` are given for a plot. For any other drawing, return an error for each name under
+    `values` that is a symbol neither of the drawing nor of the problem."""
     placement = placement_of(problem, drawing.key)
     if isinstance(drawing, m.Plot):
         message = f"`values` has no effect on the plot `{drawing.key}`"
@@ -149,7 +153,8 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each case of a plot that repeats a case, and for each number of the horizontal axis."""
+    """Return an error for each case of a plot that repeats an earlier case, and for each number that a case gives for
+    the symbol of the horizontal axis."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):
@@ -243,7 +248,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if its
+    `at` is not a step of the problem."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
