@@ -140,7 +140,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     placement = placement_of(problem, drawing.key)
     if isinstance(drawing, m.Plot):
         message = f"`values` has no effect on the plot `{drawing.key}`"
-        help_line = "write the numbers under its `cases`, `cases: [{l: 1 m}]`, or under the `values` of the problem"
+        help_line = "write the numbers under the `cases` of the plot, `[{l: 1 m}]`, or the `values` of the problem"
         place = next(iter(placement.names.values()), None) if placement else None
         return [Complaint("unused-key", message, place, help=help_line)] if place else []
     letters = {symbol.name for symbol in drawing.letters}

@@ -56,7 +56,7 @@ def equation(claim: Claim) -> Verdict | None:
             if not np.all(np.isfinite(found)):
                 continue
             if np.max(np.abs(left)) > CLOSE * (1e-3 + float(np.sum(sizes))):
-                return claim.refuted("it does not hold in the described motion", trial, state)
+                return claim.refuted("the equation does not hold in the described motion", trial, state)
             count += 1
     return seen(count, "states")
 
@@ -96,7 +96,7 @@ def kinetic_energy(claim: Claim) -> Verdict | None:
         for state, _ in claim.moments(trial):
             (found,), expected = formulas.at(state), trial.dynamics.kinetic_energy(state)
             if abs(found - expected) > CLOSE * (1 + abs(expected)):
-                return claim.refuted("it is not the kinetic energy of the described masses", trial, state)
+                return claim.refuted("the value is not the kinetic energy of the described masses", trial, state)
             count += 1
     return seen(count, "states")
 
@@ -123,7 +123,7 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
             (changing,) = formulas.rate_at(state, response)
             scale = float(np.max(np.abs(state.v), initial=0.0) + np.max(np.abs(response.a), initial=0.0))
             if np.isfinite(changing) and abs(changing) > CLOSE * 10 * (1 + scale) ** 2:
-                return claim.refuted("it changes along the described motion", trial, state)
+                return claim.refuted("the value changes along the described motion", trial, state)
             count += 1
     return seen(count, "states")
 

@@ -162,7 +162,7 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     except Contradiction:
         if stays or not _can_start(claim, trial, unknown, begin):
             return 0
-        return claim.refuted("the described motion does not reach this place from this start", trial)
+        return claim.refuted("the described motion does not reach this position from this start", trial)
     state = _towards(trial, unknown, state, last - first)
 
     def pushing(here: State) -> float:
@@ -174,7 +174,7 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     if stays:
         return 1 if run.end is None else claim.refuted("in the described motion the force vanishes", trial, run.end)
     if run.end is None:
-        return claim.refuted("the described motion from this start does not reach this place", trial, state)
+        return claim.refuted("the described motion from this start does not reach this position", trial, state)
     found = float(watched.at(run.end)[0])
     if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
         return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
@@ -382,7 +382,7 @@ def period(claim: Claim) -> Verdict | None:
             trial = Trial(claim.blueprint, number, claim.assumed, {**fixed, amplitude: size}, claim.letters_given)
             stated = trial.value(claim.value)
             if not stated > 0:
-                return claim.refuted(f"a period of {stated:.6g}", trial)
+                return claim.refuted(f"the stated period, {stated:.6g}, is not positive", trial)
             found = _swing(claim, trial, q, amplitude, 0.75 * stated)
             if found is None:
                 return None

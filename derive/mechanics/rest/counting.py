@@ -56,7 +56,7 @@ def signs_counted(
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
-    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of numbers")
 
 
 def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:

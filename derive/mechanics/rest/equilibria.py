@@ -133,7 +133,7 @@ def _given_pushes(of: Quantity) -> list[Expr]:
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
-            message = f"a given force is not constant, {push.components[0]}, so its potential energy is unknown"
+            message = f"the given force {push.components[0]} is not constant, so its potential energy is unknown"
             help_line = "a force with a potential energy U is given by `potential(U)`"
             raise Rejected(Complaint("changes", message, help=help_line))
         found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]

@@ -251,8 +251,8 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
-    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
-    help_line = "give the momentum by a separate symbol, or omit it"
+    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, which is {value} in the steady motion"
+    help_line = "give this momentum as a separate symbol, or omit its value"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 

@@ -162,7 +162,7 @@ def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Ex
     check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
-        message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"
+        message = f"`steady_amplitude`: `{equation.key}` is not driven by a single force F cos(omega t), F > 0"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]
 

@@ -272,7 +272,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         message = f"{key}: the sign of {linear.discriminant} is unknown"
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
-        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
+        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}, not {str(case).replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
     if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only

@@ -283,7 +283,7 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
             help_line = "write the positions with fewer coordinates, so that this constraint is not needed"
             raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
-            message = f"`linearised`: `{equation.key}` also has {others[0].name}, for which there is no equation"
+            message = f"`linearised`: `{equation.key}` also contains {others[0].name}, for which no equation is given"
             help_line = "give all equations together, as `equations_of_motion` yields them"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 

@@ -367,7 +367,13 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     for role, each in (("slow", slow), ("fast", fast)):
         require_kind("beats", role, each, "angular speed")
     if slow.value == 0 or is_zero(fast.value - slow.value):
-        raise Rejected(Complaint("no-beats", f"`{slow.key}` and `{fast.key}` do not beat", help="give two frequencies"))
+        raise Rejected(
+            Complaint(
+                "no-beats",
+                f"`{slow.key}` and `{fast.key}` do not beat",
+                help="give two different frequencies other than 0",
+            )
+        )
 
     def product(found: Expr) -> tuple[Expr, Expr]:
         middle = (slow.value + fast.value) / 2
