@@ -1,7 +1,8 @@
 """The checks of a problem, counted and listed step by step, for the closing note and for the report of the set.
 
-The grade of a step is the lower of two: the lowest grade of its lines and of statements that were only tested at trial
-numbers, and the highest grade of its other evidence, such as second routes and checks. Each route and each check is
+The grade of a step is the lower of two grades. The first is the lowest grade of its lines and of statements that were
+only tested at trial numbers. The second is the highest grade of its other evidence, such as second routes and checks.
+Each route and each check is
 counted once for every result that it tests. Checks start from the result and are counted separately from routes.
 Motions that the witness (`derive.witness`) simulates numerically are also counted separately.
 """

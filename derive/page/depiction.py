@@ -213,8 +213,11 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part after which all steps of the drawing are derived, or of the part that derives
-    the first step to which the drawing leads; None without such a part."""
+    """Return the index of the earliest part for a drawing; None if there is no such part.
+
+    This is the part that derives the first of the steps to which the drawing leads. If the drawing leads to no steps,
+    it is the first part after which all steps of the drawing are derived; -1 means the statement.
+    """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
@@ -248,8 +251,10 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if its
-    `at` is not a step of the problem."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends.
+
+    If the `at` of the drawing names a step that does not exist, this is also an error.
+    """
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None

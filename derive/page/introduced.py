@@ -67,8 +67,9 @@ def _leaves(shown: Any) -> Iterator[Any]:
 
 
 def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection[Any]) -> set[str]:
-    """Return the keys of steps that are still needed: for each symbol that a piece of a page uses, although no
-    explained step introduces it, the first step that introduces it.
+    """Return the keys of the steps that a piece of a page still needs.
+
+    If the piece uses a symbol that no explained step introduces, it needs the first step that introduces this symbol.
 
     shown   the piece of the page
     told    keys of the steps that the page explains

@@ -182,8 +182,8 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
 
 
 def _margin(claim: Claim) -> Expr | None:
-    """The expression in the multipliers that vanishes where the contact ends, N, or where the body begins to slip,
-    mu_s N - |F|; None if the forces of the step are not multipliers."""
+    """An expression in the multipliers: N, which vanishes where the contact ends, or mu_s N - |F|, which vanishes where
+    the body begins to slip. None if the forces of the step are not multipliers."""
     quantities, inputs = claim.judged.quantities, claim.judged.inputs
     found = [quantities[role] for role in ("force", "normal", "friction") if role in quantities]
     if not found or any(each.symbol not in claim.blueprint.multipliers for each in found):

@@ -152,8 +152,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
     Keys: for the conditions, `condition_` and the name of the coordinate; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
-    Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
-    force are counted numerically, for some values of the symbols.
+    Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force
+    are also counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint

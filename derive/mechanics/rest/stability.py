@@ -84,8 +84,8 @@ def stability(
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
-    Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known;
-    for several coordinates the energy of a small displacement in an arbitrary direction.
+    Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
+    For several coordinates, the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order up to the eighth
     decides); for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second

@@ -245,8 +245,11 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 
 def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """Return a symbol of a given momentum with its value in the steady motion: if the given momentum is C w, and its
-    value in the steady motion is C (s + Omega cos(a)), return w = s + Omega cos(a)."""
+    """Return a symbol of a given momentum with its value in the steady motion.
+
+    For example, if the given momentum C w has the value C (s + Omega cos(a)) in the steady motion, return w with the
+    value s + Omega cos(a).
+    """
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:

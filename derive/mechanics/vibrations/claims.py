@@ -462,8 +462,12 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge three facts separately: `displaced`, an equilibrium value is not zero; `lossy`, there is drag (not judged
-    if None); `driven`, the right side is not zero. Each fact must hold exactly if its argument is true."""
+    """Judge three statements separately; each must be true if its argument is true, and false if it is false.
+
+    displaced   an equilibrium value is not zero
+    lossy       there is drag; not judged if None
+    driven      the right side of the equation is not zero
+    """
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
@@ -494,7 +498,10 @@ def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: fa
 
 def rate_of_square(sign: int | None, turned: int) -> Predicate:
     """Judge the sign of the squared frequency, and whether the square of the result is `turned` times the squared
-    frequency; `turned` is 1 for an oscillation and -1 for a growing motion."""
+    frequency.
+
+    turned   1 for an oscillation, -1 for a growing motion
+    """
     judged = _of_square(sign)
     return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
 

@@ -192,9 +192,9 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate
-    Second route: with the driving force F cos(omega_0 t), omega_0 = sqrt(c/a), the motion q = Q (F/c) sin(omega_0 t)
-    satisfies the equation; and Q is 2 pi times the energy of this oscillation, divided by the work of the damping in
-    one period.
+    Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
+    q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
+    the energy that the damping takes in one period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
     symbols leave open whether Q > 1/2).
     Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.

@@ -1,10 +1,10 @@
 """Small motions with gyroscopic forces, which are linear in the rates and do no work.
 
 Such forces act in rotating frames, on tops and on charges in a magnetic field. The equations
-M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if the determinant
-of K + i omega G - omega^2 M vanishes. This determinant is a polynomial in omega^2. An equilibrium is stable if all
-omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy
-has no minimum.
+M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have solutions eta = Re(a e^(i omega t)). Here omega is a root
+of the determinant of K + i omega G - omega^2 M. This determinant is a polynomial in omega^2. An equilibrium is stable
+if all omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential
+energy has no minimum.
 """
 
 from __future__ import annotations
@@ -319,8 +319,8 @@ def linear_stability(
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
     potential energy. If only gyroscopic forces stabilise an equilibrium, drag on every coordinate makes the
     equilibrium unstable.
-    Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
-    determinant comes from cosines and sines that are substituted into the equations.
+    Second route: on the boundary of the condition two roots of a determinant coincide, or one root vanishes. This
+    determinant is computed by substituting cosines and sines into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
     Errors: there is drag; the determinant does not factor, or has a zero or repeated root and U has no minimum.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.

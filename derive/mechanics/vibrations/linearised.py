@@ -48,8 +48,8 @@ def linearised(
     """Equations of motion to first order in the displacements from equilibrium, M eta_ddot + G eta_dot + K eta = f(t).
 
     motion   the equations, as `equations_of_motion` yields them; or a single equation for one coordinate
-    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0; for
-             a single equation also the value of its coordinate
+    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0. For
+             a single equation, `at` may also be the value of its coordinate
     key      the beginning of the keys; with the default the key for theta is linearised_theta. A single equation has
              the key `key` itself if `at` is a value or is omitted
 

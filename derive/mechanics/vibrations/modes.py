@@ -58,9 +58,9 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     symbol   the symbol of the frequencies, by default omega; for one coordinate by default omega_0
     key      the beginning of the keys; a second set of modes on a page needs a `key` and its own `symbol`
 
-    Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. The squares of the
-    frequencies are in ascending order, and roots without a formula come last. If the order depends on the symbols, it
-    is the order for one set of numbers.
+    Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
+    linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
+    If the order depends on the symbols, it is the order for one set of numbers.
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
     which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the

@@ -1,8 +1,8 @@
 """The motion of coupled coordinates from their initial values, as a sum of normal modes.
 
-The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator, with the
-mass a.M a, the stiffness a.K a and, if drag does not mix the modes, the drag a.C a. The initial value of this
-oscillator is a.M eta(0)/(a.M a).
+The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator. The mass
+of this oscillator is a.M a, its stiffness is a.K a and, if drag does not mix the modes, its drag is a.C a. The initial
+value of the oscillator is a.M eta(0)/(a.M a).
 """
 
 from __future__ import annotations
