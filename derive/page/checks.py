@@ -2,9 +2,8 @@
 
 The grade of a step is the lower of two grades. The first is the lowest grade of its lines and of statements that were
 only tested at trial numbers. The second is the highest grade of its other evidence, such as second routes and checks.
-Each route and each check is
-counted once for every result that it tests. Checks start from the result and are counted separately from routes.
-Motions that the witness (`derive.witness`) simulates numerically are also counted separately.
+Each route and each check is counted once for every result that it tests. Checks start from the result and are counted
+separately from routes. Motions that the witness (`derive.witness`) simulates numerically are also counted separately.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The page as a tree, independent of formats: title, statement, parts, steps, answers, and how it was checked.
+"""The page as a tree, independent of formats: title, statement, parts, steps, answers, and checks.
 
 Equations are numbered here, so every format and every reference has the same numbers.
 """

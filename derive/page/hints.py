@@ -210,5 +210,5 @@ def _parts(value: Any) -> list[Any]:
 
 
 def _of(value: Any) -> Any:
-    """Return a value in a standard form, so that formulas that are only written differently compare as equal."""
+    """Return the explicit form of a value, so that formulas compare as equal although they are printed differently."""
     return explicit(value) if isinstance(value, Basic | MatrixBase) else value

@@ -1,6 +1,6 @@
-"""Repeated formulas: the first or last line of a chain is dropped if the page has already shown its formula.
+"""Repeated formulas: the first or last line of a chain is dropped if the page has already shown the formula.
 
-If a result is already on the page, the page refers to the equation with this result by its number.
+If a result is already on the page, the page can refer to the number of the equation with this result.
 """
 
 from __future__ import annotations

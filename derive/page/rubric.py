@@ -1,4 +1,4 @@
-"""A rubric: the points of a part divided among its steps, in halves or quarters that add up to the points of the part.
+"""A rubric: the points of a part divided among its steps, in halves or quarters if possible.
 
 The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by shares. A
 step has one share and an answer has two. The points are rounded by the method of largest remainders. If an answer has a

@@ -1,4 +1,4 @@
-"""Theorems in their general form: a page states each theorem once, before the first step that uses it.
+"""Theorems in their general form: a page states each theorem at most once, before the first step that uses it.
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
 the first problem that uses a theorem explains it, and later problems recall its formula in a short sentence that names

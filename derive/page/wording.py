@@ -280,7 +280,7 @@ def names_asked(template: str) -> frozenset[str]:
 
 @lru_cache(maxsize=2048)
 def names_compared(template: str) -> frozenset[str]:
-    """Return the names that a phrase compares, as `seen` in `<% if seen == "kept" %>`."""
+    """Return the names that a phrase compares, such as `seen` in `<% if seen == "kept" %>`."""
     sides = (side for each in _IN_PROSE.parse(template).find_all(Compare) for side in (each.expr, each.ops[0].expr))
     return frozenset(side.name for side in sides if isinstance(side, Name))
 

@@ -40,7 +40,8 @@ class TooLong(Exception):
 
 
 class Run:
-    """One motion of the described system: its states, and the state at the event that ended the motion, or None."""
+    """One motion of the described system: its states, and the state at the event that ended it; None without such an
+    event."""
 
     def __init__(self, dynamics: Dynamics, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp

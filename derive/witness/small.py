@@ -27,7 +27,9 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
 SMALL = 1e-3  # step of the finite differences for the derivatives; their error is of the order of SMALL**4
-SURE = 1e-3  # Re s counts as zero below this fraction of the largest |s|, and |s|**2 below this fraction of the largest
+# Re s counts as zero below this fraction of the largest |s|; |s|**2 counts as zero below this fraction of the largest
+# |s|**2.
+SURE = 1e-3
 FREQUENCY = 1e-5  # relative accuracy of squared frequencies; the tests allow ten times this value
 STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; the tests allow ten times this value
 DOUBLE = 1e-4  # relative accuracy of eigenvalues s; low, because two nearly equal eigenvalues are less accurate

@@ -100,7 +100,7 @@ class Trial:
     """A description with one set of numbers.
 
     number    the index of the trial; the random numbers depend on it
-    assumed   relations that the numbers must satisfy
+    assumed   relations that the numbers and the states must satisfy
     fixed     numbers for some of the symbols, in place of random ones
     letters   given values of constants, such as `m = 2 M`; `state` takes given values of coordinates and rates
     momenta   the symbols of momenta, each with its coordinate
@@ -176,7 +176,8 @@ class Trial:
         return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state. A small `wide` makes all rates small, and all coordinates without a range or a sign."""
+        """A random state. If `wide` is small, all rates are small, and so are the coordinates that have no range and need
+        not be positive."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)

@@ -280,7 +280,7 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides: all derivatives to the eighth vanish, or the sign of the first nonzero derivative,
+    """Whether no order decides: all derivatives up to the eighth vanish, or the sign of the first nonzero derivative,
     which the sentence states, is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
@@ -582,10 +582,10 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls a motion steady only if coordinates were eliminated with conserved momenta. If the
-    potential energy itself results from this elimination, a sentence about one coordinate must do this.
+    """Whether the sentence calls a state a steady motion only if coordinates were eliminated with conserved momenta.
 
-    The eliminated coordinates still move, so the state is a steady motion and not an equilibrium at rest.
+    The eliminated coordinates still move, so such a state is not an equilibrium at rest. If the potential energy itself
+    results from this elimination, a sentence about one coordinate must call the state a steady motion.
     """
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     reduced = [
