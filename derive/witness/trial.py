@@ -176,8 +176,8 @@ class Trial:
         return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state. If `wide` is small, all rates are small, and so are the coordinates that have no range and need
-        not be positive."""
+        """A random state. If `wide` is small, all rates are small. The coordinates that have no range and need not be
+        positive are then also small."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)
