@@ -55,7 +55,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
 
     linear   the equations, as `linearised` yields them
-    symbol   the symbol of the frequencies, by default omega; for one coordinate by default omega_0
+    symbol   the symbol of the frequencies, by default omega; for one coordinate by default omega_0; not used with drag
     key      the beginning of the keys; a second set of modes on a page needs a `key` and its own `symbol`
 
     Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
