@@ -12,7 +12,8 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return a function of a step and an expression; the function replaces formulas by symbols of earlier steps."""
+    """Return a function of a step and an expression; under square roots, this function replaces formulas by symbols of
+    earlier steps."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:

@@ -33,7 +33,8 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
-    """Return whether the bounds imply the condition: 0 < alpha < pi/2 implies sin(alpha) != 0."""
+    """Return whether the condition is that a sine or cosine is not zero, and the bounds imply it: 0 < alpha < pi/2
+    implies sin(alpha) != 0."""
     function = condition.left
     if condition.operator != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False

@@ -85,7 +85,8 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step; with the mode `result` or `hidden`, only the last line."""
+        """Return the lines of a step, with its decimals; in the mode `result` or `hidden`, only the last line and the
+        decimals. A list of results has one line for each distinct value."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -172,7 +173,10 @@ class ChainWriter:
 
 
 def conditions_of(step: Step) -> tuple[ChainLine, ...]:
-    """Return a line for each condition under which the answer holds, if the sentence of the step states conditions."""
+    """Return a line for each condition under which the answer holds, if the sentence of the step states conditions.
+
+    A lower and an upper bound of one quantity share a line.
+    """
     told = dict(step.roles)
     found = [told[role] for role in step.display.conditions if role in told]
     if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:

@@ -1,9 +1,9 @@
 """The checks of a problem, counted and listed step by step, for the closing note and for the report of the set.
 
-The grade of a step is the lower of two: the lowest grade of its lines, and the highest grade of its second routes and
-checks. Each route and each check is counted once for every result that it tests. Checks start from the result and
-are counted separately from routes. Motions that the witness (`derive.witness`) follows numerically are also counted
-separately.
+The grade of a step is the lower of two grades. The first is the lowest grade of its lines and of statements that were
+only tested at trial numbers. The second is the highest grade of its other evidence, such as second routes and checks.
+Each route and each check is counted once for every result that it tests. Checks start from the result and are counted
+separately from routes. Motions that the witness (`derive.witness`) simulates numerically are also counted separately.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from derive.steps.step import Step
 class Row:
     """Consecutive steps of one rule, checked by the same methods, with all inputs and the number of lines.
 
-    `routes` names the second routes, then the motion, if the witness followed this motion numerically; `checks` names
+    `routes` names the second routes and, at the end, the motion if the witness simulated it numerically. `checks` names
     the checks.
     """
 
@@ -55,7 +55,7 @@ _NOT_ALIKE: Mapping[str, Any] = {
 
 @dataclass(frozen=True)
 class Checks:
-    """The counts, the table of the steps, and the errata of the source document."""
+    """The counts, the table of the steps, and the errata and remarks about the source document."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]
@@ -139,7 +139,7 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
     """Return the words for the checks of a step or for its second routes, as `sort` requires. The words for the routes
-    end with the motion, if the witness followed this motion."""
+    end with the motion if the witness simulated it."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found

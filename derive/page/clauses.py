@@ -20,8 +20,8 @@ class Clauses:
 
     waiting  steps whose symbols are to be defined at the first use
     told     keys of the steps whose symbols have been defined
-    said     the sentence before the lines just shown; the clause after the lines also defines its symbols
-    set_up   text about axes and coordinates, from steps without lines, to put before the next sentence
+    said     the sentence before the lines just shown; the clause after the lines also defines symbols of this sentence
+    set_up   text from steps without lines, for example about axes, that is printed before the next sentence
     """
 
     def __init__(self, words: Phrases):

@@ -1,4 +1,5 @@
-"""The limiting and special cases at the end of a page: one sentence each; only vectors and tensors are displayed."""
+"""The limiting and special cases at the end of a page: one sentence each; a result that is a vector or a tensor is
+displayed."""
 
 from __future__ import annotations
 

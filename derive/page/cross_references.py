@@ -75,7 +75,8 @@ class References:
         return None
 
     def check(self, numbers: Mapping[str, Number], known: Collection[str]) -> None:
-        """Check that every equation that prose mentions has a number; `known` are all steps, shown or hidden."""
+        """Check that every equation that prose mentions has a number; `known` are the keys of all steps, shown or
+        hidden."""
         for mention in self.equations:
             if mention.name in numbers:
                 continue

@@ -1,8 +1,9 @@
 """The position, caption and alternative text of each drawing on a page.
 
 The alternative text is derived from the expressions of the marks, so the text changes with the inputs.
-A drawing appears in the statement if it shows only inputs. Otherwise it appears in the first part after which all its
-steps are derived. A problem may move a drawing to a later part, but never to an earlier one.
+A drawing appears in the statement if it shows only inputs. If it leads to steps, it appears in the part that derives
+the first of these steps. Otherwise it appears in the first part after which all its steps are derived. A problem may
+move a drawing to a later part, but never to an earlier one.
 """
 
 from __future__ import annotations
@@ -44,7 +45,10 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the drawings with a caption, in the order of the page."""
+    """Return the figure numbers of the drawings with a caption, in the order of the page.
+
+    A drawing that leaves out conditions has a caption, which states these conditions; so has a force diagram.
+    """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _is_of_forces(d)]
     placed = [(index, d) for d in shown if (index := _index(problem, d, derivation)) is not None]
@@ -142,12 +146,12 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for values for a plot, and for each name with a value that is a symbol of neither drawing nor
-    problem."""
+    """Return an error if `values` are given for a plot. For any other drawing, return an error for each name under
+    `values` that is a symbol neither of the drawing nor of the problem."""
     placement = placement_of(problem, drawing.key)
     if isinstance(drawing, m.Plot):
         message = f"`values` has no effect on the plot `{drawing.key}`"
-        help_line = "write the numbers under its `cases`, `cases: [{l: 1 m}]`, or under the `values` of the problem"
+        help_line = "write the numbers under the `cases` of the plot, `[{l: 1 m}]`, or the `values` of the problem"
         place = next(iter(placement.names.values()), None) if placement else None
         return [Complaint("unused-key", message, place, help=help_line)] if place else []
     letters = {symbol.name for symbol in drawing.letters}
@@ -160,7 +164,8 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each case of a plot that repeats a case, and for each number of the horizontal axis."""
+    """Return an error for each case of a plot that repeats an earlier case, and for each number that a case gives for
+    the symbol of the horizontal axis."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):
@@ -219,8 +224,11 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the first part after which all steps of the drawing are derived, or of the part that derives
-    the first step to which the drawing leads; None without such a part."""
+    """Return the index of the earliest part for a drawing; None if there is no such part.
+
+    This is the part that derives the first of the steps to which the drawing leads. If the drawing leads to no steps,
+    it is the first part after which all steps of the drawing are derived; -1 means the statement.
+    """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
@@ -254,7 +262,10 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends.
+
+    If the `at` of the drawing names a step that does not exist, this is also an error.
+    """
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None

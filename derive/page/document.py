@@ -1,4 +1,4 @@
-"""The page as a tree, independent of formats: title, statement, parts, steps, answers, and how it was checked.
+"""The page as a tree, independent of formats: title, statement, parts, steps, answers, and checks.
 
 Equations are numbered here, so every format and every reference has the same numbers.
 """
@@ -171,7 +171,7 @@ class _Writer:
             shown_in=self.shown_in,
             dimensions=self.dimensions,
             warnings=(
-                # An author cannot edit a script of the engine, so its warnings about unused results are left out.
+                # An author cannot edit a script that the engine writes, so warnings about unused results are left out.
                 *(() if problem.described else self.derivation.warnings(problem.place_of("solve"))),
                 *filter(None, map(latex_in, problem.texts)),
                 *self.formulas.warnings,
@@ -299,8 +299,12 @@ class _Writer:
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
-        """Return the steps of a part that are framed: its answers, but neither a formula whose number is framed instead
-        nor a formula that is only the reason of a verdict in words."""
+        """Return the keys of the steps of a part that are framed.
+
+        These are the answers, except a formula whose number is framed instead, and a formula that is only the reason
+        for a verdict in words. If the sentence of an answer points to earlier lines, the steps of these lines are
+        returned instead.
+        """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}

@@ -1,9 +1,9 @@
-"""The formulas in an author's prose: read in the letters of the problem, so that letters and dimensions are checked.
+"""The formulas in an author's prose, parsed with the symbols of the problem: symbols and dimensions are checked.
 
 A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. The author
-is warned if a note gives the symbol of a result a value that no step of the page derives; this happens if the note
-remains while the problem changes. A formula that cannot be read is printed if it has only commands that may be quoted,
-and its author is warned too.
+is warned if a note gives the symbol of a result a value that no step of the page derives. This happens if the problem
+is changed but the note is not. A formula that cannot be parsed is printed, with a warning for the author, if it
+contains only commands that derive can print.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
-MOST_COMBINATIONS = 16  # of the values of several results in one formula
+MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
 _LETTER = re.compile(
     r"(\\d*dot|(?P<arrow>\\(vec|overrightarrow|boldsymbol|bm|mathbf)))?[{ ]*(\\[A-Za-z]+|[A-Za-z])\}?"
@@ -43,7 +43,7 @@ _LETTER = re.compile(
 
 @dataclass(frozen=True)
 class _Derived(Declared):
-    """A symbol that the steps introduce; its dimension is known, and perhaps no kind has it."""
+    """A symbol that the steps introduce, with its dimension, which need not be the dimension of a known kind."""
 
     derived: Dimension = NUMBER
 
@@ -75,7 +75,7 @@ class Formulas:
         return self.node(formula, is_of_note=True)
 
     def node(self, formula: TexFormula, is_of_note: bool = False) -> Math | Text:
-        """Return the formula for the page; after an error, its characters."""
+        """Return the formula for the page; if it cannot be printed, its characters as text."""
         from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
 
         try:
@@ -134,8 +134,9 @@ class Formulas:
     def _check_result(self, left: Side, right: Side) -> None:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
-        If the right side is another symbol, the equation is a condition, such as that of resonance. Symbols that are
-        neither given nor derived, such as a rate of steady motion, cannot be compared.
+        There is no warning if the right side is a single symbol: such an equation is a condition, for example for
+        resonance. There is no warning either if the right side contains a symbol that is neither given nor derived,
+        such as a rate of steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())
@@ -218,7 +219,8 @@ def _compare(left: Side, right: Side) -> None:
 
 
 def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
-    """Return the letters that a formula may have: those of the problem, axes, time, and the symbols of its steps."""
+    """Return the symbols that a formula may contain, by name: the symbols of the problem and of its steps, the axes,
+    and time."""
     found: dict[str, Declared] = {axis: Declared(axis, scalar(axis), "length") for axis in AXES}
     found[TIME.name] = Declared(TIME.name, TIME, "time")
     for vector in (symbol for symbol in known if isinstance(symbol, MatrixSymbol)):

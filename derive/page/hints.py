@@ -1,7 +1,8 @@
 """Graded hints derived from a solution: first what to find and in which order, then the laws, then the next lines.
 
 A line gives the result away if nothing is left to do: no result to substitute, no derivative or integral to
-evaluate. Hints omit such a line and all lines after it. A step that only substitutes numbers has no hint.
+evaluate. The same is true of a line whose right side is a result. Hints omit such a line and all lines after it. The
+lines of a step that substitutes numbers are not shown in hints.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ def with_hints(
 class _Hints:
     """The hints of one page.
 
-    shown           the results of the page, and the components of vectors and tensors
+    given           symbols of the problem
+    answers         results that the parts ask for
+    shown           the results on the page, and the components of vectors and tensors among them
     introduced      symbols that the statement or a hint has explained
     worded_answers  answers in the author's own words, which may contain the answer: "no, unless"
     """
@@ -199,12 +202,13 @@ def _is_to_be_done(line: ChainLine) -> bool:
 
 
 def _parts(value: Any) -> list[Any]:
-    """Return the formulas of a value: itself, or the components of a vector or tensor other than plain numbers."""
+    """Return the formulas in a value: the value itself, or the components of a vector or tensor. Plain numbers and
+    single symbols are left out."""
     found = _of(value)
     components = list(found) if isinstance(found, MatrixBase) else [found]
     return [each for each in components if not getattr(each, "is_Atom", False)]
 
 
 def _of(value: Any) -> Any:
-    """Return a value in a standard form, so that formulas that are only written differently compare as equal."""
+    """Return the explicit form of a value, so that formulas compare as equal although they are printed differently."""
     return explicit(value) if isinstance(value, Basic | MatrixBase) else value

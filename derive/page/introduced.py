@@ -15,7 +15,11 @@ from derive.steps.step import Step
 
 
 def letters_of(symbol: Any) -> set[Any]:
-    """Return the symbols that a step introduces: its symbol, and also the components if the symbol is a vector."""
+    """Return the symbols that a step with this symbol introduces.
+
+    A vector also introduces its components, a list introduces the symbols in the list, and a square introduces its
+    base.
+    """
     if isinstance(symbol, MatrixSymbol):
         return {symbol, *(component_names(symbol.name) if symbol.shape == (3, 1) else ())}
     if isinstance(symbol, MatrixBase):
@@ -26,7 +30,7 @@ def letters_of(symbol: Any) -> set[Any]:
 
 
 def letters_in(exprs: Iterable[Any]) -> set[Any]:
-    """Return every symbol that occurs in the expressions."""
+    """Return every symbol that occurs in the printed parts of the expressions."""
     return {part for expr in exprs for part in _seen(expr) if isinstance(part, Symbol | MatrixSymbol)}
 
 
@@ -63,7 +67,9 @@ def _leaves(shown: Any) -> Iterator[Any]:
 
 
 def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection[Any]) -> set[str]:
-    """Return the steps that can introduce symbols that a piece of a page uses but does not introduce.
+    """Return the keys of the steps that a piece of a page still needs.
+
+    If the piece uses a symbol that no explained step introduces, it needs the first step that introduces this symbol.
 
     shown   the piece of the page
     told    keys of the steps that the page explains

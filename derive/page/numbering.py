@@ -1,7 +1,7 @@
-"""Consecutive numbers of equations; a more detailed page uses the same numbers as a less detailed page.
+"""Consecutive numbers of equations; a more detailed page can use the numbers of a less detailed page.
 
-An equation that the less detailed page omits has the previous number and a letter: (7a) after (7). So an equation
-has the same number in every document of one derivation.
+An equation that the less detailed page omits has the previous number and a letter: (7a) after (7). So an equation that
+is on both pages has the same number on both.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from string import ascii_lowercase
 
 @dataclass(frozen=True, order=True)
 class Number:
-    """An equation number: 7, or 7a for the first equation after (7) that a less detailed page omits."""
+    """An equation number: 7, or 7a for the first equation after (7) that the less detailed page omits."""
 
     whole: int
     behind: int = 0

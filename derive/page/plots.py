@@ -22,7 +22,7 @@ from derive.figures.marks import Plot
 DEGREE, DEGREES = pi / 180, "°"
 
 
-MOST_MARKED = 6  # extrema of a curve
+MOST_MARKED = 6  # a curve with more extrema has no marks
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Curve:
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
-        """Return the extrema to mark: none for an oscillation, whose many marks would hide the curve."""
+        """Return the extrema to mark: none if there are many, as for an oscillation, because the marks would hide the
+        curve."""
         return self.extrema if len(self.extrema) <= MOST_MARKED else ()
 
 

@@ -1,6 +1,6 @@
-"""Each formula appears once on a page: the first and last line of a chain do not repeat a formula shown before.
+"""Repeated formulas: the first or last line of a chain is dropped if the page has already shown the formula.
 
-If a result is already on the page, the page refers to the number of its equation.
+If a result is already on the page, the page can refer to the number of the equation with this result.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ class Stated:
         self._found: dict[Formula, str] = {}
 
     def noted(self, key: str, lines: Lines) -> str | None:
-        """Return the key of the earlier step with this result; if there is none, record the result under `key`."""
+        """Return the key of the earlier step with this result. If there is none, record the result under `key` and
+        return None."""
         before = self._found.setdefault(_result(lines), key) if lines else key
         return None if before == key else before
 

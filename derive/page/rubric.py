@@ -1,9 +1,9 @@
-"""A rubric: the points of a part divided among its steps, in halves or quarters that add up to the points of the part.
+"""A rubric: the points of a part divided among its steps, in halves or quarters if possible.
 
-The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; a rule divides the rest. A step
-has one share and an answer has two; the remainder goes to answers first. If an answer has a formula and a number, the
-formula has the two shares; the number is worth half a point, or nothing if another step would then have less than half
-a point.
+The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by shares. A
+step has one share and an answer has two. The points are rounded by the method of largest remainders. If an answer has a
+formula and a number, the formula has the two shares. The number is worth half a point, or nothing if there is less than
+half a point for each step.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ def credits_of(
     tasks: Mapping[str, str],
     values: Iterable[Step] = (),
 ) -> dict[str, tuple[Credit, ...]]:
-    """Return the rubric of each part, by label; `said` are the points that the problem specifies, by label.
+    """Return the rubric of each part that is not an extra question, by label; `said` are the points that the problem
+    specifies, by label.
 
     `tasks` has the words for each step, by key. `values` are the steps that substitute numbers. Parts without points
     share the remaining points of the problem.

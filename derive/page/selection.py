@@ -4,9 +4,11 @@
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
-Each rule specifies, for all problems, how its steps are shown. Some steps have lines of their own at
-every level: answers, steps that the author rewords or refers to by number, and steps whose symbol or number the page
-needs (`Needed`). So a page never uses a symbol or a number that it has not introduced.
+Each rule specifies, for all problems, how its steps are shown. Independently of the level, answers and reworded steps
+have lines of their own, unless earlier lines show their result. A step also has lines of its own if the author lists it
+under `show`, unless it is hidden there, or if the page refers to its equation. A step whose symbol the page needs
+(`Needed`) has lines of its own or is defined in a clause. So a page does not use a symbol or an equation number that it
+has not introduced.
 """
 
 from __future__ import annotations
@@ -85,14 +87,17 @@ class Selection:
 
     @property
     def steps(self) -> Collection[Step]:
-        """Return all steps, shown or hidden, including the evidence of lines that the level has rewritten."""
+        """Return all steps, shown or hidden, with their lines at this level and the evidence for rewritten lines."""
         return self._steps.values()
 
     def manner(self, key: str) -> Manner:
         return self._manners.get(key, OWN)
 
     def is_behind_quoted(self, key: str) -> bool:
-        """Return whether only quoted results depend on a step, so that the page needs no words for it."""
+        """Return whether only quoted results depend on a step, so that the page needs no words for it.
+
+        A quoted result is stated without its derivation.
+        """
         return key in self._behind_quoted and self.manner(key) is LEFT_OUT
 
     def having_it(self, step: Step) -> tuple[Step, ...]:

@@ -1,4 +1,4 @@
-"""Theorems in their general form: a page states each theorem once, before the first step that uses it.
+"""Theorems in their general form: a page states each theorem at most once, before the first step that uses it.
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
 the first problem that uses a theorem explains it, and later problems recall its formula in a short sentence that names
@@ -41,7 +41,7 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 class Theorems:
     """The theorems that a page states before its steps; a brief page only names theorems in its sentences.
 
-    A full page shows the law of each step, so it does not state this law before the step.
+    If a theorem has stated the law of a step, a standard page omits the line with this law. A full page shows it too.
     """
 
     def __init__(self, words: Phrases, level: Level):

@@ -1,7 +1,7 @@
 """From steps to words: the phrase for a rule and an outcome, with its names filled from the derivation.
 
-A phrase becomes nodes that do not depend on a format: `Text`, `Math`, `Ref` and one `Chain`. Only verified quantities
-have names here, so prose can mention only verified quantities: an unknown name is an error.
+A phrase becomes nodes that do not depend on a format, such as `Text`, `Math`, `Ref` and `Chain`. Only inputs and
+verified results have names here, so prose can mention no other quantity: an unknown name is an error.
 """
 
 from __future__ import annotations
@@ -280,7 +280,7 @@ def names_asked(template: str) -> frozenset[str]:
 
 @lru_cache(maxsize=2048)
 def names_compared(template: str) -> frozenset[str]:
-    """Return the names that a phrase compares, as `seen` in `<% if seen == "kept" %>`."""
+    """Return the names that a phrase compares, such as `seen` in `<% if seen == "kept" %>`."""
     sides = (side for each in _IN_PROSE.parse(template).find_all(Compare) for side in (each.expr, each.ops[0].expr))
     return frozenset(side.name for side in sides if isinstance(side, Name))
 
@@ -436,7 +436,7 @@ def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
 
 
 def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline, ...]]:
-    """Return the unit conversions of given numbers that a step substitutes; an angle may be given in degrees."""
+    """Return the unit conversions of given numbers that a step substitutes, in degrees or in radians for an angle."""
     given = [(m, problem.amounts[m.symbol]) for m in problem.measured]
     written = [(m, amount) for m, own in given for amount in dict.fromkeys((own, in_radians(own)))]
     return [conversion(m, amount, problem.figures) for m, amount in written if amount in put_in]

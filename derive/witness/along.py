@@ -56,7 +56,7 @@ def equation(claim: Claim) -> Verdict | None:
             if not np.all(np.isfinite(found)):
                 continue
             if np.max(np.abs(left)) > CLOSE * (1e-3 + float(np.sum(sizes))):
-                return claim.refuted("it does not hold in the described motion", trial, state)
+                return claim.refuted("the equation does not hold in the described motion", trial, state)
             count += 1
     return seen(count, "states")
 
@@ -96,7 +96,7 @@ def kinetic_energy(claim: Claim) -> Verdict | None:
         for state, _ in claim.moments(trial):
             (found,), expected = formulas.at(state), trial.dynamics.kinetic_energy(state)
             if abs(found - expected) > CLOSE * (1 + abs(expected)):
-                return claim.refuted("it is not the kinetic energy of the described masses", trial, state)
+                return claim.refuted("the value is not the kinetic energy of the described masses", trial, state)
             count += 1
     return seen(count, "states")
 
@@ -111,7 +111,7 @@ def conserved(claim: Claim) -> Verdict | None:
 
 
 def kept(claim: Claim) -> Verdict | None:
-    """Test whether an energy stays equal to its initial value."""
+    """Test whether the left side of an equation of energy conservation stays constant along the motion."""
     return _unchanging(claim, explicit(claim.value).left) if isinstance(claim.value, Relation) else None
 
 
@@ -123,7 +123,7 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
             (changing,) = formulas.rate_at(state, response)
             scale = float(np.max(np.abs(state.v), initial=0.0) + np.max(np.abs(response.a), initial=0.0))
             if np.isfinite(changing) and abs(changing) > CLOSE * 10 * (1 + scale) ** 2:
-                return claim.refuted("it changes along the described motion", trial, state)
+                return claim.refuted("the value changes along the described motion", trial, state)
             count += 1
     return seen(count, "states")
 

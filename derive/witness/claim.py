@@ -34,9 +34,9 @@ STATES = 3
 class Claim:
     """A step and the system to which it belongs.
 
-    momenta   the symbols of conserved or conjugate momenta, each with its coordinate
-    assumed   the assumptions of the page about its symbols
-    functions prescribed functions and their rates, with the formulas that were substituted for them
+    momenta     the symbols of conserved or conjugate momenta, each with its coordinate
+    assumed     the assumptions of the page about its symbols
+    functions   the prescribed functions and their rates, each with the formula that was substituted for it
     """
 
     quantity: Quantity
@@ -75,7 +75,7 @@ class Claim:
 
     @cached_property
     def moving(self) -> set[Symbol]:
-        """All symbols that are not constant."""
+        """All symbols that vary along a motion."""
         q = self.blueprint.coordinates
         return {*q, *(rate(s, n) for s in q for n in (1, 2, 3)), *self.blueprint.multipliers, TIME}
 
@@ -145,7 +145,8 @@ class Claim:
                 return
 
     def _trial(self, number: int, assumed: tuple[Relation, ...]) -> Trial:
-        """The system with one set of numbers. All steps of the system share it, with the moments that it knows."""
+        """The system with one set of numbers. Steps with the same given values and assumptions share one trial, and so
+        also its states."""
         letters, momenta = tuple(self.letters_given), tuple(self.momenta.items())
         known, key = self.blueprint.known, (number, assumed, letters, momenta, tuple(known_ranges().items()))
         if key not in known:

@@ -29,8 +29,8 @@ class Body:
     place    the position in space of one known point of the body, m
     arm      the vector from the known point to the centre of mass, in components along the body axes, m
     spread   second moments, the sums of m r_i r_j about the centre of mass along the body axes, kg m^2
-    turns    successive rotations, each given by the number (0, 1, 2) of a body axis and an angle; each rotation also
-             rotates the axes of the later rotations; in a vertical plane there is one rotation, about the normal
+    turns    successive rotations, each given by the number (0, 1, 2) of a body axis and an angle. Each rotation also
+             rotates the axes of the later rotations. In a vertical plane there is one rotation, about the normal
     axes     in a plane, the numbers of the two body axes in this plane; in space (0, 1, 2)
     """
 
@@ -56,7 +56,8 @@ class Pair:
 class Force:
     """A force in N at the position `place`; or a torque in N m, if `place` has only one component, an angle.
 
-    body   the index of a body: the force acts on the particle of this body at `place`; by default, on `place` itself
+    body   the index of a body: the force acts on the particle of this body at `place`; by default, the force acts on a
+           point whose position is `place` at all times
     """
 
     components: Vector
@@ -66,7 +67,8 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A drag force -c v, where v is the velocity of `place`; or a drag torque, if `place` is an angle.
+    """A drag force -c v, where c is `constant` and v is the velocity of `place`; or a drag torque, if `place` is an
+    angle.
 
     body   the index of a body: v is then the velocity of the particle of this body at `place`
     """
@@ -102,7 +104,7 @@ class Condition:
 class Description:
     """A mechanical system as it is described, or a given Lagrangian in place of masses and forces.
 
-    coordinates   each coordinate with its kind: "angle", "length"
+    coordinates   each coordinate with its kind, such as "angle" or "length"
     gravity       the acceleration of free fall against the last axis, m/s^2
     energies      potential energies in the coordinates, J
     lagrangian    the Lagrangian in J, if it is given

@@ -47,12 +47,12 @@ Found = TypeVar("Found")
 
 
 class Singular(Exception):
-    """Raised for a state that does not determine the accelerations, because a mass or a gradient vanishes."""
+    """Raised for a state that does not determine the accelerations, for example because a mass vanishes."""
 
 
 @dataclass(frozen=True)
 class Response:
-    """The accelerations in a state, and the multipliers of the conditions in their order.
+    """The accelerations in a state, and the multipliers in the order of the conditions.
 
     rank   the number of independent conditions
     """
@@ -161,7 +161,8 @@ class Dynamics:
     # --- the equations ----------------------------------------------------------------------------------------------
 
     def inertia(self, state: State) -> tuple[Reals, Reals]:
-        """The mass matrix, and the generalized forces at zero acceleration and zero multipliers."""
+        """The mass matrix, and the generalized forces minus the inertial terms, at zero accelerations and
+        multipliers."""
         if self._lagrangian is not None:
             matrix, forces = self._of_lagrangian(state, self._lagrangian)
             return matrix, forces + self._given(state, self.placed(state))[:, 0]
@@ -220,8 +221,8 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix, and the generalized forces of the weights minus those of mass times acceleration at constant
-        rates."""
+        """The mass matrix, and the generalized forces of gravity minus the inertial terms, which are masses and second
+        moments times accelerations at constant rates."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
             matrix += weight * one.jacobian.T @ other.jacobian

@@ -45,7 +45,7 @@ def complex_steps(count: int) -> Numbers:
     """One complex step along each of `count` axes, as columns."""
     found: Numbers = np.zeros((count, count), dtype=np.complex128)
     np.fill_diagonal(found, 1j * STEP)
-    found.flags.writeable = False  # all callers share it
+    found.flags.writeable = False  # all callers share this array
     return found
 
 

@@ -45,7 +45,7 @@ class After:
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """The rates just after an impact, and its impulses; None if the momentum balance does not determine them."""
+    """The rates just after an impact, and the impulses; None if the momentum balance does not determine them."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]
@@ -134,6 +134,6 @@ def testimony(of: Impact, quantity: Quantity) -> Verdict | None:
         if expected is None:
             return None
         if abs(stated - expected) > CLOSE * (1 + abs(expected)):
-            return claim.refuted(f"the momentum balance gives {expected:.6g}, but this is {stated:.6g}", trial)
+            return claim.refuted(f"the momentum balance gives {expected:.6g}, but the step states {stated:.6g}", trial)
         count += 1
     return seen(count, "impacts")

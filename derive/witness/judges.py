@@ -1,4 +1,4 @@
-"""The witness's test for the steps of each rule."""
+"""The rules whose steps the witness tests on a motion, each with its test; `impact` tests impacts."""
 
 from __future__ import annotations
 

@@ -25,11 +25,13 @@ from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, T
 
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
-MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with a perhaps short event
+MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # sets of numbers that are tried: whether a motion reaches a position may depend on the numbers
-NUDGE = 2e-3  # a motion begins at this fraction of its distance, because its given start may be an equilibrium
+MANY = 6  # number of sets of numbers that are tried: whether a motion reaches a position may depend on the numbers
+# A motion begins at this fraction of the distance between its given start and the stated position, because the given
+# start may be an equilibrium.
+NUDGE = 2e-3
 Event = Callable[[State], float]
 
 
@@ -38,7 +40,8 @@ class TooLong(Exception):
 
 
 class Run:
-    """One motion of the described system: its states, and the state at the event that ended the motion, or None."""
+    """One motion of the described system: its states, and the state at the event that ended it; None without such an
+    event."""
 
     def __init__(self, dynamics: Dynamics, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp
@@ -160,7 +163,7 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     except Contradiction:
         if stays or not _can_start(claim, trial, unknown, begin):
             return 0
-        return claim.refuted("the described motion does not reach this place from this start", trial)
+        return claim.refuted("the described motion does not reach this position from this start", trial)
     state = _towards(trial, unknown, state, last - first)
 
     def pushing(here: State) -> float:
@@ -172,7 +175,7 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     if stays:
         return 1 if run.end is None else claim.refuted("in the described motion the force vanishes", trial, run.end)
     if run.end is None:
-        return claim.refuted("the described motion from this start does not reach this place", trial, state)
+        return claim.refuted("the described motion from this start does not reach this position", trial, state)
     found = float(watched.at(run.end)[0])
     if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
         return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
@@ -180,7 +183,8 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
 
 
 def _margin(claim: Claim) -> Expr | None:
-    """The expression in the multipliers that vanishes where the contact ends: N, or mu_s N - |F| if the body slips."""
+    """An expression in the multipliers: N, which vanishes where the contact ends, or mu_s N - |F|, which vanishes where
+    the body begins to slip. None if the forces of the step are not multipliers."""
     quantities, inputs = claim.judged.quantities, claim.judged.inputs
     found = [quantities[role] for role in ("force", "normal", "friction") if role in quantities]
     if not found or any(each.symbol not in claim.blueprint.multipliers for each in found):
@@ -238,8 +242,10 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-BEGUN = 0.03  # the motion before a flight begins at this fraction of its distance: its start may be an equilibrium
-FLIGHTS = 3  # sets of numbers that are tried; their conditions make sure that the force vanishes
+# The motion before a flight begins at this fraction of the distance between its given start and the beginning of the
+# flight, because the given start may be an equilibrium.
+BEGUN = 0.03
+FLIGHTS = 3  # number of sets of trial numbers; they satisfy the conditions of the flight, so the force vanishes
 FLOWN = 1e-4  # accuracy to which a simulated flight, which begins at a simulated event, and a formula agree
 
 
@@ -377,7 +383,7 @@ def period(claim: Claim) -> Verdict | None:
             trial = Trial(claim.blueprint, number, claim.assumed, {**fixed, amplitude: size}, claim.letters_given)
             stated = trial.value(claim.value)
             if not stated > 0:
-                return claim.refuted(f"a period of {stated:.6g}", trial)
+                return claim.refuted(f"the stated period, {stated:.6g}, is not positive", trial)
             found = _swing(claim, trial, q, amplitude, 0.75 * stated)
             if found is None:
                 return None

@@ -1,8 +1,8 @@
 """Tests of equilibria and of small motions about them: stability, frequencies and decay.
 
-The described system is linearised numerically on the manifold of its constraints, at constant momenta of its cyclic
-coordinates. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some s) or
-oscillates (s = i omega).
+The described system is linearised numerically on the manifold of its constraints. The known momenta of cyclic
+coordinates are constant. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some
+s) or oscillates (s = i omega).
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
 Dynamics*, section 6.
@@ -27,13 +27,15 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
 SMALL = 1e-3  # step of the finite differences for the derivatives; their error is of the order of SMALL**4
-SURE = 1e-3  # Re s counts as zero below this fraction of the largest |s|, and |s|**2 below this fraction of its square
+# Re s counts as zero below this fraction of the largest |s|; |s|**2 counts as zero below this fraction of the largest
+# |s|**2.
+SURE = 1e-3
 FREQUENCY = 1e-5  # relative accuracy of squared frequencies; the tests allow ten times this value
 STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; the tests allow ten times this value
 DOUBLE = 1e-4  # relative accuracy of eigenvalues s; low, because two nearly equal eigenvalues are less accurate
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # number of trials that satisfy a condition, and number of trials that violate the condition
+DRAWS = 8  # number of trials; if the stability has a condition, also the number of trials that violate the condition
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 

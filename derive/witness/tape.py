@@ -93,8 +93,8 @@ def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
     """Return a definite function of time that replaces a prescribed function X(t) or one of its derivatives.
 
     X(t) is replaced by c + A sin(w t + p) + B sin(v t + q). The numbers follow from the name of X, and the values of
-    the function are in the range of X. No equation in mechanics has this function as a solution by accident, and its
-    derivatives are exact.
+    X(t) are in the range of X. An equation of motion is unlikely to have this function as a solution by accident. The
+    derivatives of the function are exact.
     """
     own, source = prescribed.function, Random(crc32(prescribed.function.name.encode()))
     known = range_of(own) or (POSITIVE if own.is_positive else None)

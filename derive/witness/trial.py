@@ -1,8 +1,8 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
 The seed of a random number consists of the name of its symbol, the index of the trial and a count of the attempts.
-So every run tests all claims about one system with the same numbers. The numbers are in the ranges of their symbols and
-satisfy the assumptions of the page.
+So the numbers are the same in every run. They are in the ranges of their symbols and satisfy the assumptions of the
+page.
 """
 
 from __future__ import annotations
@@ -99,7 +99,11 @@ def _fraction(number: float) -> Any:
 class Trial:
     """A description with one set of numbers.
 
+    number    the index of the trial; the random numbers depend on it
+    assumed   relations that the numbers and the states must satisfy
+    fixed     numbers for some of the symbols, in place of random ones
     letters   given values of constants, such as `m = 2 M`; `state` takes given values of coordinates and rates
+    momenta   the symbols of momenta, each with its coordinate
     """
 
     def __init__(
@@ -172,7 +176,8 @@ class Trial:
         return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state. A small `wide` makes all rates small, and all coordinates without a range or a sign."""
+        """A random state. If `wide` is small, all rates are small. The coordinates that have no range and need not be
+        positive are then also small."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)

@@ -579,7 +579,7 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
         (lambda x: solution(equation(x.rate + x.symbol, h), x, x0, v0), "of first order"),
         (lambda x: solution(equation(x.acceleration + x.symbol, log(t)), x, x0), "the driving force"),
         (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is unknown"),
-        (lambda x: steady_amplitude(equation(x.acceleration + x.symbol, h), x), "is not driven by one"),
+        (lambda x: steady_amplitude(equation(x.acceleration + x.symbol, h), x), "is not driven by a single force"),
     ],
 )
 def test_motions_that_no_such_equation_gives_are_refused(wrong: Callable[[Coordinate], Any], said: str) -> None:

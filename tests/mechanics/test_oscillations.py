@@ -93,7 +93,7 @@ def test_what_is_no_equilibrium_is_refused(place: Any) -> None:
 def test_an_equation_with_another_coordinate_is_refused() -> None:
     r = coordinate("r", "length")
     L = of_system(r.symbol * sin(q), -r.symbol * cos(q), r, THETA)
-    with pytest.raises(Rejected, match="`equation_of_motion` also has r, for which there is no equation"):
+    with pytest.raises(Rejected, match="`equation_of_motion` also contains r, for which no equation is given"):
         linearised(equation_of_motion(L, THETA))
 
 

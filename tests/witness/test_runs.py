@@ -115,7 +115,7 @@ def test_a_slow_impact_never_makes_the_string_slack() -> None:
     assert str(found.value) == "g*m*(3*cos(theta) - 1) > 0"
     wrong = replace(found, value=Relation(cos(q), "=", Rational(1, 3)))
     verdict = runs.leaves(claim(wrong, outcome="lost", unknown=cos(q), start=Integer(1)))
-    assert verdict is not None and verdict.detail == "the described motion from this start does not reach this place"
+    assert verdict is not None and verdict.detail == "the described motion from this start does not reach this position"
 
 
 def test_a_solution_is_followed_from_its_own_start() -> None:

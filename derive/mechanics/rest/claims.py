@@ -157,8 +157,8 @@ def numbers_here(facts: Judged) -> list[Point]:
 
 
 def _signs_by_numbers(facts: Judged, beside: Sequence[Relation] = ()) -> list[tuple[Point, int]]:
-    """Return trial points, each with the sign of the energy to second order; some of the points are close to the given
-    boundaries."""
+    """Return trial points, each with the sign of the change of the energy near the equilibrium, to second order. Some
+    of the points are close to the given boundaries."""
     letters, points = _letters_here(facts), numbers_here(facts)
     points += [point for each in beside for point in beside_border(each, points, *_exists(facts))]
     numbers = tuple(tuple(point[s] for s in letters) for point in points)
@@ -226,9 +226,10 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether a displacement grows at every set of trial numbers at which the energy falls in some direction.
+    """Whether a displacement grows at the trial numbers at which the energy falls in some direction.
 
-    This must be checked because gyroscopic forces could stabilise the equilibrium.
+    This must be checked because gyroscopic forces could stabilise the equilibrium. If the mass points and forces are
+    unknown, the result is true.
     """
     matter = matter_of(facts.quantities["potential"])
     falling = [numbers for numbers, sign in _signs_by_numbers(facts) if sign == -1]
@@ -236,8 +237,12 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is never negative; only then is a minimum of U stable. Trial numbers that do
-    not satisfy the assumptions of positivity are skipped."""
+    """Whether the kinetic energy is not negative for a few sets of trial numbers; a minimum of U is stable only if it
+    is never negative.
+
+    Trial numbers that do not satisfy the assumptions of positivity are skipped. If the mass points and forces are
+    unknown, the result is true.
+    """
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
     return matter is None or inertia_is_positive(matter, _at_rest(facts), there)
@@ -275,7 +280,7 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides: all derivatives to the eighth vanish, or the sign of the first nonzero derivative,
+    """Whether no order decides: all derivatives up to the eighth vanish, or the sign of the first nonzero derivative,
     which the sentence states, is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
@@ -577,10 +582,10 @@ def at_its_place(facts: Judged, state: Any) -> bool:
 
 
 def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls a motion steady only if coordinates were eliminated with conserved momenta. If the
-    potential energy itself results from this elimination, a sentence about one coordinate must do this.
+    """Whether the sentence calls a state a steady motion only if coordinates were eliminated with conserved momenta.
 
-    The eliminated coordinates still move, so the state is a steady motion and not an equilibrium at rest.
+    The eliminated coordinates still move, so such a state is not an equilibrium at rest. If the potential energy itself
+    results from this elimination, a sentence about one coordinate must call the state a steady motion.
     """
     of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
     reduced = [

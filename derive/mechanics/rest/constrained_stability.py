@@ -1,7 +1,7 @@
 """Stability of an equilibrium with constraints f_a = 0 that constraint forces maintain.
 
-Only displacements z with grad f_a . z = 0 are allowed. At equilibrium grad U = sum of lambda_a grad f_a. So the
-potential energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
+Only displacements z with grad f_a . z = 0 are allowed. At equilibrium grad U = sum of lambda_a grad f_a. So the change
+of the potential energy along the constraints is, to second order, (1/2) z . (U'' - sum of lambda_a f_a'') z.
 """
 
 from __future__ import annotations

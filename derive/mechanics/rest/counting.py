@@ -22,7 +22,8 @@ LITTLE = 1e-9
 
 
 def is_countable(sought: Sequence[Symbol]) -> bool:
-    """Whether the changes of sign can be counted: there is one coordinate, and the ends of its range are excluded."""
+    """Whether the changes of sign can be counted: there is one coordinate, and its range, if it has one, does not
+    include its ends."""
     known = range_of(sought[0])
     return len(sought) == 1 and (known is None or True not in known.closed)
 
@@ -55,7 +56,7 @@ def signs_counted(
             return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
-    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of letters")
+    return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of numbers")
 
 
 def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:

@@ -87,7 +87,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
     Without the rates, -L is U minus the part of T that comes from a prescribed motion; F acts at the position r.
 
-    of   the Lagrangian, J; an energy without rates is returned unchanged
+    of   the Lagrangian, J; an energy without rates and without given forces is returned unchanged
     Second route: the work of the forces and of the inertial forces on mass points at rest is -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
     Errors: the Lagrangian contains the time explicitly; a given force is not constant.
@@ -127,13 +127,13 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
 
 def _given_pushes(of: Quantity) -> list[Expr]:
-    """Return F . r of the given constant forces; reject forces that are not constant."""
+    """Return the terms of F . r for the given constant forces; reject forces that are not constant."""
     acted = of.fact(ActedOn)
     found = []
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
-            message = f"a given force is not constant, {push.components[0]}, so its potential energy is unknown"
+            message = f"the given force {push.components[0]} is not constant, so its potential energy is unknown"
             help_line = "a force with a potential energy U is given by `potential(U)`"
             raise Rejected(Complaint("changes", message, help=help_line))
         found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
@@ -152,8 +152,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
     Keys: for the conditions, `condition_` and the name of the coordinate; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
-    Second route: the virtual work of forces and inertia at the equilibrium; for one coordinate also all zeros of the
-    force are counted numerically, for some values of the symbols.
+    Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force
+    are also counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
@@ -168,7 +168,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
-        message = f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: equilibrium at every value"
+        message = (
+            f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: every value is an equilibrium"
+        )
         raise Rejected(Complaint("wrong-argument", message))
     forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
     others = [q for q in potential.coordinates if q not in sought and any(f.has(q) for f in forces.values())]
@@ -188,7 +190,7 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
     tied = next((c for c in constraints_of(of) if any(c.along(q) != 0 for q in sought)), None)
     if tied is not None:
         message = f"`equilibria`: a force maintains the constraint {tied.left} = {tied.right} between the coordinates"
-        help_line = "use free coordinates: write the places with fewer coordinates, without this constraint"
+        help_line = "write the positions with fewer coordinates, so that this constraint is not needed"
         raise Rejected(Complaint("constrained", message, help=help_line))
 
 
@@ -243,7 +245,10 @@ def _on_all_sides(forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _solved(forces: Sequence[Expr], unknown: list[Symbol], state: State) -> list[State]:
-    """Return all states in which the forces vanish, by solving one equation after another; empty if there are none."""
+    """Return all states in which the forces vanish; empty if there are none.
+
+    Linear equations are solved together if the solution is unique. Otherwise one equation is solved after another.
+    """
     left = [force for force in (tidied(f) for f in forces) if not is_zero(force)]
     if any(not force.has(*unknown) for force in left):
         return []
@@ -310,7 +315,7 @@ CONDITION = Rule(
 
 
 def _condition(potential: Quantity, q: Symbol, force: Expr) -> Quantity:
-    """Equilibrium condition, dU/dq = 0, factored.
+    """Equilibrium condition, dU/dq = 0.
 
     Outcomes: generic, zero.
     Source: the same as for `equilibria`.
@@ -340,7 +345,8 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """Return the single coordinate as `steady` if U contains conserved momenta; otherwise an empty mapping."""
+    """If U contains conserved momenta and there is one coordinate, return this coordinate with the key `steady`;
+    otherwise return an empty mapping."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -385,8 +391,10 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor of the force without q is zero. If a factor without q is zero,
-    every value of q is an equilibrium."""
+    """Return the condition that the factors of the force that do not contain q are not zero.
+
+    If such a factor is zero, every value of q is an equilibrium. The result is None if no such factor may be zero.
+    """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
     if left is None or not left.left.is_Add:
@@ -396,7 +404,7 @@ def _level_where(force: Expr, q: Symbol) -> Relation | None:
 
 
 def _by_terms_if_shorter(value: Expr) -> Expr:
-    """Write l + m g/k, not (m g + k l)/k, if the denominator is only a product."""
+    """Write l + m g/k, not (m g + k l)/k, if this is shorter and the denominator contains no sum, sine or cosine."""
     if not value.as_numer_denom()[0].is_Add or value.as_numer_denom()[1].atoms(Add, sin, cos):
         return value
     return min((value, by_terms(value.expand())), key=length)

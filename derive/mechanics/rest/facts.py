@@ -33,7 +33,7 @@ class RestOf(Fact):
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy.
+    """Return the mass points and forces behind a potential energy; None if they are unknown.
 
     For an effective potential energy, the mass points and forces do not contain the coordinates that were eliminated
     with constant momenta.
@@ -61,9 +61,11 @@ class Shape(Fact):
 class StableWhere(Fact):
     """The condition for stability in one coordinate.
 
+    energy         the potential energy, J
     place          the equilibrium value of the coordinate
     border         a symbol and its value on the boundary of the condition
-    stable_there   the verdict of the higher order that decides on the boundary; None if no order decides
+    stable_there   whether the equilibrium is stable on the boundary, by the higher order that decides there; None if no
+                   order decides
     """
 
     missing = "is not a result of `stability` that depends on a condition"

@@ -45,6 +45,9 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
     place    the equilibrium values of the coordinates
     points   numbers for the symbols of the energy, such that the energy falls in some direction
+
+    If gyroscopic forces act, all points are tried with several values of the other symbols; otherwise a few points are
+    enough. The result is also true if `_motion` gives no matrices for some numbers.
     """
     tried = 0
     for point in points:
@@ -63,7 +66,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no eigenvalue of M is negative at equilibrium; then the kinetic energy is never negative there."""
+    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; then the kinetic energy is not
+    negative there."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:

@@ -1,7 +1,7 @@
 """The mass matrix of a system at given coordinates: whether it has an inverse, and whether it is positive definite.
 
 M_ij is the factor of the rate of q_j in the momentum p_i. If M has an inverse in general, but not at some values of the
-coordinates, the coordinates are singular at these values: they do not determine how the system moves away from there.
+coordinates, the coordinates are singular there: they do not determine how the system moves away.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
     """Whether the kinetic energy is positive for every motion through the given values of the coordinates.
 
     The kinetic energy of a `System` is always positive, because its masses are positive. For a given Lagrangian the
-    sign may depend on the symbols: then the sign is taken to be positive, and the page states the condition.
+    sign may depend on the symbols: then it is taken to be positive, and the page states this condition.
     """
     if not isinstance(matter, Varied):
         return True

@@ -16,14 +16,14 @@ from derive.steps.rule import Judged
 
 DIGITS = 60
 STEP = 14  # a small displacement is 10^-STEP
-TURNS = 12  # steps of Newton's method; each step doubles the number of correct digits
+TURNS = 12  # largest number of steps of Newton's method; each step about doubles the number of correct digits
 
 
 def signs_on_constraints(facts: Judged, points: Sequence[Mapping[Any, Expr]]) -> set[int]:
     """Return the set of the signs of the energy change for the given numbers.
 
-    The sign is 1 if the energy rises along all allowed displacements, -1 if it falls along at least one, and 0 if it is
-    constant to second order along some and falls along none.
+    The sign is 1 if the energy rises along all allowed displacements, and -1 if it falls along at least one. Otherwise
+    the energy is constant to second order along some of them, and the sign is 0.
     """
     moving = list(facts.inputs["coordinates"])
     functions = [facts.inputs["potential_here"], *facts.inputs["constraints"]]

@@ -44,7 +44,8 @@ def sides_of(forces: Mapping[Symbol, Expr]) -> Iterator[Mapping[Expr, Expr]]:
 
 
 def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
-    """Return the state with the condition that all these lengths are positive; None if they are never all positive."""
+    """Return the state with the condition that all these lengths are positive; None if a length is known to be zero or
+    negative."""
     for each in lengths:
         there = tidied(each.xreplace(dict(state.values)))
         sign = sign_where(there, state.exists)

@@ -55,7 +55,11 @@ STEADY = Spelled(
 
 @dataclass(frozen=True)
 class Place:
-    """An equilibrium whose stability is judged: a potential energy, its coordinates, and their values."""
+    """An equilibrium whose stability is judged: a potential energy, its coordinates, and their values.
+
+    exists   the condition under which the equilibrium exists; None if there is no condition
+    rest     the step that found the equilibrium; None if the values are given
+    """
 
     potential: Quantity
     coordinates: tuple[Symbol, ...]
@@ -80,12 +84,12 @@ def stability(
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
-    Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known;
-    for several coordinates the energy of a small displacement in an arbitrary direction.
+    Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
+    For several coordinates, the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
-    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order to the eighth decides);
-    for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second order the
-    energy is constant in some direction, and falls in none).
+    depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order up to the eighth
+    decides); for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second
+    order the energy is constant in some direction, and falls in none).
     Errors: a force remains at the equilibrium; coordinates are missing; the energy of several coordinates has no
     minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a magnetic
     field.
@@ -106,7 +110,8 @@ def stability(
 
 
 def _state(place: Place) -> Relation:
-    """Return the equation of the equilibrium; for one coordinate, the right side is the symbol of the equilibrium."""
+    """Return the equation of the equilibrium. For one coordinate, the right side is the symbol of the equilibrium if a
+    step found it, otherwise the value."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
@@ -261,7 +266,11 @@ def _decided_where(
 
 
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
-    """Return the outcome, the condition for stability, and the value of a symbol on the boundary of this condition."""
+    """Return the outcome, the condition for stability, and the value of a symbol on the boundary of this condition.
+
+    The condition is None if the stability does not depend on one. The value is None unless a higher order decides on
+    the boundary.
+    """
     if is_zero(value):
         return _by_higher_order(place, place.energy), None, None
     sign = sign_where(value, place.exists)

@@ -47,9 +47,10 @@ class About:
     steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   the symbols of the cyclic momenta and their values in the steady motion
-    letter    a symbol that the condition of the steady motion determines, and the value of this symbol
-    instead   a rate expressed by the symbol of a momentum, for a shorter result
+    momenta   values in the steady motion: of the symbol of a cyclic momentum or, if a value of the momentum is given,
+              of a symbol in this value
+    letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
+    instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """
 
     potential: Quantity
@@ -62,17 +63,17 @@ class About:
     instead: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     def there(self, value: Expr) -> Expr:
-        """Return the value at q = `place`, where only the cyclic coordinates move."""
+        """Return the value at q = `place`, with the rates and accelerations of the coordinates of `matter` set to 0."""
         still = {rate(s, n): ZERO for s in self.matter.coordinates for n in (1, 2)}
         return bound(explicit(value), still).subs(self.q, self.place)
 
     def known(self, value: Expr) -> Expr:
-        """Substitute the values of the momenta, and eliminate one symbol with the condition of the steady motion."""
+        """Substitute the values of the momenta, then the values in `letter` and in `instead`."""
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """Yield copies in which one rate is eliminated, as s = w - Omega cos(alpha) by a momentum w = s + Omega
-        cos(alpha)."""
+        """Yield copies in which a momentum eliminates one rate: with w = s + Omega cos(alpha), the rate s becomes
+        w - Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -124,7 +125,9 @@ def frequency_squared_about(
     mass = tidied(about.there(diff(about.matter.momentum_along(q), rate(q))))
     curvature = about.there(diff(energy, q, 2))
     if is_zero(mass):
-        raise Rejected(Complaint("wrong-argument", f"nothing has a mass along {q.name} there, so nothing oscillates"))
+        raise Rejected(
+            Complaint("wrong-argument", f"`{at.key}`: the inertia along {q.name} is zero there, so nothing oscillates")
+        )
     forms = {each: by_one_square(presented(each.known(curvature / mass))) for each in (about, *about.by_momenta())}
     about, result = min(forms.items(), key=lambda form: length(form[1]))
     exists = at.needed(Rest).exists if at.fact(Rest) is not None else None
@@ -218,7 +221,10 @@ def _only(potential: Quantity) -> Symbol:
 
 
 def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity) -> dict[Symbol, Expr]:
-    """Return the symbol whose elimination gives the shortest result, with its value; an empty dictionary for 0 = 0."""
+    """Return the symbol `without` with its value; by default, the symbol whose elimination gives the shortest result.
+
+    If the condition is 0 = 0, the result is an empty dictionary.
+    """
     if is_zero(condition):
         return {}
     letters = [without] if without is not None else sorted(condition.free_symbols, key=str)
@@ -239,13 +245,17 @@ def _taken_out(condition: Expr, value: Expr, without: Expr | None, at: Quantity)
 
 
 def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantity) -> dict[Symbol, Expr]:
-    """Return a symbol in a given momentum with its value: w = s + Omega cos(a) from C w = C (s + Omega cos(a))."""
+    """Return a symbol of a given momentum with its value in the steady motion.
+
+    For example, if the given momentum C w has the value C (s + Omega cos(a)) in the steady motion, return w with the
+    value s + Omega cos(a).
+    """
     known = explicit(lagrangian.value).free_symbols | value.free_symbols
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
-    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, but in the steady motion it is {value}"
-    help_line = "give the momentum by a separate symbol, or omit it"
+    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, which is {value} in the steady motion"
+    help_line = "give this momentum as a separate symbol, or omit its value"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 

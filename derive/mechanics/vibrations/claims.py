@@ -66,8 +66,11 @@ from derive.steps.trial_numbers import (
 
 
 def free_motion(wanted: str) -> Predicate:
-    """Judge the kind of a free motion by the signs of c/a and of the discriminant. If the sign of the discriminant is
-    unknown, judge by the stated condition."""
+    """Judge the kind of a free motion.
+
+    If a or c is zero, the other coefficients decide. Otherwise the signs of c/a and of the discriminant decide. If the
+    sign of the discriminant is unknown, the stated condition must fit.
+    """
 
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
@@ -99,13 +102,14 @@ def _coefficients(facts: Judged) -> tuple[Expr, ...]:
 
 
 def is_decay_rate(facts: Judged) -> bool:
-    """Whether the value is half of the coefficient of the rate, divided by that of the acceleration."""
+    """Whether the value is half the coefficient of the rate, divided by the coefficient of the acceleration."""
     a, b, _ = _coefficients(facts)
     return is_zero(2 * a * explicit(facts.result) - b)
 
 
 def is_frequency_without_damping(facts: Judged) -> bool:
-    """Whether the square of the value, times the first coefficient, is the last coefficient."""
+    """Whether a omega^2 = c, where omega is the value, and a and c are the coefficients of the acceleration and of the
+    coordinate."""
     a, _, c = _coefficients(facts)
     return is_zero(a * explicit(facts.result) ** 2 - c)
 
@@ -192,7 +196,8 @@ S = Dummy("s")
 
 
 def _of_equations(facts: Judged) -> tuple[Any, ...]:
-    """Return the symbols of the equations of motion, and the condition for the equilibrium if there is one."""
+    """Return the symbols of the equations of motion, and the condition under which the equilibrium exists, if there is
+    one."""
     exists = facts.inputs.get("exists")
     letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
     return letters, *([] if exists is None else [exists])
@@ -252,7 +257,7 @@ def always(steady: bool) -> Predicate:
 
 
 def depends(facts: Judged) -> bool:
-    """Whether all conditions hold exactly where no motion grows; points on the boundary of a condition do not count.
+    """Whether the stated conditions all hold at exactly those trial points at which no motion grows exponentially.
 
     The result must be one of the conditions.
     """
@@ -314,7 +319,8 @@ def sign_of_product(wanted: int) -> Predicate:
 def damped(sign: int | None) -> Predicate:
     """Judge whether -beta +- i omega are roots, or, for the sign -1, whether -beta +- omega are roots.
 
-    The stated conditions must hold exactly where the result is real.
+    A condition must be stated if `sign` is None, and only then. The conditions must hold exactly where the result is
+    real.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -376,8 +382,8 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must vanish there
-    exactly for a repeated root."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must also vanish
+    there if `times` is greater than 1, and must not vanish if `times` is 1."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -456,8 +462,12 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge three facts separately: `displaced`, an equilibrium value is not zero; `lossy`, there is drag (not judged
-    if None); `driven`, the right side is not zero. Each fact must hold exactly if its argument is true."""
+    """Judge three statements separately; each must be true if its argument is true, and false if it is false.
+
+    displaced   an equilibrium value is not zero
+    lossy       there is drag; not judged if None
+    driven      the right side of the equation is not zero
+    """
 
     def is_so(facts: Judged) -> bool:
         found = _displaced(facts), not is_zero(facts.inputs["loss"]), not is_zero(facts.result.right)
@@ -488,7 +498,10 @@ def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: fa
 
 def rate_of_square(sign: int | None, turned: int) -> Predicate:
     """Judge the sign of the squared frequency, and whether the square of the result is `turned` times the squared
-    frequency; `turned` is 1 for an oscillation and -1 for a growing motion."""
+    frequency.
+
+    turned   1 for an oscillation, -1 for a growing motion
+    """
     judged = _of_square(sign)
     return lambda facts: judged(facts) and is_zero(explicit(facts.result) ** 2 - turned * facts.inputs["squared"])
 
@@ -605,7 +618,7 @@ def moves_alone(facts: Judged, letter: Any) -> bool:
 
 
 def moves_so(facts: Judged, displacements: Any) -> bool:
-    """Whether the stated motion of each displacement satisfies the linear equation."""
+    """Whether the stated motions of the displacements satisfy the linear equation that the sentence names."""
     equation = explicit(facts.quantities["linear"].value).residual
     motion: dict[Any, Any] = {}
     for s, course in zip(explicit(displacements), explicit(facts.result), strict=True):

@@ -1,7 +1,8 @@
 """Small motions with drag: the exponents s of eta = a e^(s t), if the determinant det(M s^2 + C s + K) factors.
 
 A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/2a and the frequency
-sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a.
+sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a; if b/a
+is negative, the displacement grows.
 """
 
 from __future__ import annotations
@@ -136,7 +137,8 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
     a, _, *rest = root.factor.coefficients
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
-        """Substitute the exponent of the motion, s = -beta +- sqrt(beta^2 - c/a), into the determinant."""
+        """Substitute the exponents of the motion into the determinant: s = -beta +- sqrt(beta^2 - c/a) for a quadratic
+        factor, s = -beta for a linear factor."""
         square = found**2 - rest[0] / a if rest else Integer(0)
         return _remainder_at(characteristic, equations.letter, -found, square), 0
 
@@ -158,7 +160,8 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
 def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square: Expr) -> Expr:
     """Return an expression without roots that vanishes if the determinant vanishes at s = middle +- sqrt(square).
 
-    The even powers and the odd powers of sqrt(square) are separate terms; an extra symbol multiplies the odd powers.
+    The even and the odd powers of sqrt(square) are separate terms. In the odd powers, an extra symbol replaces one
+    factor sqrt(square), so both terms must vanish.
     """
     mark, weight = Symbol("r_mark"), Symbol("w_mark", real=True)
     value = Poly(_left(characteristic).xreplace({letter: middle + mark}).expand(), mark)

@@ -63,14 +63,15 @@ def steady_amplitude(
     equation: Quantity, q: Coordinate, symbol: str = "A", key: str = "steady_amplitude"
 ) -> tuple[Quantity, Quantity]:
     """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
-    tangent of the lag, tan(delta) = b omega/(c - a omega^2).
+    tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
+    if the sign of c - a omega^2 is unknown, it is assumed to be positive.
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (the lag is 0), opposite (only of the lag: without damping it is pi).
-    Errors: the equation is not linear with constant coefficients, or is not driven by a single oscillation; an
-    undamped oscillator is at resonance.
+    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag: without damping, above resonance, it is pi).
+    Errors: the equation is not linear with constant coefficients, or is not driven by a single force F cos(omega t)
+    with positive F; an undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
     linear = linear_equation(equation, q)
@@ -93,7 +94,8 @@ def steady_amplitude(
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """Check that the terms of the residual with sin(omega t) vanish, where sin(delta) = tan(delta) cos(delta)."""
+        """Check that the factor of sin(omega t) in the residual vanishes, for the motion cos(omega t) + tan(delta)
+        sin(omega t), which is proportional to cos(omega t - delta)."""
         motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
         return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
 
@@ -160,7 +162,7 @@ def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Ex
     check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
-        message = f"`steady_amplitude`: `{equation.key}` is not driven by one force F cos(omega t)"
+        message = f"`steady_amplitude`: `{equation.key}` is not driven by a single force F cos(omega t), F > 0"
         raise Rejected(Complaint("unknown-driving", message))
     return outside, inside.args[0]
 
@@ -190,9 +192,9 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate
-    Second route: with the driving force F cos(omega_0 t), omega_0 = sqrt(c/a), the motion q = Q (F/c) sin(omega_0 t)
-    satisfies the equation; and Q is 2 pi times the energy of this oscillation, divided by the work of the damping in
-    one period.
+    Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
+    q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
+    the energy that the damping takes in one period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
     symbols leave open whether Q > 1/2).
     Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.
@@ -201,7 +203,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     linear = linear_equation(equation, q)
     for value, what in ((linear.a, "inertia"), (linear.b, "damping"), (linear.c, "restoring force")):
         if sign_known(value) != 1:
-            message = f"`quality_factor`: `{equation.key}` has no positive {what}"
+            message = f"`quality_factor`: the {what} in `{equation.key}` is not known to be positive"
             raise Rejected(Complaint("wrong-argument", message, help="give the equation of a damped oscillator"))
     force, w = stand_in("F", positive=True), sqrt(linear.c / linear.a)
 
@@ -216,7 +218,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
         return found, 2 * pi * whole / work
 
     def outcome(found: Expr) -> str:
-        """Compare the squares, because an assumption such as b^2 < 4 k m decides their difference."""
+        """Compare Q^2 with 1/4: an assumption such as b^2 < 4 k m determines the sign of Q^2 - 1/4."""
         return {1: "oscillates", 0: "critical", -1: "creeps", None: "depends"}[sign_known(found**2 - HALF**2)]
 
     return establish(

@@ -28,9 +28,9 @@ from derive.steps.step import Fact
 class Linear(LinearSystem, Fact):
     """All linear equations of a system, M eta_ddot + (G + C) eta_dot + K eta = f(t), as matrices.
 
-    The fact also contains the condition for the equilibrium, the displacements eta, the driving forces f, and the value
-    of each coordinate at equilibrium. `exact` has the left sides of the equations of motion in terms of eta if all of
-    them are linear without approximation; otherwise it is empty.
+    The fact also contains the condition under which the equilibrium exists, the displacements eta, the driving forces
+    f, and the value of each coordinate at equilibrium. `exact` contains the left sides of the equations of motion in
+    terms of eta if all of them are linear without approximation; otherwise it is empty.
     """
 
     missing = "is not an equation of motion to first order"
@@ -40,14 +40,15 @@ class Linear(LinearSystem, Fact):
     exact: tuple[Expr, ...] = ()
 
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
-        """Divide each row of a matrix by the common factor of the equation that belongs to this row."""
+        """Return the matrix with each row divided by the common factor of the equation that belongs to this row."""
         size = range(matrix.shape[0])
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """Return the positive common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
+        """Return the common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
 
-        If every term has a denominator, division by the factor clears all denominators: the factor is 1/k^2 for
+        The factor contains no numbers, and nothing that may be negative. For an equation with a single term it is 1. If
+        every term has a denominator, the factor also contains the reciprocal of the common denominator: it is 1/k^2 for
         A theta_ddot/k^2 + g theta/k.
         """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]

@@ -1,10 +1,10 @@
 """Small motions with gyroscopic forces, which are linear in the rates and do no work.
 
 Such forces act in rotating frames, on tops and on charges in a magnetic field. The equations
-M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have the solutions eta = Re(a e^(i omega t)) if the determinant
-of K + i omega G - omega^2 M vanishes. This determinant is a polynomial in omega^2. An equilibrium is stable if all
-omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential energy
-has no minimum.
+M eta_ddot + G eta_dot + K eta = 0 with antisymmetric G have solutions eta = Re(a e^(i omega t)). Here omega is a root
+of the determinant of K + i omega G - omega^2 M. This determinant is a polynomial in omega^2. An equilibrium is stable
+if all omega^2 are real, positive and distinct. So gyroscopic forces may stabilise an equilibrium at which the potential
+energy has no minimum.
 """
 
 from __future__ import annotations
@@ -63,7 +63,10 @@ class TurningModes(Equations[Gyroscopic]):
     """The results of `normal_modes` with gyroscopic forces, which are linear in the rates and do no work."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the frequencies, and the motion of each frequency that has exactly one shape."""
+        """Return the frequencies, then the motion for each frequency for which the amplitudes are found.
+
+        No motion is returned for a zero or repeated frequency, or if an amplitude is neither real nor imaginary.
+        """
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
@@ -108,7 +111,8 @@ def _characteristic(equations: TurningModes) -> Quantity:
 
 
 def _in_quadrature(found: Relation, equations: TurningModes) -> tuple[Relation, Relation]:
-    """Compare with a motion of cosines and sines: the determinant for its real amplitudes is the left side squared."""
+    """Compare with a motion of cosines and sines: the determinant of the equations for the real amplitudes of this
+    motion is the square of the left side."""
     return Relation(explicit(found).residual ** 2, found.operator, 0), Relation(
         _of_cosines_and_sines(equations), "=", 0
     )
@@ -226,8 +230,8 @@ GYROSCOPIC_MOTION = Rule(
 def _motion(
     equations: TurningModes, frequency: Quantity, root: CharacteristicRoot, column: tuple[Expr, ...], n: int
 ) -> Quantity:
-    """Motion of one mode: a cosine or a sine for each coordinate; in a growing mode all coordinates have the same
-    exponential.
+    """Motion of one mode: a cosine or a sine for each coordinate that moves; in a growing mode the same exponential for
+    all these coordinates.
 
     Outcomes: departing, circle_forwards, circle_backwards, ellipse, ellipse_forwards, ellipse_backwards, straight,
     generic.
@@ -274,17 +278,17 @@ def _motion(
 
 
 def _of_time(entry: Expr, w: Expr, turn: int) -> Expr:
-    """Return the real part of r e^(i omega t), where omega is `turn` times w, and r is real or imaginary."""
+    """Return the real part of r e^(i omega t), where r is `entry`, real or imaginary, and omega is `turn` times w."""
     if entry.has(I):
         return -turn * (entry / I).xreplace({OMEGA: turn * w}) * sin(w * T)
     return entry.xreplace({OMEGA: turn * w}) * cos(w * T)
 
 
 def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
-    """Return the outcome of a mode; for two moving coordinates the outcome states the shape of the path and the sense
-    of rotation.
+    """Return the outcome of a mode. If two coordinates move, the outcome states the shape of the path and, if it is
+    known, the sense of rotation.
 
-    The path turns forwards if it turns from the first coordinate to the second.
+    The sense is forwards if the rotation is from the first of these coordinates to the second.
     """
     if root.sign == -1:
         return "departing"
@@ -305,7 +309,8 @@ def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
 def linear_stability(
     linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
 ) -> Quantity | tuple[Quantity, ...]:
-    """Stability of an equilibrium with gyroscopic forces: all omega^2 must be real, positive and distinct.
+    """Stability of an equilibrium with gyroscopic forces: the potential energy has a minimum, or all omega^2 are real,
+    positive and distinct.
 
     linear   all equations of the system, as `linearised` yields them
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
@@ -314,10 +319,10 @@ def linear_stability(
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
     potential energy. If only gyroscopic forces stabilise an equilibrium, drag on every coordinate makes the
     equilibrium unstable.
-    Second route: on the boundary of the condition two roots of the determinant coincide, or one root vanishes; this
-    determinant comes from cosines and sines that are substituted into the equations.
+    Second route: on the boundary of the condition two roots of a determinant coincide, or one root vanishes. This
+    determinant is computed by substituting cosines and sines into the equations.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
-    Errors: there is drag; the determinant does not factor.
+    Errors: there is drag; the determinant does not factor, or has a zero or repeated root and U has no minimum.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """
     together = together_for("linear_stability", linear)
@@ -349,7 +354,7 @@ def _needed(system: Gyroscopic) -> list[Expr]:
         return []
     free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
     if free or any(_may_drift(part, system) for part in system.factors):
-        message = "`linear_stability`: a zero or repeated root of the determinant leaves the stability to higher orders"
+        message = "`linear_stability`: the determinant has a zero or repeated root, so the first order cannot decide"
         if any(not part.is_free and part.degree > 2 for part in free):
             message = "`linear_stability`: the determinant has a factor whose roots have no known closed form"
         raise Rejected(Complaint("not-decided", message))
@@ -357,7 +362,7 @@ def _needed(system: Gyroscopic) -> list[Expr]:
 
 
 def _open(need: Expr, system: Gyroscopic) -> Expr:
-    """Drop the factors that are positive where the equilibrium exists.
+    """Drop the factors that are positive where the equilibrium exists; return a long expression unchanged.
 
     If the equilibrium exists for k > m w^2, (K - m w^2)(k - m w^2) becomes K - m w^2.
     """
@@ -411,7 +416,7 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
 
 
 def _rests(characteristic: Quantity) -> list[Quantity]:
-    """Return the equilibrium about which the equations are linear, if a step derived this equilibrium."""
+    """Return a list with the equilibrium about which the equations are linearised; empty if no step derived it."""
     return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
 
 
@@ -463,8 +468,8 @@ def _condition(
 
 
 def _place_among(i: int, number: int) -> str:
-    """Return the outcome for the condition with the index i; the last of several conditions has a different
-    sentence."""
+    """Return the outcome for the condition with the index i: "depends" if it is the only one, otherwise "first",
+    "further" or "last"."""
     if i == number - 1:
         return "last" if i else "depends"
     return "further" if i else "first"

@@ -223,15 +223,15 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
     constant = not any(k.has(*state) or depends_on_time(k) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
     if not constant or not whole or (a == 0 and b == 0):
-        message = f"`{equation.key}` is not a linear equation for only {q.symbol.name} with constant coefficients"
+        message = f"`{equation.key}` is not a linear equation in {q.symbol.name} alone with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return LinearCoefficients(sign * a, sign * b, sign * c, -sign * rest)
 
 
 def _left_of(equation: Quantity, q: Coordinate) -> Expr:
-    """Return the left side minus the right side of the equation. If the result is the value of a rate or an
-    acceleration, return the rate or the acceleration minus this value."""
+    """Return the left side minus the right side of the equation. If `equation` is the value of the rate or of the
+    acceleration of q, return the rate or the acceleration minus this value."""
     if equation.symbol in (q.acceleration, q.rate) and is_number(equation):
         return equation.symbol - explicit(equation.value)
     return residual_of("solution", equation)
@@ -242,14 +242,16 @@ def _check_alone(equation: Quantity, left: Expr, q: Coordinate) -> None:
     others = [rate(s, n) if n else s for s in coordinates_of(equation) if s != q.symbol for n in range(3)]
     other = next((s for s in others if left.has(s)), None)
     if other is not None:
-        message = f"`{equation.key}` is not an equation for only {q.symbol.name}: it has {other.name}, which moves too"
+        message = f"`{equation.key}` is not an equation in {q.symbol.name} alone: it also contains {other.name}"
         help_line = f"substitute the value of {other.name} from another equation"
         raise Rejected(Complaint("not-linear", message, help=help_line))
 
 
 def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | None) -> tuple[str, Relation | None]:
-    """Return the outcome, which names the kind of motion, and the condition for this kind; the condition is None if the
-    kind is certain."""
+    """Return the outcome, which names the kind of motion, and the condition for this kind.
+
+    The condition is None unless `case` decides between the kinds of damped oscillation.
+    """
     a, b, c = linear.a, linear.b, linear.c
     key = "the motion along a mode" if equation is None else f"`{equation.key}`"
     if case is not None and case not in CASES:
@@ -270,7 +272,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         message = f"{key}: the sign of {linear.discriminant} is unknown"
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
-        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}"))
+        raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}, not {str(case).replace('_', ' ')}"))
     if known == "overdamped" and sign_known(c / a) == -1:
         return "runs_away", None
     if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only
@@ -363,7 +365,7 @@ def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
 def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
     """Return the motion under a force that is a polynomial in t, by the method of undetermined coefficients.
 
-    The motion is a polynomial in t, with the factor t if only c = 0, and with the factor t^2 if b = c = 0.
+    The motion is a polynomial in t. It has the factor t if c = 0 but b is not zero, and the factor t^2 if b = c = 0.
     """
     degree = power.as_poly(TIME).degree() if depends_on_time(power) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2
@@ -455,7 +457,8 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
 
 
 def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficients, sort: str) -> Expr:
-    """Write the free motion as e^(-b t/2a) (C cos + D sin), with the common exponential as a factor."""
+    """Write the free motion as a sum. An underdamped or critically damped motion has the common exponential as a
+    factor, as in e^(-b t/2a) (C cos + D sin)."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
     inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)

@@ -48,10 +48,12 @@ def linearised(
     """Equations of motion to first order in the displacements from equilibrium, M eta_ddot + G eta_dot + K eta = f(t).
 
     motion   the equations, as `equations_of_motion` yields them; or a single equation for one coordinate
-    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0
-    key      the beginning of the keys; with the default the key for theta is linearised_theta
+    at       the equilibrium: as `equilibria` yields it, or `{theta: 0, phi: pi}`; by default all coordinates are 0. For
+             a single equation, `at` may also be the value of its coordinate
+    key      the beginning of the keys; with the default the key for theta is linearised_theta. A single equation has
+             the key `key` itself if `at` is a value or is omitted
 
-    Forces linear in the rates, such as drag, give G; terms f that depend only on the time drive the motion. If a
+    Forces linear in the rates, such as drag, give G. Terms that depend only on the time give the driving forces f. If a
     coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several such
     coordinates.
     Second route: M, G and K are derivatives of the momenta of the mass points and of the generalised forces.
@@ -192,8 +194,8 @@ def _one(
 def _exact(
     equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr], eta: Sequence[Coordinate]
 ) -> tuple[Expr, ...]:
-    """Return the left sides in terms of the displacements if no equation has a term of higher order; otherwise
-    nothing."""
+    """Return the left sides in terms of the displacements if no equation has a term of higher order; otherwise an empty
+    tuple."""
     put = {q.symbol: place[q.symbol] + s.symbol for q, s in zip(moving, eta, strict=True)}
     for q, s in zip(moving, eta, strict=True):
         put.update({q.rate: s.rate, q.acceleration: s.acceleration})
@@ -204,9 +206,9 @@ def _exact(
 
 
 def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
-    """Return the left side with sin(u) = u and cos(u) = 1 for angles u that vanish at equilibrium.
+    """Return the left side, divided by `common`, with sin(u) = u and cos(u) = 1.
 
-    The result is None if there are no angles, or if an angle does not vanish at equilibrium.
+    The result is None if there is no sine or cosine, or if an argument u does not vanish where all coordinates are 0.
     """
     left = explicit(equation.value).residual / common
     angles = left.atoms(sin, cos)
@@ -226,7 +228,7 @@ def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
 
 
 def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
-    """Return the functions of the angle that are expanded to first order."""
+    """Return the sine and the cosine of the coordinate if they are expanded and occur in the equation."""
     functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
     return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
 
@@ -263,7 +265,8 @@ def _outcome(linear: Linear, own: int, displaced: bool) -> str:
 
 
 def _loss(linear: Linear) -> dict[str, Expr]:
-    """Return the rate at which small motions lose energy, from the symmetric part of G."""
+    """Return the rate at which small motions lose energy, with the key `loss`; it depends only on the symmetric part
+    of G."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
 
@@ -280,7 +283,7 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
             help_line = "write the positions with fewer coordinates, so that this constraint is not needed"
             raise Rejected(Complaint("constrained", message, help=help_line))
         if others:
-            message = f"`linearised`: `{equation.key}` also has {others[0].name}, for which there is no equation"
+            message = f"`linearised`: `{equation.key}` also contains {others[0].name}, for which no equation is given"
             help_line = "give all equations together, as `equations_of_motion` yields them"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
@@ -318,7 +321,8 @@ def _check_exists(at: Any) -> None:
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Check that at rest, at the given values, only driving forces remain in the equations."""
+    """Check that the coefficients do not depend on the time, and that at rest, at the given values of the coordinates,
+    only driving forces remain in the equations."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
@@ -367,8 +371,12 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: the own equation; another one if there are several; and for the
-    first of more than two equations, also one in the middle, so that the sentence says "(6) to (8)"."""
+    """Return the equations that the sentence names: equation i and, if there are several, the equation before it, which
+    for the first equation is the last one.
+
+    For the first of more than two equations, the second equation is also returned, so that the sentence says
+    "(6) to (8)".
+    """
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}
@@ -383,7 +391,8 @@ def _of_second_order(
 ) -> Relation:
     """Derive the equation from mass points: differentiate momentum and generalised force at equilibrium.
 
-    The kinetic energy does not suffice, because it does not give the forces if cyclic coordinates are eliminated.
+    Momenta and forces are used, because the kinetic energy does not give the forces if cyclic coordinates are
+    eliminated.
     """
     matter, q = equations[i].needed(Matter), moving[i]
     momentum = explicit(matter.momentum_along(q.symbol))

@@ -55,15 +55,19 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     """Normal modes of M eta_ddot + K eta = 0: eta = a cos(omega t), det(K - omega^2 M) = 0, (K - omega^2 M) a = 0.
 
     linear   the equations, as `linearised` yields them
+    symbol   the symbol of the frequencies, by default omega; for one coordinate by default omega_0; not used with drag
     key      the beginning of the keys; a second set of modes on a page needs a `key` and its own `symbol`
 
-    Keys: characteristic_equation; frequency_1, frequency_2, ... in ascending order; mode_1, mode_2, ... for the shapes.
+    Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
+    linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
+    If the order depends on the symbols, it is the order for one set of numbers.
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
     which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
-    keys are decay_1, decay_2, ... for the decay rates, and a frequency for each quadratic factor of the determinant.
-    Second route: the motion satisfies the linear equations; omega^2 is Rayleigh's quotient of stiffness and mass for
-    the shape; the sum of all omega^2 is the trace of M^-1 K; the shapes are orthogonal with respect to M.
+    keys are decay_1, decay_2, ... for the decay rates, and frequency_1, frequency_2, ... for the quadratic factors of
+    the determinant. If the determinant has only one factor, the keys are `decay` and `frequency`.
+    Second route: the motion satisfies the linear equations, and the shapes are orthogonal with respect to M. For each
+    shape, omega^2 is Rayleigh's quotient of stiffness and mass. The sum of all omega^2 is the trace of M^-1 K.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
     depends on the symbols); if two or more modes have the same frequency: oscillating_repeated, growing_repeated,
     free_repeated, conditional_repeated; for a root without a formula: ordered (numbered among all roots), ordered_part
@@ -168,7 +172,7 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional, oscillating_repeated, growing_repeated, free_repeated,
-    conditional_repeated.
+    conditional_repeated, ordered, ordered_part.
     Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
@@ -357,13 +361,19 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.
     Check: the sum of the two oscillations is this product, at any time.
-    Errors: the first frequency is not the lower one, or is zero; an input is not an angular frequency.
+    Errors: the first frequency is zero, or is not lower than the second; an input is not an angular frequency.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
     for role, each in (("slow", slow), ("fast", fast)):
         require_kind("beats", role, each, "angular speed")
     if slow.value == 0 or is_zero(fast.value - slow.value):
-        raise Rejected(Complaint("no-beats", f"`{slow.key}` and `{fast.key}` do not beat", help="give two frequencies"))
+        raise Rejected(
+            Complaint(
+                "no-beats",
+                f"`{slow.key}` and `{fast.key}` do not beat",
+                help="give two different frequencies other than 0",
+            )
+        )
 
     def product(found: Expr) -> tuple[Expr, Expr]:
         middle = (slow.value + fast.value) / 2

@@ -106,7 +106,7 @@ def _quotient(stiffness: Expr, mass: Expr) -> Expr:
 
 
 def _squared_form(value: Expr) -> Expr:
-    """Write g/l - omega^2, not (g - l omega^2)/l, if that is shorter."""
+    """Write g/l - omega^2 in place of (g - l omega^2)/l if the first form is shorter."""
     forms = [tidied(value), spread_or_by_terms(tidied(value))]
     return min(forms, key=length)
 
@@ -135,7 +135,8 @@ def _turned(value: Expr) -> Expr:
 
 
 def told_where_positive(square: Expr) -> dict[str, tuple[Relation, Relation]]:
-    """Return the condition under which the square of a frequency is positive, if this condition is short."""
+    """Return the condition under which the square of a frequency is positive, if the square is short and contains no
+    root; otherwise an empty dictionary."""
     has_roots = any(not power.exp.is_Integer for power in square.atoms(Pow))
     if has_roots or len(Add.make_args(square.expand())) > SHORT:
         return {}
@@ -153,7 +154,7 @@ def frequency(
 
     squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence states the condition for an oscillation
-    stands_for  keys of the steps that exist only if the sign of the square is unknown; they also denote this step
+    stands_for  further keys of this step; steps of their own have these keys only if the sign of the square is unknown
     Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and the result is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.

@@ -1,6 +1,6 @@
-"""The usual constants of an oscillator a q_ddot + b q_dot + c q = f(t), in which its motion is short.
+"""The usual constants of an oscillator a q_ddot + b q_dot + c q = f(t), with which the formula of the motion is short.
 
-A motion proposes them. A step is made only for a constant that a result contains.
+The step that derives the motion proposes these constants. A constant gets its own step only if a result contains it.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ OSCILLATOR_CONSTANT = Rule(
 
 
 def oscillator_constants(equation: Quantity, q: Symbol, a: Expr, b: Expr, c: Expr) -> Iterator[Proposal]:
-    """Propose beta = b/(2 a), omega_0 = sqrt(c/a) and, with damping, omega_1 = sqrt(omega_0^2 - beta^2), in 1/s.
+    """Propose omega_0 = sqrt(c/a) and, with damping, beta = b/(2 a) and omega_1 = sqrt(omega_0^2 - beta^2), in 1/s.
+
+    Nothing is proposed unless a and c are known to be positive, and b is known to be positive or zero.
 
     equation   the equation of motion whose coefficients are a, b and c
     q          the coordinate
@@ -61,8 +63,11 @@ def _proposed(
     of: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
-    """Propose a constant, or a defined quantity with its value, or an earlier result with the same symbol and value;
-    None if the symbol is not free or would only rename another symbol."""
+    """Propose a constant. If a defined quantity has the same value, or an earlier result has the same symbol and value,
+    propose this quantity or result instead.
+
+    The result is None if the symbol already has another meaning, or if the constant would only rename a symbol.
+    """
     value = tidied(value)
     name = free_letter(name)
     known = next((each for each in defined_quantities() if same_value(each.value, value)), result_called(name))
@@ -77,7 +82,7 @@ def _proposed(
 def _constant(
     symbol: Symbol, value: Expr, outcome: str, of: Mapping[str, Any], others: tuple[Proposal, ...]
 ) -> Quantity:
-    """A constant of the oscillator, by the coefficients of its equation, or by omega_0 and beta: a definition.
+    """Definition of a constant of the oscillator, from the coefficients of its equation, or from omega_0 and beta.
 
     Outcomes: decay_rate, without_damping, with_damping.
     Source: Taylor, *Classical Mechanics*, section 5.4.

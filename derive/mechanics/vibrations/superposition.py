@@ -1,8 +1,8 @@
 """The motion of coupled coordinates from their initial values, as a sum of normal modes.
 
-The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator, with the
-mass a.M a, the stiffness a.K a and, if drag does not mix the modes, the drag a.C a. The initial value of this
-oscillator is a.M eta(0)/(a.M a).
+The shapes are orthogonal with respect to M. So the motion along each shape a is the motion of one oscillator. The mass
+of this oscillator is a.M a, its stiffness is a.K a and, if drag does not mix the modes, its drag is a.C a. The initial
+value of the oscillator is a.M eta(0)/(a.M a).
 """
 
 from __future__ import annotations
@@ -40,8 +40,15 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ExcitedMode:
-    """One mode in a motion: the shape, the initial values of the oscillator along the shape, and the frequency if a
-    step derives the frequency."""
+    """One mode in a motion: the shape, the initial values of the oscillator along the shape, and the frequency.
+
+    column      the shape
+    first       the initial value of the oscillator
+    initial     the initial rate of the oscillator
+    frequency   the step that derives the frequency; None with drag
+    sign        the sign of omega^2; None if it is unknown
+    damped      the motion of the oscillator with drag; not used without drag
+    """
 
     column: MatrixBase
     first: Expr
@@ -74,8 +81,8 @@ def motions_by_modes(
     """Motion of all coordinates from their start, eta(t) = sum of a_n (A_n cos(omega_n t) + B_n sin(omega_n t)).
 
     modes        the modes, as `normal_modes` yields them
-    start        the value of each displacement at t = 0; 0 by default
-    start_rate   the rate of each displacement at t = 0; 0 by default
+    start        the values of the displacements at t = 0; a displacement that is not listed is 0
+    start_rate   the rates of the displacements at t = 0; a rate that is not listed is 0
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
     Keys: of_t_x for a coordinate x; with a `key`, this key in place of of_t.
     Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
@@ -105,7 +112,7 @@ def _check_displaced(given: Mapping[Coordinate, Expr], together: Linear) -> None
     for q in given:
         if all(s.symbol != q.symbol for s in together.displacements):
             names = ", ".join(s.symbol.name for s in together.displacements)
-            message = f"`motions_by_modes` needs the start of displacements, {names}, but {q.symbol.name} is not one"
+            message = f"`motions_by_modes` needs values of the displacements {names}, but {q.symbol.name} is not one"
             raise Rejected(Complaint("wrong-argument", message))
 
 
