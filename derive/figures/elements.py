@@ -141,7 +141,7 @@ def wedge(*corners: Any, label: Any = None) -> Mark:
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
     """Hatched ground from one point to another, with its solid side below.
 
-    under   a block or a cart on the ground, so the line is drawn at its base
+    under   a block or a cart on the ground, without a given height; the ground is then drawn at its base
     """
     return _ground(start, end, "down", under)
 

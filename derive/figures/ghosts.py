@@ -1,4 +1,4 @@
-"""Dashed outlines of the bodies of a system at other values of its coordinates."""
+"""Dashed outlines of the bodies of a system at another value of one coordinate."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ class InNumbers(Protocol):
 
 @dataclass(frozen=True)
 class Paper(ABC):
-    """The data that a mark needs to be drawn, and the outlines of solids, which hide marks behind them.
+    """The data from which a mark computes its pieces, and methods that return the pieces of solids.
 
     numbers   the values of expressions
     stance    the projection onto the paper
@@ -114,7 +114,10 @@ class Paper(ABC):
 
     @abstractmethod
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """Return the pieces of a solid with flat faces, each given by its corners, with labels at some edges."""
+        """Return the pieces of a solid with flat faces, with labels at some edges.
+
+        Each face is a sequence of indices in `corners`.
+        """
 
     @abstractmethod
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:

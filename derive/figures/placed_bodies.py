@@ -61,7 +61,8 @@ class ThickBar(BarMark):
     layer: ClassVar[int] = 2
 
     def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
-        """Return the label at a third of the line, because the centre of mass is marked at the middle of the line."""
+        """Return the label at two thirds of the line, because the centre of mass is marked at the middle of the
+        line."""
         (x, y), (u, v) = spots
         return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
@@ -196,7 +197,8 @@ def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
 
 
 def _is_top(placed: Any) -> bool:
-    """Whether a body of unknown shape is symmetric about the axis through its fixed point and its centre of mass."""
+    """Whether a body of unknown shape is drawn as a top: it has Euler angles, it is given by its moments, and its
+    centre of mass is on its z axis, above the fixed point."""
     on_axis = placed.body.middle.position - placed.point.position
     is_upright = on_axis[0] == on_axis[1] == 0 and numeric(on_axis[2]) > 0
     return follows_nodes(placed) and getattr(placed.body, "moments", None) is not None and is_upright
@@ -229,8 +231,8 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """Return the end of a body's axis that is farthest from the fixed point; the centre of mass if this end is
-    unknown."""
+    """Return the place on the z axis of a body at which its rotations are drawn: the farthest end in the positive
+    direction, or the end of the stem of a top, or the centre of mass if no end beyond the fixed point is known."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -255,8 +257,8 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """Return the marks of all parts of a body; an empty list if a removed part cannot be drawn. In space a rod is drawn
-    in pieces, so that bodies on the rod hide the pieces behind them."""
+    """Return the marks of the parts of a body; an empty list if a removed part cannot be drawn. Other parts that cannot
+    be drawn are left out. In space a rod is drawn in pieces, so that bodies on the rod hide the pieces behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
         if part.sign < 0:
@@ -420,7 +422,8 @@ def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str,
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """Yield dimension lines for the edge lengths that are symbols or multiples of a symbol, one for each length."""
+    """Yield one dimension line for each edge length that is a symbol or a multiple of a symbol, if the body has at most
+    four corners."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

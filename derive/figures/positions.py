@@ -40,8 +40,8 @@ def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
 
 
 def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Return the value of a quantity and, if the quantity is derived, its key. For a point, return its position without
-    a key; for anything else, return `thing` without a key."""
+    """Return the value of a quantity and, if the quantity is derived, its key. For a `Point` or a `Location`, return
+    its position without a key; for anything else, return `thing` without a key."""
     if isinstance(thing, Quantity):
         return thing.value, (thing.key,) if _is_derived(thing) else ()
     if isinstance(thing, Point):
