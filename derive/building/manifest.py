@@ -1,7 +1,7 @@
 """The record of the inputs of each output of a set; the record decides which outputs must be made again.
 
-A problem is up to date if its input files, the modules of derive and the options are unchanged. An output is up to date
-if, in addition, its own content is unchanged. Only content is compared, never times.
+A problem is up to date if its input files and its recipe are unchanged; `derive.building.recipe` describes recipes. An
+output is up to date if, in addition, its own content is unchanged. Only content is compared, never times.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Manifest:
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
-    recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest -> its ingredients
+    recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest of a recipe -> this recipe
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
@@ -121,7 +121,7 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether a document exists but some file, phrase or module that it was made from has changed since.
+        """Return whether the PDF of a document exists, but a file, phrase or module on which it depends has changed.
 
         Options of the command line are not compared.
         """

@@ -116,7 +116,7 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
     """Warn of answers without a number, because the author may have forgotten the number of a letter. There is no
-    warning if the answer contains coordinates or other letters that the problem does not declare."""
+    warning if a letter without a number is a coordinate or another letter that the problem does not declare."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}

@@ -1,6 +1,6 @@
 """A plot as files: one panel for each curve, with quantity and unit at each axis and with marked extrema.
 
-Numbers and names have the font of the page, and no text covers the curve.
+Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
 """
 
 from __future__ import annotations

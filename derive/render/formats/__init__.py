@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 # Documents of a set are not formats: a document needs a page and its set, but a format needs only a page.
 TYPESET, HTML = ("latex", "pdf"), "html"
-WRITTEN = "Written by derive"  # a file that begins with this line may be replaced; other files are handwritten
+WRITTEN = "Written by derive"  # only files that begin with a comment with this text may be replaced
 
 
 @dataclass(frozen=True)
