@@ -109,7 +109,7 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the results of a step; a line may end between two sides or within one."""
+        """Return the results of a step; the browser may break a formula between two sides, or within one side."""
         return Html(", ".join(self._sides_of(line) for line in credit.results))
 
     def _sides_of(self, line: ChainLine) -> str:
@@ -186,7 +186,7 @@ class HtmlPage:
         return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
 
     def contents(self) -> Sequence[PartPage]:
-        """Return the parts for the table of contents, which only a page of several parts has."""
+        """Return the entries of the table of contents; only a separate page of at least `LISTED` parts has one."""
         return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:

@@ -47,7 +47,8 @@ class Printed:
 
 @lru_cache(maxsize=1024)  # every format and the height of a display need these lines
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
-    """Return the lines of one step, at most `limit` characters wide; the last line has the number."""
+    """Return the lines of one step, at most `limit` characters wide if they can be broken; the last line has the
+    number."""
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the current equation
     framed_from = len(equations.lines) - equations.framed
