@@ -134,7 +134,7 @@ class Opened:
         return Notation(dimension_table(self._problem.dimensions, every)[0])
 
     def _formula(self, step: Step, numbers: list[tuple[str, Any]]) -> Layout:
-        """`theta = arccos(...) ~ 21.64 deg`."""
+        """Return the formula of a result with its numbers, such as `theta = arccos(...) ~ 21.64 deg`."""
         lettered = step.symbol is not None
         sign = sign_behind_name(step, step.chain[-1])
         before = [self._notation.layout(name_before(step)), Operator(sign)] if lettered else []
