@@ -68,8 +68,8 @@ def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
     """Return errors and warnings. It is an error if a form asks for a number that does not exist. Two things are only
-    warnings: an answer has no number although a number is given that only this answer could use, or the sheet does not
-    state a number that an answer needs.
+    warnings. First, an answer has no number although a number is given that no other answer or plot uses. Second, the
+    sheet does not state a number that an answer needs.
 
     values     the numbers of answers, by key
     drawings   the drawings of the problem: a plot needs numbers too

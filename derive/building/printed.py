@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The functions of this module return only text and numbers, so that a worker can send them to its parent.
+The result of `printed` contains only text and numbers, so that a worker can send it to its parent.
 """
 
 from __future__ import annotations
@@ -232,8 +232,8 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page as this kind of document shows it: the key has the level of detail `full`, the hints have
-        hints in place of the derivation, and any other document has the requested level."""
+        """Return the page as this kind of document shows it. The key has the level of detail `full`, any other document
+        has the requested level, and the hints have hints in place of the derivation."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)

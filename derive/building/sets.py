@@ -220,7 +220,7 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the documents, other than the solutions, to which each problem contributes a part."""
+        """Return the names of the documents for which each problem prints extra fragments, joined by commas."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:

@@ -64,6 +64,7 @@ def rendered(
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
     cache   the steps and drawings of earlier builds, which are used and extended
+
     The other parameters are fields of `Wanted`.
     """
     begun = time.time_ns()

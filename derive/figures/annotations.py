@@ -30,9 +30,9 @@ from derive.figures.space import (
 )
 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
-SHORTEST = 11.0  # points: the shortest dimension line that has room for its two arrowheads
-OUTSIDE = 13.0  # points: length of the arrows outside a shorter dimension line
-ASIDE = 12.0  # points: distance between a body and its dimension line
+SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
+OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
+ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 ROUND = 10.0  # least radius of a rotation arrow, in points
@@ -245,7 +245,7 @@ class Arrow(Mark):
 class Weight(Arrow):
     """A weight at its point of action.
 
-    A weight does not affect the choice of the view, because it is visible from every viewpoint. Its label may be
+    A weight does not affect the choice of the view, because it is visible in every view that is tried. Its label may be
     anywhere next to the shaft of the arrow, because the space below the tip is often occupied.
     """
 

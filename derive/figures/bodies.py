@@ -85,8 +85,8 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Return the start of the visible part of an axis: the end of a thin rod that begins at the origin and lies on the
-    positive axis, or else the origin."""
+    """Return the start of the visible part of an axis. If a thin rod goes from the origin along the positive axis, this
+    is the far end of the rod; otherwise it is the origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)

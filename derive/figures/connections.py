@@ -58,7 +58,7 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 # Values of coordinates that no constraint determines, relative to the largest body.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same for a body on a table in space, clear of the axes
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a body on a table in space, away from the axes
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
@@ -70,7 +70,7 @@ PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, re
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero up to this number
-FAR = Rational(8, 5)  # drawn range of a wire, relative to the value of its coordinate
+FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 
@@ -373,8 +373,9 @@ class Connections:
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
 
     def carries_only_blocks(self, plane: Surface) -> bool:
-        """Whether the surface is a level plane that only particles touch and that no body carries. Such a particle is
-        drawn as a block with its centre at the particle, so that springs and strings are at half its height."""
+        """Whether the surface is a level plane that only particles touch and that no body carries. Each of these
+        particles is drawn as a block with its centre at the particle. So springs and strings are at half the height of
+        the block."""
         on_it = [each.of for each in self.contacts if each.surface == plane]
         return (
             isinstance(plane, Plane)
@@ -384,7 +385,8 @@ class Connections:
         )
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
-        """Return the floor under blocks, from wall to wall, or up to a pulley."""
+        """Return the floor under blocks. It ends at fixed ends of springs and strings at its height, if there are any,
+        such as a wall or a pulley."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]

@@ -1,7 +1,7 @@
 """The extrema of a curve, from sign changes of its exact derivative.
 
 The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve on both sides
-of the extremum: next to a minimum the values of the curve must be greater, next to a maximum they must be less.
+of the extremum. The values there must be greater than a minimum, and less than a maximum.
 """
 
 from __future__ import annotations

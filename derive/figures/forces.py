@@ -49,7 +49,7 @@ OFF = Rational(
     1, 30
 )  # if a force acts along a rod: the distance of its arrow from the rod, relative to the rod's length
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
-SLIGHT, NEAR = 1e-6, 0.3  # relative to the length of an arrow
+SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians, about as in other drawings
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
@@ -61,10 +61,11 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     key     the name of the drawing
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force
+
     The lengths are to scale in the drawn state, at rest, but small forces are drawn larger. If the value of a force is
     negative, its arrow is reversed. The result is None in space, or if no connection acts on the body. It is also None
-    if a force is not among `found`, if other forces act that the diagram would not show, if the direction of a force is
-    unknown, or if the drawn state does not fulfil the contacts with curves.
+    if a force is not among `found`, or if other forces act that the diagram would not show. Finally, it is None if the
+    direction of a force is unknown, or if a body that touches a curve is not on the curve in the drawn state.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -89,8 +90,9 @@ def free_body_diagram(
 
     leads_to  the keys of the laws of this body, before which the drawing is placed
     found     as for `force_diagram`; the lengths have no meaning if a force is missing in `found`, or in space
-    The result is None if no connection acts on the body, if other forces act that the diagram would not show, or if the
-    drawn state does not fulfil the contacts with curves.
+
+    The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
+    also None if a body that touches a curve is not on the curve in the drawn state.
     """
     scene, acting = Connections(system), _acting(system, of)
     if not acting or not _shows_all(system, of, acting, {}) or not scene.is_possible:
@@ -203,8 +205,8 @@ def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points: an arrow that covers an earlier arrow is shifted, to the
-    side away from the other arrows."""
+    """Return the shift of each arrow to its left, in points. An arrow is shifted only if it covers an earlier arrow, to
+    the side away from the other arrows."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))
@@ -231,6 +233,7 @@ def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> I
     """Yield the angle of a rod, and the angles by which forces are inclined, in a plane.
 
     drawn   pairs of a force and the length of its arrow
+
     Each angle is shown once, if possible at a normal force.
     """
     if len(system.places[0].components) != 2:

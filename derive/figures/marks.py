@@ -20,7 +20,7 @@ from derive.figures.space import Vector
 from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
-InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values of its placeholders
+InWords: TypeAlias = tuple[str, dict[str, Any]]  # the name of a phrase, and the values of its placeholders
 LAST = 99  # the layer of marks that are drawn last, because they are placed next to all other marks
 SPACE, PLANE = "space", "plane"
 

@@ -269,7 +269,7 @@ class CornerRopeMark(_Piecewise):
 
 
 def _normal(along: Spot, side: Spot) -> Spot:
-    """Return the unit normal of one direction that is on the side of another direction."""
+    """Return the unit vector perpendicular to `along` that makes an acute angle with `side`."""
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] > 0 else (along[1], -along[0])
 

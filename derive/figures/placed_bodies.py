@@ -33,8 +33,8 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# A top of unknown shape: the height and radius of its cone and the end of its stem, and the length of a shaft, relative
-# to the distance of the centre of mass from the fixed point.
+# For a top of unknown shape, the height and radius of its cone and the end of its stem; then the length of a shaft. All
+# are relative to the distance of the centre of mass from the fixed point.
 TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
 STEPS = 24  # number of steps along the side of a round body
 
@@ -102,8 +102,8 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
-    """Yield the line from the centre of the rim to the centre of mass, and its angle; for a body that is balanced about
-    the centre of its rim, the rotation angle."""
+    """Yield the line from the centre of the rim to the centre of mass, and the angle of this line. If the two centres
+    coincide, yield the rotation angle of the body instead."""
     hub, centre = placed.hub, placed.centre
     yield PointMark(column_of(hub))
     if same(hub, centre):
@@ -182,8 +182,8 @@ def _kept(system: System, value: Expr) -> Expr:
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass; a symmetric body with
-    Euler angles is drawn as a top, a cone with a stem whose centre of mass is at the same place."""
+    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass. A symmetric body with
+    Euler angles is drawn as a top: a cone with a stem, and with the given centre of mass."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
     if _is_top(placed):
         start, way = column_of(placed.at), column_of(centre - placed.at)
@@ -206,7 +206,7 @@ def _is_top(placed: Any) -> bool:
 
 def _holder(system: System, placed: Any) -> Iterable[Mark]:
     """Yield a joint in a plane. In space, yield a hinge at the end of a shaft if the rotation about the vertical is
-    prescribed, a support below an upright body, or a ceiling above a hanging body."""
+    prescribed. For any other motion, yield a support below an upright body, or a ceiling above a hanging body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -232,7 +232,7 @@ def with_its_shape(placed: Any) -> Any:
 
 def _far_end(placed: Any) -> Location:
     """Return the place on the z axis of a body at which its rotations are drawn: the farthest end in the positive
-    direction, or the end of the stem of a top, or the centre of mass if no end beyond the fixed point is known."""
+    direction, or the end of the stem of a top. If no end beyond the fixed point is known, return the centre of mass."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position

@@ -223,7 +223,8 @@ class _Scene:
         yield from self._fields()
 
     def _rolling(self) -> Iterable[Mark]:
-        """Yield the surfaces of rolling conditions without a described surface."""
+        """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing if a body touches a
+        surface of the description, in a plane."""
         return () if self._touching_bodies() else contact_marks(self.system)
 
     def _axis_of_table(self) -> list[Mark]:
@@ -330,8 +331,8 @@ class _Scene:
     # --- displacements ---
 
     def _displacements(self) -> Iterable[Mark]:
-        """Yield a dimension line for each coordinate that is the displacement of a mass along a fixed line or the
-        length of a piece of a rope, unless another mark shows this coordinate."""
+        """Yield dimension lines for coordinates that no other mark shows: displacements of masses along fixed lines,
+        and lengths of pieces of ropes."""
         shown: set[Symbol] = set()
         for q, kind in self.system.coordinates.items():
             found = self._displaced(q) if kind == "length" and not self._is_shown(q) else None
@@ -355,8 +356,8 @@ class _Scene:
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
-        If a piece of a rope has the length q, these are its ends. Otherwise a mass must move along a fixed line, and q
-        must be the distance moved: the ends are the positions of the mass at q = 0 and at the drawn value. Of several
+        If a piece of a rope has the length q, the ends are those of the piece. Otherwise q must be the distance that a
+        mass has moved along a fixed line; the ends are its positions at q = 0 and at the drawn value of q. Of several
         such masses, the one is chosen whose position contains the fewest coordinates.
         """
         found = []
@@ -388,7 +389,7 @@ class _Scene:
                 down = touch.at - at
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
-        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # an inclined plane is below
+        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # above an inclined plane
         aside = ImmutableDenseMatrix([0, below] if y == 0 else [self._free_side(at), 0])
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
 
@@ -402,8 +403,8 @@ class _Scene:
         return same(own, at)
 
     def _free_side(self, at: Location) -> int:
-        """Return the side of a vertical dimension line: 1 (right) if no other mass is to the right and another mass is
-        to the left or none is beside the line; otherwise -1 (left)."""
+        """Return the side of a vertical dimension line, 1 (right) or -1 (left). It is on the right if all other masses
+        are to the left, or if none is to the left or right; otherwise it is on the left."""
         others = [place for _, place in self.system.masses if not same(place, at)]
         ways = [self.connections.number((place - at).components[0]) for place in others]
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1

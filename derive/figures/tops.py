@@ -24,7 +24,7 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the right in the usual view
-# The precession angle at which the line of nodes points to the viewer and to the left; the axis of the body then leans
+# The precession angle at which the line of nodes points to the viewer and to the left. Then the axis of the body leans
 # to the left and slightly away from the viewer.
 NODES_IN_FRONT = -pi / 18
 # Length of an axis, and distance and radius of a rotation arrow, relative to the axis of the body.
@@ -68,7 +68,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
-    body, and the angle between the two; nothing if the angles are not Euler angles.
+    body, and the angle between these two axes. Yield nothing if the rotations are not Euler angles that all vary.
 
     size   the distance of the rotation arrows from the centre
     """

@@ -121,8 +121,8 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
 
 
 def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """Yield each body with a fixed point whose distance from the point of impact is a constant symbol, with this
-    symbol."""
+    """Yield pairs of a body and a symbol. The body has a fixed point, and the symbol is the constant distance from this
+    point to the point of impact."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
@@ -130,8 +130,9 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether the label of a mark is a coordinate that is zero at the impact, or the label of a dimension line
-    is a coordinate with a rate just before the impact."""
+    """Return whether a mark does not belong in the drawing of an impact. This is so for an angle or a dimension line
+    whose label is a coordinate that is zero at the impact. It is also so for a dimension line whose label is a
+    coordinate with a rate just before the impact."""
     if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0

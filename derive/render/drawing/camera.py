@@ -2,7 +2,7 @@
 
 A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
 declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. If there are no such numbers, the
-values are multiples of 36 degrees for angles, and of 1 for any other kind.
+values are the same multiples of 36 degrees for angles, and of 1 for any other kind.
 """
 
 from __future__ import annotations
@@ -162,8 +162,8 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return a measure of how clearly the vectors appear: the length of the most foreshortened vector times about the
-    sine of the narrowest angle between two vectors, both with an upper limit."""
+    """Return a measure of how clearly the vectors appear. It is the length of the most foreshortened vector times about
+    the sine of the narrowest angle between two vectors; both factors have an upper limit."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

@@ -94,7 +94,7 @@ PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "l
 class Notation:
     """The layout of any expression of the engine.
 
-    dimensions   dimensions of symbols, so that masses come first and rates last; unknown symbols are treated as lengths
+    dimensions   dimensions of symbols, so that masses come first and rates last; symbols without one are between these
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     """
 
