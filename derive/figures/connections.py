@@ -354,7 +354,8 @@ class Connections:
         return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
-        """Whether a particle carries a surface, and is therefore drawn as a wedge or a plank on its own floor."""
+        """Whether `of` carries a surface of a contact. A particle that does so is a wedge or a plank with its own
+        floor."""
         return of is not None and any(each.surface.of == of for each in self.contacts)
 
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
@@ -604,7 +605,8 @@ class Connections:
         yield from displacement_marks(self.system, place)
 
     def _turns(self) -> bool:
-        """Whether the system is in space and has a prescribed rotation; such a system is drawn without a ceiling."""
+        """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.
+        Such a system is drawn without a ceiling."""
         angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return self.rows == 3 and any(angle.has(TIME) for angle in angles)
 

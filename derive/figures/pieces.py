@@ -91,8 +91,8 @@ class Paper(ABC):
     numbers   the values of expressions
     stance    the projection onto the paper
     scale     points on the paper per unit of length
-    reach     the size of the bodies
-    middle    the centre of the bodies
+    reach     the size of the bodies: the greatest distance of `fixed` from `middle`
+    middle    the centre of the box around the bodies
     fixed     the outermost points of the bodies
     drawn     spots that are already in use, for the last layer of marks
     """

@@ -197,8 +197,8 @@ def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
 
 
 def _is_top(placed: Any) -> bool:
-    """Whether a body of unknown shape is drawn as a top: it has Euler angles, it is given by its moments, and its
-    centre of mass is on its z axis, above the fixed point."""
+    """Whether a body of unknown shape is drawn as a top. It must have Euler angles and given moments, and its centre of
+    mass must be on its z axis, above the fixed point."""
     on_axis = placed.body.middle.position - placed.point.position
     is_upright = on_axis[0] == on_axis[1] == 0 and numeric(on_axis[2]) > 0
     return follows_nodes(placed) and getattr(placed.body, "moments", None) is not None and is_upright

@@ -1,4 +1,4 @@
-"""A page as plain text for a terminal, 88 columns wide."""
+"""A page as plain text for a terminal of 88 columns."""
 
 from __future__ import annotations
 
