@@ -30,7 +30,7 @@ class Manifest:
 
     folder: Path
     problems: list[str] = field(default_factory=list)
-    complete: bool = False  # whether the last build made all problems and documents without an error
+    complete: bool = False  # whether the last build made all problems without an error
     engine: str = ""  # digest of the modules and packages with which the problems were derived
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of its input files

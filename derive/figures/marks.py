@@ -78,7 +78,7 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface(Mark):
-    """A mark that hides marks behind it and determines the size of a drawing.
+    """A mark that determines the size of a drawing; the surfaces of bodies also hide the marks behind them.
 
     name       the id of the body in the phrases, "cone"; empty if the words for another surface include this one
     measures   pairs of an id and a length, such as "base_radius" and R, for the description

@@ -186,7 +186,7 @@ class CurvedGround(WayMark):
 
 @dataclass(frozen=True)
 class AngleBetween(Mark):
-    """The arc from one line to another at a vertex; the arc is usually shorter than the lines.
+    """The arc from one line to another at a vertex; its radius is usually less than the lengths of the lines.
 
     a, b     vectors from the vertex along the lines
     dashed   whether the first line is drawn, as a dashed line

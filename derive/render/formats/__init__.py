@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 # Documents of a set are not formats: a document needs a page and its set, but a format needs only a page.
 TYPESET, HTML = ("latex", "pdf"), "html"
-WRITTEN = "Written by derive"  # only files that begin with a comment with this text may be replaced
+# `-o` replaces a file of a kind that authors write, such as .md, only if its first line contains this text.
+WRITTEN = "Written by derive"
 
 
 @dataclass(frozen=True)
