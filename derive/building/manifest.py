@@ -19,7 +19,7 @@ from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
-Documents = Sequence[Sequence[str]]  # each document with the name of its files
+Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files without a suffix
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -37,7 +37,7 @@ class Manifest:
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all inputs of its page
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
-    documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
+    documents: list[list[str]] = field(default_factory=list)  # the documents of the set, see `Documents`
     asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
     evidence: str = ""  # how much solutions show of their checks, as the set's file states
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page

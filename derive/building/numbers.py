@@ -71,7 +71,7 @@ def faults_of_numbers(
     warnings. First, an answer has no number although a number is given that no other answer or plot uses. Second, the
     sheet does not state a number that an answer needs.
 
-    values     the numbers of answers, by key
+    values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem: a plot needs numbers too
     """
     if not problem.every_amount:

@@ -31,7 +31,7 @@ class Moment:
     """The state at one instant, such as the start of a motion, or the state before an impact.
 
     at        the values of coordinates
-    rates     the nonzero rates of coordinates
+    rates     the rates of coordinates
     pushes    pairs of the components of a given impulse and its point of action
     meeting   the points of impact on bodies
     """

@@ -34,7 +34,7 @@ WRITTEN = "Written by derive"
 class Solution:
     """A page as a tree, with the data from which it was made.
 
-    values     the numbers of answers, by key
+    values     the steps that evaluate answers numerically, by key
     compared   outcomes of the comparison with a reference
     warnings   warnings for the author, which are not part of the page
     """
