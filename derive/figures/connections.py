@@ -132,7 +132,7 @@ class Connections:
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
         """Return a value for the coordinate q, which is a length. The value is a fraction of a length that remains in
         the positions if all coordinates are zero. The fraction is smaller if q is a displacement from a position of
-        rest, so that the parts stay in their order. The result is None if there is no suitable length."""
+        rest, so that the parts do not change places. The result is None if there is no suitable length."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
@@ -326,8 +326,8 @@ class Connections:
                 yield from self._on_table(touch, plane)
 
     def _on_table(self, touch: Contact, plane: Plane) -> Iterable[Mark]:
-        """Yield the axes of the coordinates of a body that moves on a table, its radius at the contact, and its Euler
-        angles."""
+        """Yield the axes of the coordinates of a body that moves on a table, the line from its centre to the contact,
+        and its Euler angles."""
         arm = distance_of(touch.of.centre, touch.at)
         for k, q in enumerate(touch.of.centre.components):
             if q in self.system.coordinates:
@@ -555,8 +555,9 @@ class Connections:
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
 
     def _lifts(self, line: Line) -> tuple[float, float]:
-        """The shifts of the two parts of a string away from the surfaces below. The part to a block whose base is at
-        its place, as on a slope, is shifted by half the height of the block; any other part is not shifted."""
+        """The shifts of the two parts of a string away from the surfaces below. On a slope, the base of a block is at
+        the position of its particle, so the part that leads to the block is shifted by half the height of the block.
+        Any other part is not shifted."""
         stands = [
             any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
             for place in (line.places[0], line.places[-1])

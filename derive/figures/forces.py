@@ -137,7 +137,7 @@ def _unnamed_normals(system: System, of: Any) -> list[PointForce]:
 @dataclass(frozen=True)
 class _Drawn:
     """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
-    is true for the force of a surface that cannot pull."""
+    is true for the force of a surface, which cannot pull."""
 
     at: Location
     way: Any

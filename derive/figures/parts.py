@@ -121,7 +121,7 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is beside a spring between the same points, on the upper side
+    beside   whether the dashpot is drawn above a spring between the same points
     """
 
     beside: bool = False

@@ -59,7 +59,7 @@ def angle_of(a: Vector, b: Vector) -> float:
 
 
 def across(a: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors that form a right-handed set of perpendicular vectors with a direction."""
+    """Return two unit vectors u and v such that u, v and the direction `a` are perpendicular and right-handed."""
     n = unit(a)
     helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
     u = unit(cross(helper, n))

@@ -23,8 +23,8 @@ ZERO = Integer(0)
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the dashed line from a point to a particle, the angle of this line, and the circle of a particle that one
-    angle moves at a constant distance.
+    """Yield the dashed line from a point to a particle, and the angle of this line. If one angle moves the particle at
+    a constant distance, also yield the circle of the particle.
 
     Along a spring, a dimension line shows the distance instead of the dashed line. If the components of the link are
     coordinates, their axes are drawn instead.

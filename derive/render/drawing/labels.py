@@ -161,7 +161,7 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return the points of all lines and bullets that no surface drawn later hides."""
+    """Return points of the lines and bullets, except points that are hidden by a surface drawn later."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):

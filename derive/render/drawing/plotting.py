@@ -257,8 +257,9 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float
 
 
 def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> Iterator[tuple[float, float, str, bool]]:
-    """Yield the middle and the edge next to the dot of each name of an extremum, within the panel. A name that would
-    cover another name is left out; the caption has the values of all extrema."""
+    """Yield each name of an extremum with its position in the panel: x of its middle, and y of its edge next to the
+    dot. Also yield whether the extremum is a minimum. A name that would cover another name is left out; the caption has
+    the values of all extrema."""
     left, _, right, _ = frame.paper
     taken: list[Extent] = []
     for place, is_lowest, name in panel.turns:

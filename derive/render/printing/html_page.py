@@ -305,7 +305,8 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
-    """Join pieces while they fit on a line; a single piece that is too wide can be scrolled, also by keyboard."""
+    """Join pieces so that a line may end between two of them. A single piece that is too wide can be scrolled, also by
+    keyboard."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
         f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
