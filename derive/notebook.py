@@ -32,7 +32,8 @@ __all__ = ["open_problem"]
 
 
 def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
-    """Open a problem by its id, such as `hw9/block`; by default `root` is the course in or above the working folder."""
+    """Open a problem by its id, such as `hw9/block`. By default `root` is the course that the command line would find,
+    such as the course in or above the working folder."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
         help_line = "run Python in the course's folder or below, or name the folder: `open_problem(..., root=...)`"
@@ -134,7 +135,7 @@ class Opened:
         return Notation(dimension_table(self._problem.dimensions, every)[0])
 
     def _formula(self, step: Step, numbers: list[tuple[str, Any]]) -> Layout:
-        """`theta = arccos(...) ~ 21.64 deg`."""
+        """Return the formula of a result with its numbers, such as `theta = arccos(...) ~ 21.64 deg`."""
         lettered = step.symbol is not None
         sign = sign_behind_name(step, step.chain[-1])
         before = [self._notation.layout(name_before(step)), Operator(sign)] if lettered else []

@@ -1,4 +1,4 @@
-"""All names that a problem's parts may ask for, each with its meaning and its value."""
+"""The names that the parts of a problem may ask for, each with its meaning and its value."""
 
 from __future__ import annotations
 

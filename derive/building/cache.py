@@ -1,7 +1,8 @@
-"""The results that builds store: each value is stored under a digest of everything on which the value depends.
+"""The results that builds store, such as steps, pages, drawings and PDFs: signed values in one folder.
 
-Steps, pages, drawings and PDFs are stored in one folder and signed. A value is never out of date, because a change of
-an input gives another digest. If the folder is too large, the least recently used values are removed.
+Most values are stored under a digest of everything on which they depend. They are never out of date, because a change
+of an input gives another digest. A few values, such as recorded calls and page numbers, are replaced by newer values.
+If the folder is too large, the least recently used values are removed.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Return the digest of the file's content; empty if the file is missing, so that creating the file is a change."""
+    """Return the digest of the file's content; empty if the file is missing or cannot be read. So creating a file is a
+    change."""
     try:
         return digest(signed.regular_content(path))
     except OSError:
@@ -56,7 +58,7 @@ def _own_modules() -> str:
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:
-    """Return the digest of the names and contents of the files below the folder."""
+    """Return the digest of the names and contents of the files below the folder whose names match `pattern`."""
     files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
     return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
 
@@ -88,7 +90,7 @@ class Cache:
     )  # warnings about values that could not be written
 
     def get(self, key: str) -> bytes | None:
-        """Return the content stored under that digest; None if the content is missing or was altered."""
+        """Return the content stored under that key; None if it is missing, was altered or must not be read."""
         if self.folder is None or self.fresh:
             return None
         content = signed.read_signed(self.folder / key, key)
@@ -98,7 +100,7 @@ class Cache:
         return content
 
     def get_data(self, key: str) -> Any:
-        """Return the JSON data stored under that digest; None if they are missing or were altered."""
+        """Return the JSON data stored under that key; None if they are missing, were altered or must not be read."""
         return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:

@@ -123,8 +123,8 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with the most similar earlier part: answers, question and letter are compared. The letter alone is
-    not enough, because letters change if a part is added before them."""
+    """Pair each part with the most similar part of the earlier page: answers, question and letter are compared. The
+    letter counts least, because letters change if a part is added before them."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -219,7 +219,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return each grade of a step's claims once: how often a grade occurs depends on the number of lines."""
+    """Return each grade of a step's claims once, because the number of its claims depends on the number of lines."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 

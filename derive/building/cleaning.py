@@ -18,7 +18,7 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
     """Remove folders and return each with its size in bytes; if a set is being built, wait for the end of its build.
 
     sets    the sets whose folders are removed; if empty, every folder below `build`
-    cache   keep the documents, and remove only the data stored for later builds
+    cache   whether only the data stored for later builds are removed, and the documents stay
     """
     build = root / "build"
     folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]

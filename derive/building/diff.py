@@ -117,7 +117,7 @@ def _derived_at(
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """Return the same error with a note that names the revision of the files."""
+    """Return an error of the author with a note that names the revision of the files; return a bug unchanged."""
     if isinstance(error, Bug):
         return error
     note = f"this is the state at `{revision}`, derived with the present derive"

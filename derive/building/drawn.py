@@ -1,7 +1,7 @@
-"""The drawings of a page as files; a drawing is made again only if something that it shows has changed.
+"""The drawings of a page as files; a drawing is made again only if something on which it depends has changed.
 
-The bytes of a drawing depend on its description, the known properties of its letters, its size, its words,
-derive's modules and matplotlib.
+The bytes of a drawing depend on its description, on the numbers and dimensions of its symbols, on its size and words,
+on derive's modules and on matplotlib.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-WIDE, LOW = 7.0, 0.35  # a drawing whose height is below the share LOW of its width is made wider
+WIDE, LOW = 7.0, 0.35  # a drawing without a given width is made WIDE if its height is at most LOW times its width
 
 
 def drawing_files(
@@ -89,7 +89,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the data of the letters in a drawing, so that letters outside the drawing do not change its digest."""
+    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change its digest."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -104,7 +104,7 @@ def _drawn(
     alt: str,
     cache: Cache,
 ) -> tuple[Sheet, Sheet]:
-    """Return the drawing with the letters of a PDF, and with those of formulas in a browser."""
+    """Return the drawing twice: with the font of a PDF, and with the font of formulas in a browser."""
     from derive.render.drawing.lettering import PAPER, SCREEN
 
     on_paper, on_screen = (partial(_letters, cache, font) for font in (PAPER, SCREEN))
@@ -139,8 +139,8 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each letter in a drawing: from the drawing's entry, from the problem, or a substitute
-    number."""
+    """Return a number for each symbol of a problem and of a drawing: from the entry of the drawing in the problem, from
+    the given values, or a substitute number."""
     said = dict(placement.values) if placement else {}
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}

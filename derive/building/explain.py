@@ -46,8 +46,8 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return the keys of all steps if `key` is None, else the key of one step. `key` may be the key of this step, the
-    key of a step that this step replaces, or the name of the verb that made this step first."""
+    """Return the keys of all steps if `key` is None, else the key of one step. `key` may be the key of this step or of
+    a step that it replaces. It may also be the name of a verb, which means the first step that this verb made."""
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}

@@ -1,7 +1,7 @@
 """Files that derive writes: each is written completely or not at all, and only when its content has changed.
 
-A finished file gets its name by one rename, so a reader or a second build always finds either the old or the new
-content, even if a build is killed. If the disk refuses to write, the user sees one error.
+A finished file gets its name by one rename. So a reader or a second build finds either the old or the new content, even
+if a build is killed. If the disk refuses to write, the user sees one error.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The record of the inputs of each output of a set; the record decides which outputs must be made again.
 
-A problem is up to date if its input files, the modules of derive and the options are unchanged. An output is up to date
-if, in addition, its own content is unchanged. Only content is compared, never times.
+A problem is up to date if its input files and its recipe are unchanged; `derive.building.recipe` describes recipes. An
+output is up to date if, in addition, its own content is unchanged. Only content is compared, never times.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
-Documents = Sequence[Sequence[str]]  # each document with the name of its files
+Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files without a suffix
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -30,20 +30,20 @@ class Manifest:
 
     folder: Path
     problems: list[str] = field(default_factory=list)
-    complete: bool = False  # whether the last build ended without an error
-    engine: str = ""  # digest of the modules that derived the problems
+    complete: bool = False  # whether the last build made all problems without an error
+    engine: str = ""  # digest of the modules and packages with which the problems were derived
     set_inputs: dict[str, str] = field(default_factory=dict)
     inputs: dict[str, dict[str, str]] = field(default_factory=dict)  # problem -> digests of its input files
     pages: dict[str, str] = field(default_factory=dict)  # problem -> digest of all inputs of its page
     outputs: dict[str, str] = field(default_factory=dict)  # file name -> digest of content
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
-    documents: list[list[str]] = field(default_factory=list)  # each document with the name of its files
+    documents: list[list[str]] = field(default_factory=list)  # the documents of the set, see `Documents`
     asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
     evidence: str = ""  # how much solutions show of their checks, as the set's file states
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
-    recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest -> its ingredients
+    recipes: dict[str, dict[str, str]] = field(default_factory=dict)  # digest of a recipe -> this recipe
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
@@ -121,7 +121,7 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether a document exists but some file, phrase or module that it was made from has changed since.
+        """Return whether the PDF of a document exists, but a file, phrase or module on which it depends has changed.
 
         Options of the command line are not compared.
         """

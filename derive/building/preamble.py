@@ -1,10 +1,9 @@
-"""The common beginning of all documents of a set as a TeX format, so that TeX reads classes and packages only once.
+"""The common beginning of documents as a TeX format, so that TeX reads classes and packages only once.
 
-A line of the template marks where documents begin to differ; the lines above it depend on nothing but the level of
-`detail`. TeX loads these lines and dumps a format, which is stored in the cache of the builds. The format is not
-compressed, because TeX then reads it in half the time. In the source of a document, these lines become comments, so
-that its line numbers do not change. If the template has no such mark, or if TeX cannot dump a format, a document is
-typeset without a format.
+A line of the template marks where documents begin to differ. The lines above this mark are the preamble. TeX loads the
+preamble and dumps a format, which is stored in the cache of the builds. The format is not compressed, because TeX then
+reads it in half the time. In the source of a document, the lines of the preamble become comments, so that line numbers
+do not change. If the template has no such mark, or if TeX cannot dump a format, a document is typeset without a format.
 
 Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
 """
@@ -36,8 +35,8 @@ Environment = Mapping[str, str]
 
 
 def beginning(templates: Path, detail: str | None) -> str:
-    """Return the common beginning of all documents of that level, before any document exists; empty if the template
-    needs other data for it."""
+    """Return the preamble of documents at that level of detail, before any document exists. The result is empty if the
+    template has no mark, or if the preamble needs data other than the level."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
@@ -54,7 +53,9 @@ def at_hand() -> Scratch:
 def without_preamble(
     tex: str, engine: str, identity: str, options: Sequence[str], cache: Cache, place: Path, environment: Environment
 ) -> str | None:
-    """Return a source without its preamble, and put the preamble's format into `place`; None if there is no format.
+    """Return a source with its preamble turned into comments, and put the preamble's format into `place`.
+
+    The result is None if there is no format.
 
     The engine makes the format, unless this process or the cache has it already.
     """

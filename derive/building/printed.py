@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The functions of this module return only text and numbers, so that a worker can send them to its parent.
+The result of `printed` contains only text and numbers, so that a worker can send it to its parent.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def printed(
     cache: Cache = NO_CACHE,
     failures: tuple[Complaint, ...] = (),
 ) -> Rendered:
-    """Return the page of a derived problem; raise `Rejected` with every error found on it.
+    """Return the page of a derived problem; raise `Rejected` if it has errors.
 
     cache      stores the files of the drawings
     failures   the disagreements with the reference, which are reported with the warnings of the page
@@ -232,8 +232,8 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page as this kind of document shows it: the key has every line, and the hints have hints in place
-        of the derivation."""
+        """Return the page as this kind of document shows it. The key has the level of detail `full`, any other document
+        has the requested level, and the hints have hints in place of the derivation."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)

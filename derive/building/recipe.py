@@ -1,6 +1,7 @@
-"""The inputs of a page in addition to the files of its problem: modules, packages, phrases, templates and options.
+"""Recipes: the inputs of a page or document other than the files of its problems.
 
-Each ingredient has a name that the author recognizes, and a digest or a value.
+These inputs are the modules of derive, packages, phrases, templates and options. A recipe maps the name of each input,
+in words that the author recognizes, to the digest or the value of this input.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ Recipe = Mapping[str, str]
 
 
 def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return every ingredient by its name."""
+    """Return the recipe of pages, without the documents to which they contribute."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document of the set. The recipe includes the TeX engine, but not the choice of other
+    """Return the recipe of a document that is typeset. It includes the TeX engine, but not the choice of other
     documents."""
     return {**recipe, ONLY: "", ENGINE: engine}
 

@@ -23,7 +23,7 @@ from derive.render.printing.told_once import told_once
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
-FONT = "math.woff"  # fonts for formulas, see tools/webfont.py
+FONT = "math.woff"  # the font for formulas, see tools/webfont.py
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "witnesses", "agree", "agree_to_figures", "errata", "remarks",

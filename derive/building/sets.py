@@ -220,7 +220,7 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the documents, other than the solutions, to which each problem contributes a part."""
+        """Return the names of the documents for which each problem prints extra fragments, joined by commas."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
@@ -251,8 +251,10 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """Take the pages of problems, given by name and key: use pages that an earlier build stored, and derive the
-        rest."""
+        """Use the pages that an earlier build stored, and derive the problems of the other pages.
+
+        keys   name of a problem -> key under which its page is stored
+        """
         kept = {name: page for name, key in keys.items() if (page := Rendered.from_data(self.cache.get_data(key)))}
         self._derive([name for name in keys if name not in kept])
         for name, page in kept.items():
@@ -326,8 +328,8 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages; mark the recipe as edited if a module or a template was edited since the build
-        began."""
+        """Return the recipe of pages. If a module or a template was edited since the build began, `EDITED` replaces the
+        digest of the modules."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -363,7 +365,8 @@ class _Build:
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
-            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))  # one run if they are known
+            # With known page numbers, one run of TeX is enough.
+            numbers = Kept(self.cache, digest("numbers", kind, self.engine.identity))
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}

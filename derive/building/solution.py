@@ -61,9 +61,10 @@ def rendered(
     evidence: EvidenceShown = EvidenceShown.NONE,
     documents: Collection[str] = (),
 ) -> Rendered:
-    """Derive a problem and print it; raise `DeriveError` with every error found.
+    """Derive a problem and print it; raise `DeriveError` if there are errors.
 
     cache   the steps and drawings of earlier builds, which are used and extended
+
     The other parameters are fields of `Wanted`.
     """
     begun = time.time_ns()
@@ -130,8 +131,8 @@ def _check_characters(problem: Problem) -> None:
 def derived(
     problem: Problem, memory: Memory | None = None, faults: Faults | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
-    """Return the derivation of all answers, the steps that evaluate answers numerically, all steps by key, and the
-    record of the run.
+    """Return the derivation of all answers, the steps that evaluate answers numerically (by key), the results of all
+    steps (by key), and the record of the run.
 
     faults   collects errors on which no step depends; by default they are raised
     """

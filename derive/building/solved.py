@@ -1,9 +1,10 @@
 """A derivation as stored between builds, so that a page with new wording is not derived again.
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
-reference. It also depends on the given values, on the description, on the symbols and their numbers, on the limiting
-cases (`limits:`, with `why:` and its line in the file), on the chosen observations, and on the answers, forms and cases
-that parts ask for. It does not depend on other words, on points or on templates.
+reference. From the problem it depends on the given values, the description, and the symbols and their numbers. It also
+depends on the limiting cases (`limits:`, with `why:` and its line in the file), on the chosen observations, and on the
+answers, forms and cases that parts ask for. It does not depend on any other prose, on the marks (`points:`) or on
+templates.
 """
 
 from __future__ import annotations
@@ -35,8 +36,7 @@ class Solved:
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
-        """Return data of JSON; raise ValueError or RecursionError if JSON cannot represent the numbers or
-        expressions."""
+        """Return JSON data; raise ValueError or RecursionError if JSON cannot represent the numbers or expressions."""
         return {
             "derivation": to_json(self.derivation),
             "answers": list(self.values),

@@ -75,7 +75,7 @@ class Engine:
 
 
 def engines() -> list[Engine]:
-    """Return every engine of this machine, the default first."""
+    """Return every engine in `NAMES` that is on this machine, the default first."""
     wheel = _wheel()
     on_path = [(name, shutil.which(name)) for name in NAMES[1:]]
     return ([wheel] if wheel else []) + [Engine(name, Path(path), "PATH") for name, path in on_path if path]
@@ -168,7 +168,7 @@ def typeset(
 
 
 def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
-    """Dump the common beginning of documents as a format, before any document exists."""
+    """Dump the common beginning of documents as a format, before any document exists, if the engine can do this."""
     if engine.dumps:
         with Scratch() as name:
             place, environment = Path(name), _environment(engine)
@@ -176,7 +176,8 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
-    """Return whether the content begins and ends like a PDF, and is as long as the engine's log says."""
+    """Return whether the content begins and ends like a PDF, and has the length that the engine's log states, if
+    any."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
@@ -205,7 +206,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine as often as its log requests; if it fails, return what it printed."""
+    """Run the engine as often as its log requests, at most `most` times; if it fails, return what it printed."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:

@@ -352,8 +352,8 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
 def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
     """Do the work of a job within its time limit, and return its value or its error.
 
-    At the limit of memory or of nesting, the error is only the code of that limit: the parent process makes the error
-    message from the code and from the lines written to `trace`.
+    At the limit of memory or of nesting, the error is only the code of that limit. The caller makes the error message
+    from this code and from the lines written to `trace`.
     """
     try:
         with limited(job.limit, trace):

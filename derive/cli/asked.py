@@ -13,8 +13,8 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder that contains `problems`: the named folder or DERIVE_ROOT; by default the working folder, a
-    folder above it, or the checkout of derive."""
+    """Return the folder that contains `problems`; None if there is no such folder. It is the named folder or
+    DERIVE_ROOT; by default it is the working folder, a folder above it, or the checkout of derive."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
@@ -48,7 +48,8 @@ def problem_id_of(text: str) -> str:
 
 
 def new_id_of(text: str) -> str:
-    """Return the id of a new problem from the id or path that the user wrote; a new problem has no topic."""
+    """Return the id of a new problem from the id or path that the user wrote. Unlike in `problem_id_of`, no topic is
+    removed, because a new problem has none."""
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 

@@ -1,4 +1,4 @@
-"""The changes of `derive diff` in words, with marks, and on a terminal also in colour."""
+"""The changes that `derive diff` prints, with the signs +, - and ~, and on a terminal also in colour."""
 
 from __future__ import annotations
 

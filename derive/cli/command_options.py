@@ -1,4 +1,4 @@
-"""The operands and options of each command. `derive --help` names the commands alone, and does not load this module."""
+"""The operands and options of each command. `derive --help` only lists the commands, and does not load this module."""
 
 from __future__ import annotations
 

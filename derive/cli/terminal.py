@@ -38,7 +38,7 @@ def in_colour() -> bool:
 def tell(text: str) -> None:
     """Replace the line about the work under way; an empty text clears the line. Print nothing into a pipe.
 
-    If a list is too long for the line, only its first items are shown; no item is cut.
+    If a list is too long for the line, only as many of its first items are shown as fit.
     """
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
@@ -56,7 +56,8 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """Return the errata and the remarks about a problem's source, each with its line, its text, and the reason."""
+    """Return the errata and the remarks about a problem's source, each with its line, what the source prints, what is
+    right (of an erratum), and the reason."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
@@ -70,7 +71,8 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Wrap a text without shortening it, because a slip may be at its end; replace control codes by blanks."""
+    """Wrap a text without shortening it, because the error that it shows may be at its end. Replace control codes by
+    blanks."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 

@@ -30,9 +30,9 @@ from derive.figures.space import (
 )
 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
-SHORTEST = 11.0  # points: the shortest dimension line that has room for its two arrowheads
-OUTSIDE = 13.0  # points: length of the arrows outside a shorter dimension line
-ASIDE = 12.0  # points: distance between a body and its dimension line
+SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
+OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
+ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 ROUND = 10.0  # least radius of a rotation arrow, in points
@@ -96,7 +96,8 @@ class Axis(_Between):
 class AxisOfRotation(Mark):
     """The axis through a point along a direction, a little longer than the body on both sides.
 
-    With a rate, a rotation arrow surrounds the far end, right-handed if the rate is positive; the label is the rate.
+    With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
+    right-handed if the rate is positive.
     """
 
     through: Position
@@ -121,7 +122,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """Return how far the rotation arrow must move along the axis so that it overlaps no surface."""
+        """Return how far the rotation arrow must move along the axis to be outside the outline of the bodies; 0 if none
+        of the tried shifts is enough."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -151,7 +153,7 @@ def measured(line: tuple[Spot, Spot], label: Any, away: Spot, gap: float = 3.0, 
 class LengthMark(_Between):
     """A dimension line between two points, shifted to one side; a length of zero is not drawn.
 
-    aside    the direction of the shift; by default to the left in the drawing
+    aside    the direction of the shift; None for a shift to the left in the drawing
     clear    the part of the shift that scales with the drawing, a length
     beyond   a further part of the shift, in points, to leave room for other dimension lines
 
@@ -243,7 +245,7 @@ class Arrow(Mark):
 class Weight(Arrow):
     """A weight at its point of action.
 
-    A weight does not affect the choice of the view, because it is visible from every viewpoint. Its label may be
+    A weight does not affect the choice of the view, because it is visible in every view that is tried. Its label may be
     anywhere next to the shaft of the arrow, because the space below the tip is often occupied.
     """
 
@@ -264,7 +266,7 @@ class Weight(Arrow):
 class AngleMark(Mark):
     """The arc between two directions at a vertex; by default the radius is chosen so that the arc is readable.
 
-    No arc is drawn between parallel directions.
+    No arc is drawn if a direction is zero or if the directions are almost parallel or opposite.
     """
 
     vertex: Position
@@ -348,7 +350,7 @@ class PointMark(_Single):
         return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
     def in_words(self) -> InWords | None:
-        """Return the description, with the components of the point if these are short."""
+        """Return the description of a point that has a label, with its components unless they are long or all zero."""
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)
@@ -386,7 +388,8 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector as numbers; None unless all symbols are in a common factor of known sign."""
+    """Return the direction of a vector as numbers. The result is None for the zero vector, and unless all symbols of
+    the vector are in a common factor of known sign."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

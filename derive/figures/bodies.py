@@ -85,7 +85,8 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Return the start of the visible part of an axis: the end of a thin rod on the axis, or else the origin."""
+    """Return the start of the visible part of an axis. If a thin rod goes from the origin along the positive axis, this
+    is the far end of the rod; otherwise it is the origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -133,7 +134,7 @@ def _pose(point: Point) -> Pose:
 
 
 def in_space(boundary: Boundary | None, pose: Pose, words: dict[str, Any], named: bool = False) -> list[Mark]:
-    """Return the surface of a body in space, in any position; an empty list if the body cannot be drawn.
+    """Return the surfaces of a body in space, in any position; an empty list if the body cannot be drawn.
 
     named   whether to label the edges of a body with faces by their lengths
     """
@@ -190,7 +191,7 @@ def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
 
 
 def widest_of(boundary: Round) -> tuple[Expr, Expr]:
-    """Return the height of the widest place in body axes, and the radius there."""
+    """Return the height, in body axes, at which a round body is widest, and its radius there."""
     return max(_profile(boundary), key=lambda ring: numeric(ring[1]))
 
 
@@ -198,7 +199,10 @@ def widest_of(boundary: Round) -> tuple[Expr, Expr]:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn."""
+    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn.
+
+    A mark is left out if its label is already the label of a mark of an earlier part.
+    """
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position
@@ -214,13 +218,13 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
         if not found:
             return []
         told = [mark.label for mark in marks]
-        marks += [mark for mark in found if mark.label is None or mark.label not in told]  # label equal sizes once
+        marks += [mark for mark in found if mark.label is None or mark.label not in told]
     return marks
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of a removed part. The list is empty unless the part is a closed cavity, or the drawing is in
-    the plane of the part."""
+    """Return the marks of a removed part: a closed round cavity or, in a drawing in the plane of the part, a disc or a
+    part with straight edges. For any other part the list is empty."""
     boundary, pose = body.boundary, _pose(point)
     if isinstance(boundary, Faces) and in_plane:
         return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]
@@ -235,7 +239,8 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return the lines in a drawing that show the sizes of a body, in any orientation."""
+    """Return the lines that show the sizes of a round body, a rod or a flat body with a curved edge, in any
+    orientation; an empty list for any other body."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)
@@ -252,7 +257,7 @@ def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position)
 
 
 def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> list[Mark]:
-    """Return the lines for the radius at the widest place and for the length."""
+    """Return the lines for the greatest radius and for the length, if these are measures of the body."""
     along, origin = point.axes.T * Z, point.seen(ORIGIN)
     low, high = boundary.ends
     wide, radius = widest_of(boundary)
@@ -266,7 +271,7 @@ def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> 
 
 
 def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
-    """Return the dimension lines in the plane of a flat body."""
+    """Return one dimension line for each edge length of a flat body."""
     corners = tuple(map(point.seen, boundary.corners))
     middle = sum(corners, ORIGIN) / len(corners)
     ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in boundary.edges)
@@ -290,7 +295,8 @@ def body_axes(boundary: Faces, point: Point) -> list[Mark]:
 
 
 def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
-    """Return the lines for the radius at the widest place and for the height, and the axes from the point."""
+    """Return the axes from the point, and the lines for the greatest radius and for the height, if these are measures
+    of the body."""
     profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(boundary)]
     (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
     wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: numeric(ring[1]))
@@ -298,7 +304,7 @@ def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
     marks: list[Mark] = [
         Axis(start * along, start * along, along, label=scalar(name)) for along, name in zip((X, Y), "xy", strict=True)
     ]
-    # If the base is on top, the axis arrow must start beyond the far part of the rim.
+    # If the upper end is wider, the axis is longer, so that its arrowhead is beyond the far part of the rim.
     top = high + radius / 4 if numeric(above) > numeric(below) else high
     marks.append(Axis(high * Z, top * Z, Z, label=scalar("z")))
     if _is_told(radius, body):
@@ -310,7 +316,10 @@ def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
 
 
 def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Mark]:
-    """Add a slice at the height z from the point, with its radius; existing dimension lines move outwards."""
+    """Add a slice at the height z from the point, with its radius, and a dimension line for z.
+
+    Existing dimension lines move outwards.
+    """
     z = scalar("z")
     lower, upper = boundary.ends
     at = lower + CUT * (upper - lower)
@@ -339,7 +348,7 @@ def _is_told(length: Expr, body: Body) -> bool:
 
 
 def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
-    """Return the ellipsoid, with dashed and labelled semi-axes, and with axes beyond their ends."""
+    """Return the ellipsoid; if `named`, with dashed and labelled semi-axes, and with axes beyond their ends."""
     centre, semi_axes = point.seen(ORIGIN), boundary.semi_axes
     marks: list[Mark] = [EllipsoidMark(centre, semi_axes, name=Ellipsoid.id, measures=(("semi_axes", semi_axes),))]
     for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
@@ -349,7 +358,7 @@ def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
 
 
 def _torus(boundary: Toroidal, words: dict[str, Any], point: Point, named: bool) -> list[Mark]:
-    """Return the torus, with lines for both radii along y, and with its axes."""
+    """Return the torus; if `named`, with lines for both radii along y, and with its axes."""
     centre, radius, section = point.seen(ORIGIN), boundary.radius, boundary.section
     marks: list[Mark] = [TorusMark(centre, radius, section, **words)]
     if not named:

@@ -1,6 +1,7 @@
 """The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
 
-Only the description decides what is drawn; nothing is guessed from formulas or from the names of symbols.
+A part is drawn only if it is a connection in the description of the system. No part is guessed from a formula or from
+the name of a symbol.
 """
 
 from __future__ import annotations
@@ -55,34 +56,34 @@ from derive.mechanics.model.system import Particle, System
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
-# Values of free coordinates, relative to the largest body.
+# Values of coordinates that no constraint determines, relative to the largest body.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same for a body on a table in space, clear of the axes
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a body on a table in space, away from the axes
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
 HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to its radius
 TABLE = 3  # the radius of a table in space, relative to the largest body on it
-BEYOND = Rational(6, 5)  # the radius of a table, relative to the circle of the contacts about its middle
+BEYOND = Rational(6, 5)  # the radius of a table, relative to the distance of the contacts from its middle
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero up to this number
-FAR = Rational(8, 5)  # drawn range of a wire, relative to the value of its coordinate
+FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 
 
 def connections_of(system: System, sort: type[Sort]) -> list[Sort]:
-    """Return the connections of one sort."""
+    """Return the connections of a system that belong to the class `sort`."""
     return [part for part in system.parts if isinstance(part, sort)]
 
 
 class Connections:
-    """The connections of a system, the numbers at which they are drawn, and their marks.
+    """The connections of a system, the numbers that replace their symbols in the drawing, and their marks.
 
-    in_a_plane   whether the system moves in a plane; surfaces are drawn only there
+    in_a_plane   whether the system moves in a plane; in space, horizontal planes are the only surfaces that are drawn
     """
 
     def __init__(self, system: System):
@@ -101,7 +102,8 @@ class Connections:
 
     @cached_property
     def values(self) -> dict[Symbol, Any]:
-        """A value for each coordinate: a position in which each constraint is satisfied."""
+        """The values of coordinates, and of some lengths, in the drawing. They satisfy the constraints, as far as these
+        can be solved for a coordinate or a length."""
         found: dict[Symbol, Any] = {}
         for circle in (each.surface for each in self.contacts if isinstance(each.surface, Circle)):
             if circle.inside and circle.radius.is_Symbol and self.size != ONE:
@@ -128,9 +130,9 @@ class Connections:
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
-        """Return a value for the coordinate q, a length: a fraction of a length that remains in the positions if all
-        coordinates are zero. The fraction is smaller if q is a displacement from a place at rest, so that the parts
-        stay in their order. The result is None if there is no suitable length."""
+        """Return a value for the coordinate q, which is a length. The value is a fraction of a length that remains in
+        the positions if all coordinates are zero. The fraction is smaller if q is a displacement from a position of
+        rest, so that the parts do not change places. The result is None if there is no suitable length."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
@@ -205,7 +207,10 @@ class Connections:
         return found
 
     def _solved(self, constraint: Constraint, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
-        """Solve a constraint for a coordinate, or for a length that it contains, such as the length of a string."""
+        """Solve a constraint for a coordinate, or for a length in the constraint, such as the length of a string.
+
+        The result is empty if the constraint cannot be solved in this way.
+        """
         if constraint.left.is_Symbol and constraint.left not in self.system.coordinates:
             return {constraint.left: tidied(constraint.right.subs(known))}
         residual = explicit(constraint.residual).subs(known)
@@ -221,8 +226,10 @@ class Connections:
 
     @property
     def _farthest(self) -> Rational:
-        """The drawn coordinate of a carrier, relative to `size`: a wedge is drawn to the right of the body on it; a
-        plank is drawn with its middle to the left of the body."""
+        """The value, in the drawing, of the coordinate of a body that carries another body, relative to `size`.
+
+        A wedge is drawn to the right of the body on it. The middle of a plank is drawn to the left of the body on it.
+        """
         slopes = [each for each in self._planes if each.of is not None and tidied(each.unit_normal.components[0]) != 0]
         return Rational(5, 2) if slopes else Rational(4, 5)
 
@@ -234,7 +241,8 @@ class Connections:
 
     @cached_property
     def size(self) -> Expr:
-        """The radius of the largest round body; a sixth of the longest rod, if there is no round body."""
+        """The radius of the largest round body; a sixth of the longest rod, if there is no round body; 1 if there is
+        neither."""
         sizes = [mark.radius for mark in self._outlines if isinstance(mark, WheelMark) and mark.radius is not None]
         bars = [mark for mark in self._outlines if isinstance(mark, BarMark)]
         ends = [[Location(tuple(place)) for place in (bar.start, bar.end)] for bar in bars]
@@ -297,13 +305,14 @@ class Connections:
                 yield from self._corner(touch)
 
     def is_drawn(self, surface: Surface) -> bool:
-        """Whether the surface has a picture: each surface in a plane of motion, and a fixed horizontal plane in space,
-        with the bodies above it."""
+        """Whether the drawing shows the surface. If the system moves in space, it shows only fixed horizontal planes
+        with the bodies above them."""
         is_level = isinstance(surface, Plane) and surface.unit_normal.components == (ZERO, ZERO, ONE)
         return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
 
     def _table(self, plane: Plane) -> Iterable[Mark]:
-        """Yield a horizontal plane in space as a round table, with the axis about which it rotates."""
+        """Yield a fixed horizontal plane in space as a round table, the axis about which the table rotates, if it does,
+        and the marks of the bodies on it."""
         if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
@@ -317,8 +326,8 @@ class Connections:
                 yield from self._on_table(touch, plane)
 
     def _on_table(self, touch: Contact, plane: Plane) -> Iterable[Mark]:
-        """Yield the axes of the coordinates of a body that moves on a table, its radius at the contact, and its Euler
-        angles."""
+        """Yield the axes of the coordinates of a body that moves on a table, the line from its centre to the contact,
+        and its Euler angles."""
         arm = distance_of(touch.of.centre, touch.at)
         for k, q in enumerate(touch.of.centre.components):
             if q in self.system.coordinates:
@@ -331,8 +340,8 @@ class Connections:
         yield from euler_angles(self.system, touch.of, Rational(5, 4) * arm)
 
     def _table_radius(self, plane: Plane) -> Expr:
-        """The radius of a table: beyond the circle on which the contacts move; a multiple of the bodies' size if they
-        do not move on a circle about the middle of the table."""
+        """The radius of a table. If the contacts keep their distances from the middle of the table, the radius is a
+        little greater than these distances. Otherwise it is a multiple of `ball_size`."""
         ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
         if any(moving_in(self.system, way) for way in ways):
             return TABLE * self.ball_size
@@ -340,12 +349,13 @@ class Connections:
 
     @property
     def ball_size(self) -> Expr:
-        """The greatest distance of a contact in space from the centre of its body."""
+        """The greatest distance of a contact from the centre of the body that touches the surface; 1 without bodies."""
         arms = [distance_of(each.of.hub, each.at) for each in self.contacts if hasattr(each.of, "hub")]
         return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
-        """Whether a particle carries a surface, and is therefore drawn as a wedge or a plank on its own floor."""
+        """Whether `of` carries a surface of a contact. A particle that does so is a wedge or a plank with its own
+        floor."""
         return of is not None and any(each.surface.of == of for each in self.contacts)
 
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
@@ -364,8 +374,9 @@ class Connections:
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
 
     def carries_only_blocks(self, plane: Surface) -> bool:
-        """Whether the plane is a fixed level floor that only particles touch. Such a particle is drawn as a block whose
-        centre is at the place of the particle, so that springs and strings are at half the height of the block."""
+        """Whether the surface is a level plane that only particles touch and that no body carries. Each of these
+        particles is drawn as a block with its centre at the particle. So springs and strings are at half the height of
+        the block."""
         on_it = [each.of for each in self.contacts if each.surface == plane]
         return (
             isinstance(plane, Plane)
@@ -375,7 +386,8 @@ class Connections:
         )
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
-        """Return the floor under blocks, from wall to wall, or up to a pulley."""
+        """Return the floor under blocks. It ends at fixed ends of springs and strings at its height, if there are any,
+        such as a wall or a pulley."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]
@@ -402,7 +414,8 @@ class Connections:
             yield from self._slope(plane, low, high)
 
     def _ends(self, plane: Plane, contacts: Sequence[Contact]) -> tuple[Location, Location]:
-        """The ends of the drawn part of a plane, from the lower or left end to the other end."""
+        """The two ends of the drawn part of a plane. The first is the lower end, or the left end if the plane is
+        level."""
         n = plane.unit_normal
         along = Location((n.components[1], -n.components[0]))
         if self.number(along.components[1]) < -SMALL or abs(self.number(along.components[1])) <= SMALL > self.number(
@@ -449,8 +462,8 @@ class Connections:
             yield AngleBetween(column_of(low), level, column_of(high - low), True, label=angle)
 
     def _carrier(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
-        """Yield the particle that carries a plane: a wedge under a slope, or a plank under a level plane. A wedge that
-        touches a level floor stands on it."""
+        """Yield the particle that carries a plane: a plank under a level plane, a wedge under a slope, or a solid
+        behind a vertical or overhanging plane. A wedge that touches a level floor stands on this floor."""
         x, y = (high - low).components
         label = plane.of.mass
         if abs(self.number(y)) <= SMALL:
@@ -474,7 +487,8 @@ class Connections:
             yield FloorMark(tuple(column_of(corner) for corner in lowest))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
-        """The height of the fixed level plane on which a particle stands."""
+        """The height of the plane on which a particle stands, if no body carries this plane; None without such a
+        plane."""
         for each in self.contacts:
             if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
                 return each.surface.through.components[1]
@@ -541,8 +555,9 @@ class Connections:
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
 
     def _lifts(self, line: Line) -> tuple[float, float]:
-        """The shifts of the two parts of a string away from the surfaces below. The part to a block whose base is at
-        its place, as on a slope, is shifted by half the height of the block; any other part is not shifted."""
+        """The shifts of the two parts of a string away from the surfaces below. On a slope, the base of a block is at
+        the position of its particle, so the part that leads to the block is shifted by half the height of the block.
+        Any other part is not shifted."""
         stands = [
             any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
             for place in (line.places[0], line.places[-1])
@@ -591,7 +606,8 @@ class Connections:
         yield from displacement_marks(self.system, place)
 
     def _turns(self) -> bool:
-        """Whether the system is in space and has a prescribed rotation; such a system is drawn without a ceiling."""
+        """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.
+        Such a system is drawn without a ceiling."""
         angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return self.rows == 3 and any(angle.has(TIME) for angle in angles)
 
@@ -601,7 +617,7 @@ class Connections:
         return FixedEnd(column_of(pin.at), column_of(pin.at) * 0, True)
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
-        """Yield the curve on which a particle moves with its coordinate."""
+        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""
         at = wire.of.at
         (q,) = moving_in(self.system, *at.components) - {TIME}
         start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
@@ -633,7 +649,8 @@ class Connections:
 
     @property
     def height_of_dashpots(self) -> float:
-        """The height of the dashpots above the springs beside which they are drawn, in points; 0 without them."""
+        """The distance from a spring to the upper edge of a dashpot beside it, in points; 0 if no dashpot is beside a
+        spring."""
         return BESIDE_SPRING + CYLINDER[1] / 2 if any(each.beside for each in self._dashpots) else 0.0
 
     # --- particles ---
@@ -661,7 +678,8 @@ class Connections:
         return next((piece for piece in pieces if distance_of(*piece) == length), None)
 
     def holds(self, particle: Particle) -> bool:
-        """Whether a contact of a system in a plane, or an end of a string or rod, shows how the particle is placed."""
+        """Whether the drawing shows what holds the particle: a contact, if the system moves in a plane, or the end of a
+        string or rod."""
         touched = any(each.of == particle for each in self.contacts) and self.in_a_plane
         return touched or any(same(particle.at, line.places[k]) for line in self.lines for k in (0, -1))
 
@@ -678,7 +696,8 @@ class Connections:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance between two places, for a drawing. If the sign of a difference x is unknown, |x| remains."""
+    """Return the distance between two places. If they differ only in x by an expression of unknown sign, the result
+    contains the absolute value of this expression."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 
@@ -691,6 +710,6 @@ def _direction(x: Any, y: Any) -> Any:
 
 
 def _angle_in(direction: Location) -> Expr | None:
-    """The symbol whose sine and cosine are the components of a direction."""
+    """A symbol whose sine or cosine the components of a direction contain; None without such a symbol."""
     angles = {f.args[0] for c in direction.components for f in c.atoms(sin, cos)}
     return next((angle for angle in angles if angle.is_Symbol), None)

@@ -30,7 +30,10 @@ ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 
 
 def contact_marks(system: System) -> Iterable[Mark]:
-    """Yield, for each body that rolls on a fixed surface, the marks of this surface and of the point of contact."""
+    """Yield, for each body that rolls on a fixed surface, the marks of this surface and of the point of contact.
+
+    The surface is drawn only if it is a cylinder seen along its axis, or a horizontal plane through a fixed point.
+    """
     for condition in system.conditions:
         rolling = condition.fact(Rolling)
         if rolling is None or rolling.ground is not None:
@@ -47,7 +50,8 @@ def contact_marks(system: System) -> Iterable[Mark]:
 def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
     """Yield the marks of a body in space that rolls on a horizontal plane through its fixed point.
 
-    The marks are the circle of the points of contact, the line of contact, and the spin about the axis of the body.
+    The marks include the circle of the points of contact, the line from the fixed point to the contact, and the spin
+    about the axis of the body.
     """
     body = rolling.body
     way = contact - body.at
@@ -74,8 +78,8 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """Yield the marks of a cylinder seen along its axis: the circle, the line to the contact, and the angle of this
-    line."""
+    """Yield the marks of a cylinder seen along its axis: the circle, its centre, the contact, and the angle of the line
+    from the centre to the contact. If a body rolls inside, the line is drawn only to the centre of the body."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")

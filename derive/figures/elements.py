@@ -141,7 +141,7 @@ def wedge(*corners: Any, label: Any = None) -> Mark:
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
     """Hatched ground from one point to another, with its solid side below.
 
-    under   a block or a cart on the ground, so the line is drawn at its base
+    under   a block or a cart on the ground, without a given height; the ground is then drawn at its base
     """
     return _ground(start, end, "down", under)
 
@@ -218,7 +218,7 @@ def way(
     formula, keys = vector_of(place)
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
     if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
-        raise Rejected(Complaint("wrong-argument", f"`way` needs a symbol of its place, but {symbol} is not one"))
+        raise Rejected(Complaint("wrong-argument", f"`way` needs a symbol in its `place`, but {symbol} is not in it"))
     lower, upper = (as_expr(end) for end in between)
     pen = "wire" if solid else "trace"
     return WayMark(formula, symbol, lower, upper, pen, label=name_of(None, label), keys=keys)

@@ -1,7 +1,7 @@
 """The extrema of a curve, from sign changes of its exact derivative.
 
 The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve on both sides
-of the extremum: next to a minimum its values must be greater, next to a maximum they must be less.
+of the extremum. The values there must be greater than a minimum, and less than a maximum.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Extremum:
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
-    """Return evenly spaced points of the curve; a curve that is not real and finite everywhere is rejected."""
+    """Return evenly spaced points of the curve; a curve that is not real and finite at all these points is rejected."""
     f = lambdify([variable], expr, "math")
     points = [lower + (upper - lower) * i / steps for i in range(steps + 1)]
     try:
@@ -75,7 +75,7 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
 
 
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
-    """Find the zero of the slope by bisection, to machine precision."""
+    """Find the place at which the slope changes sign, by bisection."""
     below = slope(low) < 0
     for _ in range(80):
         middle = (low + high) / 2

@@ -1,4 +1,8 @@
-"""Force diagrams: one body alone, with all forces on it, each in its true direction in the drawn state."""
+"""Diagrams of one body alone, with all forces on it.
+
+A force diagram shows each force in its true direction in the drawn state. A free-body diagram shows each force in the
+direction in which its symbol is positive.
+"""
 
 from __future__ import annotations
 
@@ -41,11 +45,13 @@ __all__ = ["force_diagram", "free_body_diagram"]
 
 LONG = Rational(3, 5)  # the drawn length of a force, relative to the size of the body
 ON_PARTICLE = Rational(3, 5)
-OFF = Rational(1, 30)  # the distance of a force along a rod from the rod, relative to the length of the rod
+OFF = Rational(
+    1, 30
+)  # if a force acts along a rod: the distance of its arrow from the rod, relative to the rod's length
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
-SLIGHT, NEAR = 1e-6, 0.3  # relative to the length of an arrow
-ANGLE = Rational(63, 100)  # about the angle with which drawings show a given angle without a value
-NORMALS = ("N", "F_n", "n")  # symbols of a normal force that the equations do not contain
+SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
+ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians, about as in other drawings
+NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
 
 def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> Drawing | None:
@@ -55,9 +61,11 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     key     the name of the drawing
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force
-    The lengths are to scale in the drawn state, at rest, and a negative force is reversed. The result is None in space.
-    It is also None if no such force acts on the body, if a force is not among `found`, if other forces act that the
-    diagram would not show, or if the direction of a force is unknown.
+
+    The lengths are to scale in the drawn state, at rest, but small forces are drawn larger. If the value of a force is
+    negative, its arrow is reversed. The result is None in space, or if no connection acts on the body. It is also None
+    if a force is not among `found`, or if other forces act that the diagram would not show. Finally, it is None if the
+    direction of a force is unknown, or if a body that touches a curve is not on the curve in the drawn state.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -81,8 +89,10 @@ def free_body_diagram(
     positive.
 
     leads_to  the keys of the laws of this body, before which the drawing is placed
-    found     as for `force_diagram`; if a force is not among them, and in space, the lengths have no meaning
-    The result is None in the cases in which `force_diagram` returns None, except for the values of the forces.
+    found     as for `force_diagram`; the lengths have no meaning if a force is missing in `found`, or in space
+
+    The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
+    also None if a body that touches a curve is not on the curve in the drawn state.
     """
     scene, acting = Connections(system), _acting(system, of)
     if not acting or not _shows_all(system, of, acting, {}) or not scene.is_possible:
@@ -111,8 +121,8 @@ def _diagram(
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If the coordinates alone keep the body on a plane, the normal force
-    of the plane is also returned, although no equation contains its symbol."""
+    """Return the forces of connections on a body. If there are such forces, and the coordinates alone keep the body on
+    one fixed plane, the normal force of this plane is added, although no equation contains its symbol."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     return [*named, *_unnamed_normals(system, of)] if named else []
 
@@ -128,7 +138,7 @@ def _unnamed_normals(system: System, of: Any) -> list[PointForce]:
 @dataclass(frozen=True)
 class _Drawn:
     """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
-    is true for the force of a surface that cannot pull."""
+    is true for the force of a surface, which cannot pull."""
 
     at: Location
     way: Any
@@ -162,8 +172,12 @@ def _there(value: Expr | None, scene: Connections) -> Expr:
 
 
 def _sizes(drawn: Sequence[_Drawn], scene: Connections) -> list[float]:
-    """Return the magnitudes of the forces at numbers that the assumptions allow and at which no surface pulls; a symbol
-    has the same number in all forces. If a value is unknown or there are no such numbers, all magnitudes are 1."""
+    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions and for which no surface
+    pulls.
+
+    A symbol has the same number in all forces. If a value is unknown or no such numbers are found, all magnitudes are
+    1.
+    """
     equal = [1.0] * len(drawn)
     if any(each.value is None for each in drawn):
         return equal
@@ -186,14 +200,14 @@ def _share(size: float, greatest: float) -> Rational:
 
 
 def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
-    """Return the size of a body, about as `Paper.reach` defines it; 1 for a particle."""
+    """Return the size of a body, approximately the later `Paper.reach`; 1 for a particle."""
     arms = [distance_of(each.at, of.centre) for each in drawn] if isinstance(of, PlacedBody) else []
     return max(map(scene.number, arms), default=0.0) or 1.0
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points: an arrow that covers an earlier arrow is shifted, to the
-    side away from the other arrows."""
+    """Return the shift of each arrow to its left, in points. An arrow is shifted only if it covers an earlier arrow, to
+    the side away from the other arrows."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))
@@ -217,8 +231,12 @@ def _overlap(start: Vector, end: Vector, other_start: Vector, other_end: Vector)
 
 
 def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> Iterator[Mark]:
-    """Yield the angle of a rod, and the angles by which the forces are inclined, with the lengths of their arrows; each
-    angle once, preferably at a normal force."""
+    """Yield the angle of a rod, and the angles by which forces are inclined, in a plane.
+
+    drawn   pairs of a force and the length of its arrow
+
+    Each angle is shown once, if possible at a normal force.
+    """
     if len(system.places[0].components) != 2:
         return
     told: set[Any] = set()
@@ -250,9 +268,12 @@ def _has_others(system: System) -> bool:
 
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
-    """Whether the forces account for the motion of the centre of mass. The centre must move independently in the
-    directions in which coordinates move it, and the forces must balance in all other directions; the normal force of a
-    plane balances them. Otherwise an unknown reaction also acts, such as the reaction of the ice on a plank."""
+    """Whether the forces account for the motion of the centre of mass.
+
+    Consider the axes along which coordinates move the centre: the possible displacements of the centre and the normal
+    forces of planes must together span all directions of these axes. Along any other axis, either a normal force of a
+    plane acts, or the forces balance. Otherwise an unknown reaction also acts, such as that of the ice on a plank.
+    """
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
     moving = list(system.coordinates)
     free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
@@ -309,7 +330,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
-        if size == 1:  # for friction of size 1 the direction contains the true size
+        if size == 1:  # a friction force: its direction contains its true size
             size, direction = _size_and_direction(direction, letters)
         value = times * size.xreplace(values) if values.keys() >= {*letters} else None
         at = _beside(force) if isinstance(of, PlacedBody) else of.at
@@ -322,14 +343,18 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
 
 
 def _balance(normal: _Drawn, others: Sequence[_Drawn]) -> Expr | None:
-    """Return the normal force of a plane along which a body moves: it balances the components of the other forces."""
+    """Return the normal force of a plane along which a body moves: it balances the components of the other forces.
+
+    The result is None if the value of another force is unknown.
+    """
     if any(each.value is None for each in others):
         return None
     return tidied(-Add(*(as_expr(each.value) * (each.way.T * normal.way)[0] for each in others)))
 
 
 def _beside(force: PointForce) -> Location:
-    """Return the place at which a force on a body is drawn: a little below a rod, if the force is along the rod."""
+    """Return the place at which a force on a body is drawn. A force along a rod is drawn a little below the rod, or
+    beside a vertical rod."""
     for bar in (mark for mark in placed_outline(with_its_shape(force.of)) if isinstance(mark, BarMark)):
         x, y = (tidied(c) for c in bar.end - bar.start)
         u, v = force.direction

@@ -1,4 +1,4 @@
-"""Dashed outlines of the bodies of a system at other values of its coordinates."""
+"""Dashed outlines of the bodies of a system at another value of one coordinate."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ __all__ = ["dashed_at"]
 class Ghost(Surface):
     """The dashed outline of a surface for another value of a coordinate.
 
-    of              the surface at this value
-    letter, value   the coordinate and this value
+    of              the surface at the other value
+    letter, value   the coordinate and its other value
     """
 
     of: Surface = None  # type: ignore[assignment]
@@ -48,7 +48,7 @@ class Ghost(Surface):
 def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
     """Return dashed outlines of the bodies of a system for another value of one coordinate, such as an equilibrium.
 
-    values   the coordinate and this value: `{theta: 0}`
+    values   the coordinate and its other value: `{theta: 0}`
     """
     known: dict[Any, Expr] = {name_of(None, letter): as_expr(value) for letter, value in values.items()}
     if len(known) != 1 or not known.keys() <= {*system.coordinates}:

@@ -1,7 +1,7 @@
 """Links: lines from a fixed or known point to a particle, with their angles, found from the formulas of the positions.
 
-A link is the line along which polar coordinates are measured; it does not show a physical part. Algebra decides each
-property, after numerical samples have excluded most of the wrong candidates.
+A link is the line along which polar coordinates are measured; it does not show a physical part. Numerical samples
+exclude most pairs of points that are not links; algebra decides about the remaining pairs.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A vector from a point to a particle; its length is constant, or depends only on coordinates that are lengths."""
+    """A vector between two points whose length does not depend on an angle or on time.
+
+    The length may depend on coordinates that are lengths; then `is_constant` is false.
+    """
 
     start: Location
     end: Location
@@ -83,7 +86,8 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """Return the rank of a possible start: 0 if known, 1 if fixed, 2 if it moves but contains no angle, otherwise 3."""
+    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if its position contains coordinates
+    but no angle, otherwise 3. The text of the position decides between starts of the same rank."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3
@@ -99,7 +103,8 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """Return the link between two points, if no angle and no prescribed motion changes its length; otherwise None."""
+    """Return the link between two points. The result is None if an angle or time changes its length, or if the vector
+    between the points contains neither."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
     if square == 0 or not turning or _varies(square, turning):

@@ -1,7 +1,7 @@
 """The marks of a drawing, as data: positions and directions are SymPy expressions in the symbols of the problem.
 
-Given numbers for the symbols, a mark returns its pieces and its outermost points; it also returns its description in
-words. `derive.render.drawing` decides which lines are hidden and where labels are.
+Given numbers for the symbols, a mark returns its pieces, and a surface returns its outermost points. A mark also
+returns its description in words. `derive.render.drawing` decides which lines are hidden and where labels are.
 Positions are columns (x, y, z), or (x, y) in a plane, along the same axes for all marks of a drawing.
 """
 
@@ -20,8 +20,8 @@ from derive.figures.space import Vector
 from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
-InWords: TypeAlias = tuple[str, dict[str, Any]]  # the phrase that describes a mark, and the values of its placeholders
-LAST = 99  # the layer of marks that are placed next to all others
+InWords: TypeAlias = tuple[str, dict[str, Any]]  # the name of a phrase, and the values of its placeholders
+LAST = 99  # the layer of marks that are drawn last, because they are placed next to all other marks
 SPACE, PLANE = "space", "plane"
 
 BESIDE = {"beside": True}  # metadata of a field that is only a label: symbols in labels need no numbers
@@ -40,7 +40,7 @@ class Mark:
 
     label: Any = field(default=None, metadata=BESIDE)
     keys: tuple[str, ...] = ()
-    together: ClassVar[str | None] = None  # one phrase that describes all marks of this class
+    together: ClassVar[str | None] = None  # the name of a phrase that describes all marks of this class together
     layer: ClassVar[int] = 9  # marks with a lower layer are drawn first
 
     def __init_subclass__(cls) -> None:
@@ -78,9 +78,9 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface(Mark):
-    """A mark that hides marks behind it and determines the size of a drawing.
+    """A mark that determines the size of a drawing; the surfaces of bodies also hide the marks behind them.
 
-    name       the id of the body in the phrases, "cone"; empty for a surface that another surface describes
+    name       the id of the body in the phrases, "cone"; empty if the words for another surface include this one
     measures   pairs of an id and a length, such as "base_radius" and R, for the description
     """
 
@@ -112,8 +112,8 @@ class Drawing:
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
     left_out      conditions of the system that the drawing does not show
-    leads_to      the keys of steps that the drawing precedes, as a force diagram precedes Newton's laws
-    forces_on     the mass of the body whose force diagram this is; None in any other drawing
+    leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
+    forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     """
 
     key: str

@@ -35,7 +35,8 @@ SHORT = 3  # greatest number of characters in a name that is written on a block
 
 @dataclass(frozen=True)
 class _Piecewise(Surface):
-    """A part of a machine that the name of its class describes."""
+    """A part of a machine. Unless it has a `name`, it is described by a phrase that is named after its class: "bar" for
+    a `BarMark`."""
 
     @property
     def told_as(self) -> str:
@@ -81,7 +82,7 @@ class BarMark(_Stretched):
 
 @dataclass(frozen=True)
 class ConnectionMark(_Stretched):
-    """A dashed line between two points, with their distance as its label; it does not show a physical part."""
+    """A dashed line between two points; it does not show a physical part. The label, if any, is their distance."""
 
     layer: ClassVar[int] = 0
 
@@ -120,7 +121,7 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is beside a spring between the same points, on the upper side
+    beside   whether the dashpot is drawn above a spring between the same points
     """
 
     beside: bool = False
@@ -198,7 +199,8 @@ def _bend(a: Spot, b: Spot, c: Spot) -> float:
 def _tangent(a: Spot, p: float, b: Spot, q: float) -> tuple[Spot, Spot]:
     """Return the tangent from the circle (a, p) to the circle (b, q).
 
-    The centre of a circle with a positive radius is on the left of the tangent.
+    The centre of a circle with a positive radius is on the left of the tangent. If the circles have no such tangent,
+    the result is the line between their centres.
     """
     x, y = b[0] - a[0], b[1] - a[1]
     far = hypot(x, y)
@@ -267,7 +269,7 @@ class CornerRopeMark(_Piecewise):
 
 
 def _normal(along: Spot, side: Spot) -> Spot:
-    """Return the unit normal of one direction that is on the side of another direction."""
+    """Return the unit vector perpendicular to `along` that makes an acute angle with `side`."""
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] > 0 else (along[1], -along[0])
 

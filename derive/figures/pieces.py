@@ -86,13 +86,13 @@ class InNumbers(Protocol):
 
 @dataclass(frozen=True)
 class Paper(ABC):
-    """The data that a mark needs to be drawn, and the outlines of solids, which hide marks behind them.
+    """The data from which a mark computes its pieces, and methods that return the pieces of solids.
 
     numbers   the values of expressions
     stance    the projection onto the paper
     scale     points on the paper per unit of length
-    reach     the size of the bodies
-    middle    the centre of the bodies
+    reach     the size of the bodies: the greatest distance of `fixed` from `middle`
+    middle    the centre of the box around the bodies
     fixed     the outermost points of the bodies
     drawn     spots that are already in use, for the last layer of marks
     """
@@ -114,7 +114,10 @@ class Paper(ABC):
 
     @abstractmethod
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
-        """Return the pieces of a solid with flat faces, each given by its corners, with labels at some edges."""
+        """Return the pieces of a solid with flat faces, with labels at some edges.
+
+        Each face is a sequence of indices in `corners`.
+        """
 
     @abstractmethod
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:

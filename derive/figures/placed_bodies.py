@@ -33,8 +33,8 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# A top of unknown shape: the height and radius of its cone and the end of its stem, and the length of a shaft, relative
-# to the distance of the centre of mass from the fixed point.
+# For a top of unknown shape, the height and radius of its cone and the end of its stem; then the length of a shaft. All
+# are relative to the distance of the centre of mass from the fixed point.
 TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
 STEPS = 24  # number of steps along the side of a round body
 
@@ -61,7 +61,8 @@ class ThickBar(BarMark):
     layer: ClassVar[int] = 2
 
     def _beside(self, spots: tuple[Spot, ...], gap: float) -> Tag:
-        """Return the label at a third of the line, because the centre of mass is marked at the middle of the line."""
+        """Return the label at two thirds of the line, because the centre of mass is marked at the middle of the
+        line."""
         (x, y), (u, v) = spots
         return beside(self.label, (x + (u - x) / 3, y + (v - y) / 3), (u, v), gap)
 
@@ -101,8 +102,8 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
-    """Yield the line from the centre of the rim to the centre of mass, and its angle; for a body that is balanced about
-    the centre of its rim, the rotation angle."""
+    """Yield the line from the centre of the rim to the centre of mass, and the angle of this line. If the two centres
+    coincide, yield the rotation angle of the body instead."""
     hub, centre = placed.hub, placed.centre
     yield PointMark(column_of(hub))
     if same(hub, centre):
@@ -181,8 +182,8 @@ def _kept(system: System, value: Expr) -> Expr:
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass; a symmetric body with
-    Euler angles is drawn as a top, a cone with a stem whose centre of mass is at the same place."""
+    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass. A symmetric body with
+    Euler angles is drawn as a top: a cone with a stem, and with the given centre of mass."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
     if _is_top(placed):
         start, way = column_of(placed.at), column_of(centre - placed.at)
@@ -196,7 +197,8 @@ def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
 
 
 def _is_top(placed: Any) -> bool:
-    """Whether a body of unknown shape is symmetric about the axis through its fixed point and its centre of mass."""
+    """Whether a body of unknown shape is drawn as a top. It must have Euler angles and given moments, and its centre of
+    mass must be on its z axis, above the fixed point."""
     on_axis = placed.body.middle.position - placed.point.position
     is_upright = on_axis[0] == on_axis[1] == 0 and numeric(on_axis[2]) > 0
     return follows_nodes(placed) and getattr(placed.body, "moments", None) is not None and is_upright
@@ -204,7 +206,7 @@ def _is_top(placed: Any) -> bool:
 
 def _holder(system: System, placed: Any) -> Iterable[Mark]:
     """Yield a joint in a plane. In space, yield a hinge at the end of a shaft if the rotation about the vertical is
-    prescribed, a support below an upright body, or a ceiling above a hanging body."""
+    prescribed. For any other motion, yield a support below an upright body, or a ceiling above a hanging body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -229,8 +231,8 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """Return the end of a body's axis that is farthest from the fixed point; the centre of mass if this end is
-    unknown."""
+    """Return the place on the z axis of a body at which its rotations are drawn: the farthest end in the positive
+    direction, or the end of the stem of a top. If no end beyond the fixed point is known, return the centre of mass."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -255,8 +257,8 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """Return the marks of all parts of a body; an empty list if a removed part cannot be drawn. In space a rod is drawn
-    in pieces, so that bodies on the rod hide the pieces behind them."""
+    """Return the marks of the parts of a body; an empty list if a removed part cannot be drawn. Other parts that cannot
+    be drawn are left out. In space a rod is drawn in pieces, so that bodies on the rod hide the pieces behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
         if part.sign < 0:
@@ -420,7 +422,8 @@ def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str,
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """Yield dimension lines for the edge lengths that are symbols or multiples of a symbol, one for each length."""
+    """Yield one dimension line for each edge length that is a symbol or a multiple of a symbol, if the body has at most
+    four corners."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

@@ -22,10 +22,11 @@ SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}
 
 
 def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Return the components of a vector or a position, and the keys of its steps; any other value is rejected."""
+    """Return the components of a vector or a position, and the key of its step, if it is derived. Any other value is
+    rejected."""
     value, keys = value_and_keys(thing)
     if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
-        got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"it is a {type(thing).__name__}"
+        got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"this is of type {type(thing).__name__}"
         raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
     return value, keys
 
@@ -40,8 +41,8 @@ def vectors_of(*things: Any) -> tuple[list[Any], tuple[str, ...]]:
 
 
 def value_and_keys(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Return the value of a quantity and, if the quantity is derived, its key. For a point, return its position without
-    a key; for anything else, return `thing` without a key."""
+    """Return the value of a quantity and, if the quantity is derived, its key. For a `Point` or a `Location`, return
+    its position without a key; for anything else, return `thing` without a key."""
     if isinstance(thing, Quantity):
         return thing.value, (thing.key,) if _is_derived(thing) else ()
     if isinstance(thing, Point):

@@ -1,4 +1,4 @@
-"""Draw a rigid body of which only the principal moments are known, as the ellipsoid with these moments and axes."""
+"""Draw a rigid body of which only the principal moments are known, as an ellipsoid with about these moments."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
     """Return the marks of a body with these principal moments about its centre of mass, and of its principal axes.
 
     moments   three principal moments, about x, y and z
-    vectors   vectors (3) along these axes, drawn from the centre of mass
+    vectors   vectors with three components along the principal axes, drawn from the centre of mass; at most two are
+              drawn
     """
     sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
     marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=RigidBody.id), PointMark(ORIGIN)]
@@ -37,7 +38,10 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
 
 
 def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
-    """Return the semi-axes of a uniform ellipsoid with these moments, up to a factor: I_x is (M/5)(b^2 + c^2)."""
+    """Return the semi-axes, up to a factor, of a uniform ellipsoid with about these moments: I_x is (M/5)(b^2 + c^2).
+
+    The semi-axes are greater than those of the exact ellipsoid, so that a flat or thin body has a thickness.
+    """
     whole = Add(*moments)
     a, b, c = (sqrt(whole - 2 * moment + THICK * whole) for moment in moments)
     return a, b, c

@@ -52,13 +52,15 @@ def drawing(
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
     key      the name of the drawing, for `drawings:` in the problem
-    marks    marks or lists of marks; solids hide the marks behind them, and all other marks are drawn over the solids
+    marks    marks or lists of marks; solids hide the marks behind them, and arrows, lines and labels are drawn over all
+             solids
     view     "space" (seen from the front and a little from above, z upwards) or "plane" (x to the right, y upwards);
              by default "plane" if a position has two components
     values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`
     left_out   conditions that the drawing does not show; a caption states them
-    forces_on  the mass of the body whose forces the drawing shows; a caption states it
-    leads_to the keys of steps before which the drawing is placed, by default after the steps that it shows
+    leads_to   the keys of steps before which the drawing is placed; by default it is placed after the steps whose
+               results it shows
+    forces_on  the mass of the body whose forces the drawing shows; the caption names this mass
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -77,7 +79,7 @@ def drawing(
 
 
 def drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
-    """Return a value for each coordinate that is an angle; successive values differ."""
+    """Return a value for each coordinate that is an angle; the values of up to six angles differ."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 
@@ -153,7 +155,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 
 
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
-    """The axis of a rotation, extended beyond the body on both sides; with a rate, also the sense of rotation.
+    """The axis of a rotation, extended beyond the body on both sides; with a rate, also a rotation arrow.
 
     along     vector (3)
     through   a point on the axis
@@ -199,13 +201,13 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
 def vectors_in(
     body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None
 ) -> list[Mark]:
-    """The outline of a body, with vectors in their true directions; the first vector is along the axis of rotation.
+    """The outline of a body, with vectors in their true directions, and the axis of rotation along the first vector.
 
     body      the body
     vectors   vectors (3) along the axes of the body; each arrow is a little shorter than the arrow before it
     angle     the angle between the first two vectors, a quantity or a name; by default no arc is drawn
     at        the point at which the vectors start; by default the centre of mass of the body
-    about     the name of a point of the body at which the vectors start instead; the axes of the body are drawn there
+    about     the name of a point of the body; if it is given, the vectors and the axes of the body start at this point
     """
     if about is not None:
         start: Any = ORIGIN

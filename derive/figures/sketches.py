@@ -1,7 +1,7 @@
 """The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
-Each body, spring, string, rod, wire, surface and joint of the description is drawn. A particle that nothing holds is a
-small disc, with the dashed lines of its coordinates and the curve on which it moves. Nothing is guessed.
+The bodies, springs, strings, rods, wires, surfaces and joints of the description are drawn. A particle that no drawn
+part holds is a small disc, with the lines of its coordinates and the curve on which it moves. No part is guessed.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # drawn range of a curve, relative to the value of its coordinate
+FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a curve, relative to its value in the drawing
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
@@ -76,7 +76,7 @@ def sketch(
 
 
 class _Scene:
-    """The marks of a system, and the numbers at which they are drawn."""
+    """The marks of a system, and the numbers that replace its symbols in the drawing."""
 
     def __init__(
         self,
@@ -97,15 +97,15 @@ class _Scene:
 
     @property
     def left_out(self) -> list[Relation]:
-        """Return the constraints that are given as formulas, and therefore have no picture."""
+        """Return the constraints that are given as formulas, which the drawing cannot show."""
         return [each.relation for each in self.system.constraints if not each.enforcer]
 
     @property
     def is_whole(self) -> bool:
-        """Whether the drawing shows every part of the system.
+        """Whether the drawing shows the whole system, and shows more than separate particles and bodies.
 
-        A constraint that is given as a formula has no picture; the caption of the drawing states it. A drawing of
-        several particles or of bodies cannot show an energy that couples them.
+        A constraint that is given as a formula cannot be shown; the caption of the drawing states it. An energy that
+        is given as a formula must be linear in the coordinates if there is a body or more than one particle.
         """
         return (
             self.connections.is_possible
@@ -123,7 +123,7 @@ class _Scene:
         )
 
     def _rolling_is_seen(self) -> bool:
-        """Whether a surface is drawn under each body that rolls."""
+        """Whether the drawing shows the surfaces on which bodies roll."""
         rolling = [r for each in self.system.conditions if (r := each.fact(Rolling)) is not None]
         drawn = [touch.of for touch in self.connections.contacts if self.connections.is_drawn(touch.surface)]
         if all(any(getattr(of, "body", None) is r.body.body for of in drawn) for r in rolling):
@@ -143,7 +143,8 @@ class _Scene:
         )
 
     def _shows_something(self) -> bool:
-        """Whether the drawing shows more than particles and bodies with their angles and positions."""
+        """Whether the drawing shows more than particles and bodies with their angles and positions. Links, springs, a
+        pivot of a body and a constraint stated in the caption also count."""
         outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
         if any(not isinstance(mark, ALONE) and mark not in outlines for mark in self.marks):
             return True
@@ -170,7 +171,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return the time at which a system with a prescribed rotation about the vertical is clearly visible."""
+        """Return the time at which a system with a prescribed rotation in space is drawn; an empty mapping for any
+        other system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -180,7 +182,8 @@ class _Scene:
         return {TIME: angle / rate}
 
     def _rate_round(self) -> Expr | None:
-        """Return the constant rate of the prescribed rotation in space, if there is exactly one such rotation."""
+        """Return the rate of the prescribed rotation in space, if there is exactly one and its rate is constant;
+        otherwise None."""
         components = [c for place in self.system.places for c in place.components]
         angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
@@ -220,11 +223,12 @@ class _Scene:
         yield from self._fields()
 
     def _rolling(self) -> Iterable[Mark]:
-        """Yield the surfaces of rolling conditions without a described surface."""
+        """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing if a body touches a
+        surface of the description, in a plane."""
         return () if self._touching_bodies() else contact_marks(self.system)
 
     def _axis_of_table(self) -> list[Mark]:
-        """Return the vertical axis of the prescribed rotation, if there is one."""
+        """Return the vertical axis of the prescribed rotation in space; an empty list without such a rotation."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
@@ -257,9 +261,12 @@ class _Scene:
         return self._is_held(particle, link) if link.is_constant else self.connections.runs_along(link)
 
     def _round(self, link: Link) -> Iterable[Mark]:
-        """If the link starts on the vertical axis through the origin, yield the circle of the particle about the axis,
-        and the axis if its label is a coordinate. Otherwise yield the curves of the particle. Yield nothing for a link
-        of constant length or with a prescribed rotation about a fixed point."""
+        """Yield the curves on which the particle at the end of a link moves.
+
+        If the link starts at the origin, or on the vertical axis at a height that is a coordinate, yield the circle of
+        the particle for each angle. If the height is a coordinate, also yield the axis with this coordinate as its
+        label. Yield nothing for a link of constant length or with a prescribed rotation about a fixed point.
+        """
         *across, height = link.start.components
         if (
             link.is_constant
@@ -285,7 +292,8 @@ class _Scene:
                 yield ConnectionMark(column_of(at), column_of(ahead))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curve of a point for each coordinate."""
+        """Yield the curves of a point along its coordinates, except straight lines and wires. In space, if only one
+        component of the position varies, yield dashed lines for this component instead."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
@@ -299,7 +307,7 @@ class _Scene:
 
     def _two_bodies(self) -> Iterable[Mark]:
         """For two particles in a plane, yield the components of their relative position, and the axes of their centre
-        of mass. Yield nothing unless the coordinates of the system are the components of these two vectors."""
+        of mass. Yield nothing unless the components of these two vectors are coordinates of the system."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -323,7 +331,8 @@ class _Scene:
     # --- displacements ---
 
     def _displacements(self) -> Iterable[Mark]:
-        """Yield a dimension line for each coordinate that is the displacement of a mass along a fixed line."""
+        """Yield dimension lines for coordinates that no other mark shows: displacements of masses along fixed lines,
+        and lengths of pieces of ropes."""
         shown: set[Symbol] = set()
         for q, kind in self.system.coordinates.items():
             found = self._displaced(q) if kind == "length" and not self._is_shown(q) else None
@@ -345,9 +354,12 @@ class _Scene:
         return is_free and all(c in self.system.coordinates for c in at.components)
 
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
-        """Return the place of a mass at zero coordinate and its present place, if the coordinate is a distance along a
-        fixed line, or the ends of a piece of a rope that has this length; otherwise None. Of several such masses,
-        choose the one that the fewest coordinates move."""
+        """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
+
+        If a piece of a rope has the length q, the ends are those of the piece. Otherwise q must be the distance that a
+        mass has moved along a fixed line; the ends are its positions at q = 0 and at the drawn value of q. Of several
+        such masses, the one is chosen whose position contains the fewest coordinates.
+        """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
             return piece
@@ -377,7 +389,7 @@ class _Scene:
                 down = touch.at - at
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
-        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # an inclined plane is below
+        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # above an inclined plane
         aside = ImmutableDenseMatrix([0, below] if y == 0 else [self._free_side(at), 0])
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
 
@@ -391,14 +403,15 @@ class _Scene:
         return same(own, at)
 
     def _free_side(self, at: Location) -> int:
-        """Return the side of a vertical dimension line: away from the other masses, 1 (right) or -1 (left)."""
+        """Return the side of a vertical dimension line, 1 (right) or -1 (left). It is on the right if all other masses
+        are to the left, or if none is to the left or right; otherwise it is on the left."""
         others = [place for _, place in self.system.masses if not same(place, at)]
         ways = [self.connections.number((place - at).components[0]) for place in others]
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
 
     def _is_on_carrier(self, at: Location) -> bool:
-        """Whether a mass carries a surface, or touches a surface that a particle carries. The dimension line of such a
-        mass is beneath the carrier."""
+        """Whether a mass carries a surface, or touches a surface that a particle carries. Successive dimension lines of
+        such masses are at different distances."""
         carriers = [each for each in self.connections.contacts if isinstance(each.surface.of, Particle)]
         return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
 
@@ -411,7 +424,7 @@ class _Scene:
     # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
-        """Yield the arrows of uniform fields, next to all other marks."""
+        """Yield the arrows of uniform electric and magnetic fields, next to all other marks."""
         beside = 0
         for each in self.system.charges:
             for field in (each.electric, each.magnetic):
@@ -454,7 +467,7 @@ class _Scene:
             yield ConnectionMark(a, b)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
-        """Yield an ellipse about the centre of an inverse-square force."""
+        """Yield an ellipse with the centre of an inverse-square force in one focus; nothing for any other force."""
         other = each.end if same(each.start, centre) else each.start
         link = next((link for link in self.links.values() if same(link.end, other) and same(link.start, centre)), None)
         turned = angle_of_link(self.system, link) if link is not None and self.rows == 2 else None

@@ -21,8 +21,8 @@ STEPS = 96  # number of straight segments in a circle
 
 
 def numeric(value: Expr, known: Mapping[Symbol, Any] = MappingProxyType({})) -> float:
-    """Return the number of an expression. Its symbols get distinct numbers from 0.6 upwards, which suit both lengths
-    and acute angles.
+    """Return a numerical value of an expression. Its symbols are replaced by distinct numbers from 0.6 upwards, which
+    are possible values of lengths and, if there are only a few, of acute angles.
 
     known   symbol -> value, for some symbols; a value may contain other symbols
     """
@@ -59,7 +59,7 @@ def angle_of(a: Vector, b: Vector) -> float:
 
 
 def across(a: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors that form a right-handed set of perpendicular vectors with a direction."""
+    """Return two unit vectors u and v such that u, v and the direction `a` are perpendicular and right-handed."""
     n = unit(a)
     helper: Vector = (0.0, 0.0, 1.0) if abs(n[2]) < 0.9 else (1.0, 0.0, 0.0)
     u = unit(cross(helper, n))
@@ -105,7 +105,8 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def is_within(spot: Spot, corners: Sequence[Spot]) -> bool:
-    """Return whether a spot is inside an outline: a line from the spot to the right has an odd number of crossings."""
+    """Return whether a spot is inside an outline. A horizontal line from the spot to the right then crosses the outline
+    an odd number of times."""
     x, y = spot
     if not (min(c[0] for c in corners) < x < max(c[0] for c in corners)):
         return False

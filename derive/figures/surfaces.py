@@ -13,7 +13,7 @@ from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, uni
 
 UPWARDS = (0.0, 0.0, 1.0)
 SIGHT = 120  # number of steps along the line of sight
-EVERY = 8  # only each eighth point of a circle is used for the size of the drawing
+EVERY = 8  # only every eighth point of a circle is used for the size of the drawing
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Revolved(Surface):
         return paper.revolved(*self._rings(paper.numbers))
 
     def nearest_rim(self, paper: Paper) -> tuple[Spot, ...]:
-        """Return the circle at the end that faces the viewer."""
+        """Return the circle at the end that is nearer to the viewer."""
         along, rings = paper.numbers.vector(self.along), list(zip(*self._rings(paper.numbers), strict=True))
         centre, radius = max((rings[0], rings[-1]), key=lambda ring: dot(ring[0], paper.stance.eye))
         return paper.spots(*rim(centre, radius, along))
@@ -146,8 +146,10 @@ class TorusMark(Surface):
         return found
 
     def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
-        """Return points around the visible opening: the part of the inner edge between the ends of its rear half; an
-        empty list if there is no opening."""
+        """Return the points of the inner edge that bound the visible opening; an empty list if there is no opening.
+
+        These points are horizontally between the ends of the rear half of the inner edge.
+        """
         centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
         behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
         ends = [x for x, _ in behind]
@@ -168,7 +170,7 @@ def _unit_along(k: int) -> Vector:
 
 
 def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
-    """Return the parts of a curve on which the flags are true."""
+    """Return the parts of a curve on which the flags are true; a single point is not a part."""
     found: list[list[Vector]] = []
     for i, (place, flag) in enumerate(zip(places, flags, strict=True)):
         if flag:
@@ -180,7 +182,7 @@ def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]
 
 @dataclass(frozen=True)
 class Polyhedron(Surface):
-    """A convex body with flat faces, or a plane figure.
+    """A convex body with flat faces, or a plane figure in space.
 
     faces     the indices of the corners of each face, in order; empty if the corners form a single face
     lengths   labels for lengths, each written at one of the edges with this length
@@ -281,7 +283,7 @@ class Bore(Cavity):
 
 @dataclass(frozen=True)
 class Hole(Cavity):
-    """A hole in a flat body; marks behind the hole are visible through it."""
+    """A hole in a flat body, drawn as a blank area with an edge over the body."""
 
     layer: ClassVar[int] = 2
 

@@ -16,7 +16,7 @@ from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway,
 HATCH = 4.0  # distance between two hatches, and length of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 ARC = (11.0, 27.0)  # least and greatest radius of an arc
-FREE = 16.0  # distance between all other marks and the arrow of gravity
+FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
 ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
 
@@ -68,10 +68,12 @@ class GroundMark(Surface):
 
 @dataclass(frozen=True)
 class FloorMark(Surface):
-    """Hatched ground under points of the same height.
+    """Hatched level ground under some places.
 
-    off       the distance of the ground below the points of `above`, in points on the paper
-    margins   the lengths by which the ground is longer on the left and on the right, in points on the paper
+    above     the places above the ground; the ground is drawn below the lowest of them
+    off       the distance of the ground below the places `above`, in typographic points
+    margins   the lengths by which the ground extends beyond these places to the left and to the right, in typographic
+              points
     """
 
     above: tuple[Position, ...]
@@ -184,7 +186,7 @@ class CurvedGround(WayMark):
 
 @dataclass(frozen=True)
 class AngleBetween(Mark):
-    """The arc from one line to another at a vertex; its radius is less than the lengths of the lines.
+    """The arc from one line to another at a vertex; its radius is usually less than the lengths of the lines.
 
     a, b     vectors from the vertex along the lines
     dashed   whether the first line is drawn, as a dashed line
@@ -210,8 +212,7 @@ class AngleBetween(Mark):
         if not size_of(a) or not size_of(b) or size > pi - 1e-6:
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
-        # The arc of a small angle has a larger radius, so that it is visible; the radius is less than the lengths of
-        # the lines.
+        # The arc of a small angle has a larger radius, so that the arc is visible.
         points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale
@@ -236,7 +237,8 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle that does not affect the choice of the view, because its vertical plane already faces the viewer."""
+    """An angle that does not affect the choice of the view, because the values in the drawing already turn its vertical
+    plane towards the viewer."""
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -245,7 +247,8 @@ class UprightAngle(AngleBetween):
 
 @dataclass(frozen=True)
 class DistanceMark(Mark):
-    """A dimension line between two points, shifted to a side, or away from the centre of the drawing."""
+    """A dimension line between two points, shifted to the side `aside`, or by default away from the centre of the
+    drawing."""
 
     start: Position
     end: Position

@@ -24,7 +24,7 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the right in the usual view
-# The precession angle at which the line of nodes points to the viewer and to the left; the axis of the body then leans
+# The precession angle at which the line of nodes points to the viewer and to the left. Then the axis of the body leans
 # to the left and slightly away from the viewer.
 NODES_IN_FRONT = -pi / 18
 # Length of an axis, and distance and radius of a rotation arrow, relative to the axis of the body.
@@ -37,7 +37,8 @@ CENTRE = "C"
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
     """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    For a symmetric body with Euler angles, also yield the axes that follow all rotations except the spin.
+    If there is a spin and `follows_nodes` is true, also yield the axes that follow all rotations except the spin. Yield
+    nothing unless the first rotation is about the vertical and at least two rotations change with time.
 
     end   the end of the axis of the body
     """
@@ -67,7 +68,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
-    body, and the angle between the two; nothing if the angles are not Euler angles.
+    body, and the angle between these two axes. Yield nothing if the rotations are not Euler angles that all vary.
 
     size   the distance of the rotation arrows from the centre
     """
@@ -83,7 +84,8 @@ def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
 
 
 def follows_nodes(placed: Any) -> bool:
-    """Return whether the body is symmetric and has Euler angles, so that the line of nodes is a principal axis."""
+    """Return whether the body is symmetric about its z axis and has the Euler angles z, x, z, so that the line of nodes
+    is a principal axis."""
     turns = getattr(placed.turned, "turns", ())
     moments = getattr(placed.body, "moments", None)
     if [i for i, _ in turns] != [2, 0, 2]:
@@ -101,16 +103,16 @@ def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """Replace an angle by a mark that does not affect the view, because the body already faces the viewer. Return any
-    other mark unchanged."""
+    """Replace an `AngleBetween` by an `UprightAngle`, which does not affect the choice of the view. Return any other
+    mark unchanged."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 
 def stance_values(system: System) -> dict[Symbol, Expr]:
     """Return the precession angles at which inclined bodies are drawn.
 
-    If the line of nodes is a principal axis of the body and no condition, such as rolling, holds for the system, the
-    line of nodes is in front; otherwise the axis of the body leans to the right.
+    If the line of nodes is a principal axis of the body, and the system has no condition such as rolling, the line of
+    nodes points to the viewer. Otherwise the axis of the body leans to the right.
     """
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
@@ -127,8 +129,8 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 
 
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
-    """Yield the dimensions of a symmetric body with Euler angles: the radii of its round parts, the distances of their
-    ends from the fixed point, and the centre of mass."""
+    """Yield the dimensions of a symmetric body with Euler angles: the radii of its round parts, if these are measures
+    of the parts, the distances of the ends of these parts from the fixed point, and the centre of mass."""
     if not follows_nodes(placed):
         return
     _, across, along = following_axes(placed)
@@ -184,6 +186,6 @@ def _radius(body: Any, foot: Position, along: Position, aside: Position) -> Sequ
 
 
 def _lengths(body: Any, low: Expr) -> list[Expr]:
-    """Return the distances from the fixed point to both ends of a part; only one distance for a flat part."""
+    """Return the distances along the axis from the fixed point to both ends of a part; only one for a flat part."""
     lower, upper = body.boundary.ends
     return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

@@ -23,10 +23,11 @@ ZERO = Integer(0)
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the dashed line from a point to a particle, its angle, and the curve on which the particle moves.
+    """Yield the dashed line from a point to a particle, and the angle of this line. If one angle moves the particle at
+    a constant distance, also yield the circle of the particle.
 
-    Along a spring, a dimension line shows the distance. If the components of the line are coordinates, their axes are
-    drawn instead.
+    Along a spring, a dimension line shows the distance instead of the dashed line. If the components of the link are
+    coordinates, their axes are drawn instead.
     """
     start, end = column_of(link.start), column_of(link.end)
     yield from angle_marks(system, link)
@@ -81,7 +82,7 @@ def _has_spring(system: System, link: Link) -> bool:
 
 
 def displacement_marks(system: System, support: Location) -> Iterable[Mark]:
-    """Yield the displacement of a support with a prescribed motion along x or y."""
+    """Yield the displacement of a support with a prescribed motion along x or y in a plane."""
     moving = moving_in(system, *support.components)
     rest = Location(tuple(_terms_without(c, moving) for c in support.components))
     moved = [c for c in (support - rest).components if c != 0]
@@ -110,7 +111,8 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def on_the_axis(carried: Location) -> Location:
-    """Return the point on the axis about which a point rotates with a prescribed motion."""
+    """Return the terms of a position that do not contain the time: the centre about which a point rotates with a
+    prescribed motion."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 
@@ -119,6 +121,6 @@ def _terms_without(value: Expr, letters: set[Symbol]) -> Expr:
 
 
 def line_between(start: Location, end: Location) -> Link:
-    """Return the line between two places."""
+    """Return the line between two places as a link whose length counts as constant."""
     length = sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
     return Link(start, end, length, True)

@@ -28,10 +28,10 @@ Values = Mapping[Symbol, Expr]
 
 @dataclass(frozen=True)
 class Moment:
-    """The state at one instant, such as the start of a motion or an impact.
+    """The state at one instant, such as the start of a motion, or the state before an impact.
 
     at        the values of coordinates
-    rates     the nonzero rates of coordinates
+    rates     the rates of coordinates
     pushes    pairs of the components of a given impulse and its point of action
     meeting   the points of impact on bodies
     """
@@ -43,7 +43,10 @@ class Moment:
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the initial velocity of a particle in a plane, at its initial position, and its launch angle."""
+    """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle.
+
+    The components of the position of the particle must be coordinates with known initial values and rates.
+    """
     for particle in system.particles:
         components = particle.at.components
         if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
@@ -93,7 +96,8 @@ def _size(vector: Location) -> Expr:
 
 
 def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
-    """Yield the height of the point of impact above the origin, if the height is a symbol."""
+    """Yield the height of the point of impact above the origin, if the height is a symbol and the system is one body in
+    a plane."""
     if len(at.components) != 2 or len(system.bodies) != 1:
         return
     there = Location(tuple(tidied(c.xreplace(dict(moment.at))) for c in at.components))
@@ -117,7 +121,8 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
 
 
 def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """Yield each body that is hit at a point, with the symbol for the distance from its fixed point to this point."""
+    """Yield pairs of a body and a symbol. The body has a fixed point, and the symbol is the constant distance from this
+    point to the point of impact."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
@@ -125,16 +130,17 @@ def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether the label of a mark is a coordinate that is zero at the impact, or the label of a dimension line
-    is a coordinate with a rate just before the impact."""
+    """Return whether a mark does not belong in the drawing of an impact. This is so for an angle or a dimension line
+    whose label is a coordinate that is zero at the impact. It is also so for a dimension line whose label is a
+    coordinate with a rate just before the impact."""
     if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values for the drawing of an impact: the values at the impact. A part whose displacement has a rate is
-    drawn at its place before the impact."""
+    """Return the values of coordinates and lengths for the drawing of an impact. They are the values at the impact, but
+    a part that has a displacement with a nonzero rate is drawn at an earlier place."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

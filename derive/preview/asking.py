@@ -147,7 +147,8 @@ class Warm:
     _over: bool = False
 
     def page(self, problem_id: str, detail: str | None, idle: Callable[[], bool] = lambda: False) -> Shown | None:
-        """Return the page of a problem; None if `idle` says that nobody waits for it, or if the preview is over."""
+        """Return the page of a problem; None if `idle` says that this page is not needed any more, or if the preview is
+        over."""
         started = time.monotonic()
         with self._asking:
             try:

@@ -26,7 +26,7 @@ class Ending(Protocol):
 
 
 WRITTEN = (".yaml", ".py", ".j2", ".css", ".js")
-SETTLED = 20  # milliseconds without another change after which an edit is complete
+SETTLED = 20  # an edit is complete if nothing else changes for this number of milliseconds
 
 
 def preview(

@@ -1,1 +1,1 @@
-"""Prints the tree of a page as text, LaTeX, HTML and JSON, and makes drawings, without files or subprocesses."""
+"""Prints the tree of a page in every format, and makes drawings. It writes no files and starts no subprocesses."""

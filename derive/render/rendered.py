@@ -35,7 +35,7 @@ class Rendered:
     card_html               the statement and its drawing, for the list of the problems of a set
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of its checks, see `Checks.counts`
-    steps, compared         the number of steps, and the number of statements of the reference that were compared
+    steps, compared         the number of steps, and the number of compared statements of the reference and of remarks
     source_faults           errata of the source and remarks on it: the kind, the line, what is printed,
                             what is right (of an erratum), and why, as plain text
     """

@@ -9,7 +9,7 @@ from derive.errors import Complaint, Misused
 
 
 def new(arguments: argparse.Namespace) -> int:
-    """Write the files of a problem that builds at once, and print what to do next."""
+    """Write the files of a new problem, which can be built immediately, and print what to do next."""
     from derive.building.files import shown_path, write
     from derive.building.set_names import wrong_set_name
     from derive.course.begun import begun

@@ -81,7 +81,7 @@ def _selected(asked: list[str], known: list[str], sets: list[str]) -> list[str]:
 
 
 def _verdict_code(outcome: Outcome) -> int:
-    """Return the exit code for this problem, and print its errors on standard error."""
+    """Return the exit code for this problem, and print its errors and warnings on standard error."""
     if isinstance(outcome.error, DeriveError):
         complain(outcome.error.complaints)
         return outcome.error.exit_code

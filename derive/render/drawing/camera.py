@@ -1,8 +1,8 @@
 """From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
-A symbol with a number keeps this number. The other symbols get substitute values in the order of their declaration:
-angles get 36, 54, 72, ... degrees, and the symbols of any other kind 1, 3/2, 2, ... times the typical size of this
-kind.
+A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
+declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. If there are no such numbers, the
+values are the same multiples of 36 degrees for angles, and of 1 for any other kind.
 """
 
 from __future__ import annotations
@@ -129,8 +129,8 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the view in which vectors are long and far apart and do not end at corners; without vectors, the usual
-    view.
+    """Return the view of a drawing. Of several views in space, this is the one in which vectors are long and far apart
+    and do not end at corners; without vectors, it is the usual view.
 
     `reach` is the size of the body.
     """
@@ -162,7 +162,8 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return the length of the most foreshortened vector times the sine of the narrowest angle between two vectors."""
+    """Return a measure of how clearly the vectors appear. It is the length of the most foreshortened vector times about
+    the sine of the narrowest angle between two vectors; both factors have an upper limit."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

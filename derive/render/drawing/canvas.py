@@ -32,7 +32,8 @@ BOLD = 0.45  # the width of the outline that makes a letter bold
 
 @dataclass(frozen=True)
 class Pen:
-    """A kind of line: its colour, its width, and its dashes and gaps in units of the width."""
+    """A kind of line: its colour, its width, its dashes and gaps in units of the width, and the length of its
+    arrowheads."""
 
     colour: str
     width: float

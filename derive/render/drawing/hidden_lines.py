@@ -1,6 +1,6 @@
 """Paper on which marks draw themselves; the paper projects positions to points and finds hidden lines of surfaces.
 
-Every surface is convex, so an edge is hidden if both faces that meet at the edge face away from the eye.
+The surfaces in this module are convex, so an edge is hidden if both faces that meet at it face away from the eye.
 """
 
 from __future__ import annotations
@@ -100,7 +100,8 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Return where a side turns away from the eye: index of a rim point, and fraction of the distance to the next."""
+    """Return the places on the rim where a side begins or ceases to face the eye. Each place is the index of a rim
+    point, and the fraction of the distance from this point to the next."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

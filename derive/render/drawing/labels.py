@@ -1,6 +1,6 @@
 """Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
-Each label tries a ring of positions around its point and takes the position that covers least; of equal positions, it
+Each label tries several positions around its point and takes the position that covers least. Of equal positions, it
 takes the position nearest to the side that its mark prefers. Labels on the things that they name choose first; labels
 of lines, which can slide, choose last. Then each label chooses again, now that the other labels have positions. If
 labels still cover something, a second search lets labels with few positions choose earlier, and the better result is
@@ -161,7 +161,7 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return the points of all lines and bullets that no surface drawn later hides."""
+    """Return points of the lines and bullets, except points that are hidden by a surface drawn later."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):

@@ -18,7 +18,7 @@ _UNKNOWN = {r"\tfrac": r"\frac", r"\lvert ": "|", r"\rvert ": "|", r"\mathopen{}
 
 @dataclass(frozen=True)
 class Span:
-    """A piece of mathtext without its dollar signs, and whether it is drawn bold."""
+    """A piece of mathtext between dollar signs, and whether it is drawn bold."""
 
     text: str
     bold: bool = False

@@ -1,6 +1,6 @@
 """A plot as files: one panel for each curve, with quantity and unit at each axis and with marked extrema.
 
-Numbers and names have the font of the page, and no text covers the curve.
+Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
 """
 
 from __future__ import annotations
@@ -258,8 +258,9 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float
 
 
 def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> Iterator[tuple[float, float, str, bool]]:
-    """Yield the middle and the edge next to the dot of each name of an extremum, within the panel. A name that would
-    cover another name is left out; the caption has the values of all extrema."""
+    """Yield each name of an extremum with its position in the panel: x of its middle, and y of its edge next to the
+    dot. Also yield whether the extremum is a minimum. A name that would cover another name is left out; the caption has
+    the values of all extrema."""
     left, _, right, _ = frame.paper
     taken: list[Extent] = []
     for place, is_lowest, name in panel.turns:

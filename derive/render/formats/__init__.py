@@ -26,14 +26,15 @@ if TYPE_CHECKING:
 
 # Documents of a set are not formats: a document needs a page and its set, but a format needs only a page.
 TYPESET, HTML = ("latex", "pdf"), "html"
-WRITTEN = "Written by derive"  # a file that begins with this line may be replaced; other files are handwritten
+# `-o` replaces a file of a kind that authors write, such as .md, only if its first line contains this text.
+WRITTEN = "Written by derive"
 
 
 @dataclass(frozen=True)
 class Solution:
     """A page as a tree, with the data from which it was made.
 
-    values     the numbers of answers, by key
+    values     the steps that evaluate answers numerically, by key
     compared   outcomes of the comparison with a reference
     warnings   warnings for the author, which are not part of the page
     """

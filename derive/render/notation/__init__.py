@@ -1,1 +1,1 @@
-"""How a formula is laid out, and written as LaTeX or as plain text."""
+"""How a formula is laid out, and written as LaTeX, MathML or plain text."""

@@ -1,7 +1,8 @@
 """How strongly a layout binds, and where brackets and signs are therefore needed.
 
-Brackets depend on what is printed, not on the kind of expression. A product with one negative factor begins with a
-minus sign, whether it is a `Mul`, a `Factors` or a number times a vector, and gets brackets next to other factors.
+Brackets depend on what is printed, not on the kind of expression. For example, a product with one negative factor may
+be a `Mul`, a `Factors` or a number times a vector. It always begins with a minus sign, so it gets brackets next to
+other factors.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ def layout_of_latex(tex: str) -> Layout:
 
 
 class _Reader:
-    """Reads the tokens once; an unmatched bracket or a command without its argument is printed unchanged."""
+    """Reads the tokens once; an unmatched bracket is printed as it is, and a missing argument is left empty."""
 
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]

@@ -20,7 +20,7 @@ class Digits:
 class Name:
     """A symbol: its base such as `omega`, a subscript such as `x`, and dots; its style is scalar, vector or tensor.
 
-    An accent is the command in LaTeX of a mark that an author put above the symbol: `hat`, `bar`, `tilde`.
+    `accent` is the LaTeX command of a mark that an author put above the symbol: `hat`, `bar` or `tilde`.
     """
 
     base: str
@@ -54,7 +54,7 @@ class Upright:
 
 @dataclass(frozen=True)
 class Operator:
-    """An operator or relation: + - = times dot inner cross approx comma space."""
+    """An operator, a relation or a separator, by its name in `TEX_OPERATORS`, such as `plus`, `equals` or `comma`."""
 
     kind: str
 
@@ -185,7 +185,7 @@ SIGNS = {
 }  # fmt: skip
 ACCENTS = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 
-DEGREE_SIGN = Upright("degree")  # the only unit without a space after its number
+DEGREE_SIGN = Upright("degree")  # the only unit that follows its number without a space
 DOT, TIMES, PLUS, MINUS, THIN_SPACE = (Operator(kind) for kind in ("dot", "times", "plus", "minus", "space"))
 EITHER_SIGN = Operator("plus_minus")
 INNER, CROSS = Operator("inner"), Operator("cross")  # the dot and the cross between two vectors
@@ -217,7 +217,8 @@ def last_of(layout: Layout) -> Layout:
 
 
 def begins_with_number(layout: Layout) -> bool:
-    """Return whether the layout begins with a number, as `3a`, `3/2 a`, `10^2`: after another factor it needs a dot."""
+    """Return whether the layout begins with a number, such as `3a`, `3/2 a`, `10^2`, and so needs a dot after another
+    factor."""
     first = first_of(layout)
     if isinstance(first, Raised):
         return begins_with_number(first.base)
@@ -227,7 +228,7 @@ def begins_with_number(layout: Layout) -> bool:
 
 
 def is_numeric(layout: Layout) -> bool:
-    """Return whether the layout contains only numbers, as 2/(3 sqrt(14))."""
+    """Return whether the layout contains only numbers, such as 2/(3 sqrt(14))."""
     match layout:
         case Fraction(above, below):
             return is_numeric(above) and is_numeric(below)

@@ -28,8 +28,8 @@ def letter_clashes(
 ) -> list[Complaint]:
     """Return at most one error for each symbol of the problem: its printed form must not also mean something else.
 
-    `coordinates` are the coordinates that the script names; a body that the script creates before it names them may use
-    the same symbols.
+    `coordinates` are the coordinates that the script names. A body that the script creates earlier may use the same
+    symbols as variables of integration.
     """
     used, defined = letters_in_use(problem), {each.name: each.symbol for each in problem.defined}
     looks = {as_printed(letter): letter for letter in used}

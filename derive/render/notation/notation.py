@@ -94,7 +94,7 @@ PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "l
 class Notation:
     """The layout of any expression of the engine.
 
-    dimensions   dimensions of symbols, so that masses come first and rates last; unknown symbols are treated as lengths
+    dimensions   dimensions of symbols, so that masses come first and rates last; symbols without one are between these
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     """
 
@@ -210,7 +210,8 @@ class Notation:
         return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
 
     def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
-        """Return a factor for use next to others, in brackets if it binds less strongly than `most`."""
+        """Return a factor for use next to others. It is in brackets if it binds less strongly than `most`, or if it is
+        a number with a unit."""
         inner = self.layout(expr)
         return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
 

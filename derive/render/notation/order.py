@@ -1,8 +1,8 @@
 """The order in which terms and factors are written.
 
 Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
-Factors have this order: coefficients of friction, masses, accelerations of gravity, lengths, sums, numbers, roots,
-rates, functions.
+Factors have this order, which `Place` states in full: coefficients of friction, masses, accelerations of gravity,
+lengths, sums, numbers, roots, rates of coordinates, functions.
 """
 
 from __future__ import annotations
@@ -149,7 +149,7 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the `Place` of a letter; the letter mu without a dimension is a coefficient of friction."""
+    """Return the `Place` of a letter; the letter mu, if it is a pure number, is a coefficient of friction."""
     dimension = dimension_of(letter)
     is_coefficient = str(letter).partition("_")[0] == "mu" and dimension is not None and dimension.is_number
     return Place.COEFFICIENT if is_coefficient else rank_of_dimension(dimension)

@@ -71,7 +71,7 @@ def _point_before(places: int, number: Rational) -> str:
 
 
 def unit_behind_number(name: str) -> Layout:
-    """Return `s^-2` for the unit 1/s^2, because the 1 could be read as a factor."""
+    """Return the unit as it is printed after a number: 1/s^2 as `s^-2`, because the 1 could be read as a factor."""
     only_below = re.fullmatch(r"1/([A-Za-z]+)(?:\^(\d+))?", name)
     return Upright(f"{only_below[1]}^-{only_below[2] or 1}" if only_below else name)
 
@@ -332,7 +332,7 @@ def _would_be_argument(before: Layout, item: Layout) -> bool:
 
 
 def between_factors(before: Layout, after: Layout) -> Layout | None:
-    """Return the mark between two adjacent factors: none between distinct letters, a dot if they would run together."""
+    """Return the mark between two adjacent factors: none between different letters, otherwise a dot or a thin space."""
     if begins_with_number(after):
         return DOT
     if isinstance(first_of(after), Applied):

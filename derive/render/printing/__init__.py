@@ -1,1 +1,1 @@
-"""Prints a page as plain text, TeX, HTML, Markdown and JSON."""
+"""Prints a page as plain text, TeX, HTML, Markdown, JSON and a notebook."""

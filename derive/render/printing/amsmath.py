@@ -32,8 +32,8 @@ def display_latex(display: Display, notation: Notation, numbered: bool = False) 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
-    """Return the rows of a display. Each row ends with its `ending`; in the last row of a step, punctuation precedes
-    it."""
+    """Return the rows of a display. Each row ends with its `ending`, if given; in the last row of a step, punctuation
+    precedes the ending."""
     return [
         _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
         for group, stop in zip(display.groups, display.stops, strict=True)

@@ -201,7 +201,8 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """Return the simplest factor f for which `before` is f times `here`."""
+    """Return the factor f for which `before` is f times `here`: 1 or -1 if possible, otherwise a simplified
+    quotient."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign

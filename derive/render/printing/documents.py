@@ -30,7 +30,10 @@ def document_fragments(
     folder: Path,
     drawings: Files,
 ) -> dict[str, str]:
-    """Return each document in TeX by its name and in HTML by `name.html`; `pages` returns the page for a document."""
+    """Return each document in TeX by its name and in HTML by `name.html`, but the sheet only in HTML.
+
+    pages   returns the page for a document
+    """
     found: dict[str, str] = {}
     for kind in wanted:
         if kind == SHEET:

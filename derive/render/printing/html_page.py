@@ -109,7 +109,7 @@ class HtmlPage:
         return points_text(credit.points)
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the results of a step; a line may end between two sides or within one."""
+        """Return the results of a step; the browser may break a formula between two sides, or within one side."""
         return Html(", ".join(self._sides_of(line) for line in credit.results))
 
     def _sides_of(self, line: ChainLine) -> str:
@@ -186,7 +186,7 @@ class HtmlPage:
         return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
 
     def contents(self) -> Sequence[PartPage]:
-        """Return the parts for the table of contents, which only a page of several parts has."""
+        """Return the entries of the table of contents; only a separate page of at least `LISTED` parts has one."""
         return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
@@ -305,7 +305,8 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
-    """Join pieces while they fit on a line; a single piece that is too wide can be scrolled, also by keyboard."""
+    """Join pieces so that a line may end between two of them. A single piece that is too wide can be scrolled, also by
+    keyboard."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
         f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula

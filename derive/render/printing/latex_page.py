@@ -42,7 +42,7 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
-FEW_ROWS = 4  # a display with at most this many rows is not divided between pages
+FEW_ROWS = 4  # a display of at most this many steps, each of one low row, is not divided between pages
 NARROW = 26  # characters: two steps of this width fit on one line
 
 
@@ -147,7 +147,7 @@ class LatexPage:
         return (*self.document.parts_shown, *([self.document.limits] if self.document.limits else []))
 
     def is_last(self, block: Block) -> bool:
-        """Return whether the block is the last one before the closing note."""
+        """Return whether the block is directly before the closing sentences about the checks, with no note between."""
         last = self.sections()[-1].blocks[-1:] if self.document.closing else ()
         return any(block is each for each in last) and not self.document.note
 

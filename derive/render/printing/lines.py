@@ -1,4 +1,7 @@
-"""Packs the forms of a chain into lines: a reason ends a line, and a form that is too long for a line is broken."""
+"""Packs the expressions of a chain into printed lines.
+
+A line has at most one reason, and an expression that is too long for a line is broken.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +51,8 @@ class Printed:
 
 @lru_cache(maxsize=1024)  # every format and the height of a display need these lines
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
-    """Return the lines of one step, at most `limit` characters wide; the last line has the number."""
+    """Return the lines of one step, at most `limit` characters wide if they can be broken; the last line has the
+    number."""
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the current equation
     framed_from = len(equations.lines) - equations.framed
@@ -68,7 +72,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed.append(Printed(left, (side,), line.reason, framed=framed))
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
-            # Two forms that print the same terms, in any order, are shown once.
+            # Two expressions that print the same terms, in any order, are shown once.
             packed[-1] = replace(last, sides=(*last.sides[:-1], side), framed=max(last.framed, framed))
             continue
         reason_room = max(reason_width(line.reason), reason_width(last.reason)) if last else 0

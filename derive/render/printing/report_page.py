@@ -44,9 +44,9 @@ class ReportPage:
         return self.document.checks.source
 
     def steps(self, row: Row) -> Tex:
-        """Return the steps of a row, each named by its symbol and equation number.
+        """Return the steps of a row, each named by its symbol, its equation number or both.
 
-        A step without a symbol and a number is described by its inputs.
+        A step that has neither is described by its inputs.
         """
         named = [name for key in row.steps if (name := self._step(key))]
         if len(named) < len(row.steps):
@@ -73,7 +73,7 @@ class ReportPage:
         return self.words.rule(row.rule)
 
     def grade(self, row: Row) -> Tex:
-        """Return the word for the grade, in bold type if nothing was proved."""
+        """Return the word for the grade, in bold type unless the grade is "proved"."""
         word = escaped(self.words.grades[row.grade])
         return Tex(word if row.grade is Grade.PROVED else rf"\textbf{{{word}}}")
 

@@ -54,7 +54,8 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
 
 
 def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text of a template above a certain line; return empty text if the line or a fact is missing."""
+    """Fill the text of a template above a certain line. The result is empty if the line or a fact is missing, or if the
+    template cannot be read."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
         if found:

@@ -1,4 +1,4 @@
-"""A page as plain text for a terminal, 88 columns wide."""
+"""A page as plain text for a terminal of 88 columns."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ class _Page:
         return textwrap.shorten(f"[{'; '.join(said)}]", PAGE_COLUMNS, placeholder="\u2026]")
 
     def _body(self, line: Printed, indent: int) -> tuple[list[str], int]:
-        """Return the lines of text of a formula, and the index of the line on which its relations are."""
+        """Return the lines of text of a formula, and the index of the line that has its relation signs (=, <)."""
         items: list[Layout] = [item for relation, side in line.sides for item in (Operator(relation), side)]
         body = text_box(row(*items))
         left = plain(line.left) if line.left else ""
