@@ -5,7 +5,7 @@
     letters     the declared name for a letter with subscript and dots
     grids       sums and products of scalars, vectors and matrices
     integrals   signs and differentials, brackets between limits
-    arguments   functions and how far their arguments reach
+    arguments   letters, units, functions, and how far the arguments of functions reach
     brackets    brackets, triples, matrices, limits
     titles      left sides that are only a name of the answer
     grammar     chains, sums, products, factors
