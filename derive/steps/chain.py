@@ -38,7 +38,8 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return symbol -> value for these quantities, and component -> value for the components of each vector."""
+    """Return the values of these quantities by their symbols, and the components of each vector by the names of the
+    components."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -54,7 +55,8 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line, if the left side is an expression and not only a name."""
+    """Check that the left side equals the first line, if the left side is an expression and not only a name, and the
+    first line is not a relation."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []

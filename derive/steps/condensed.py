@@ -17,8 +17,8 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
-    """Replace the symbols of known steps in the lines of a step by their results, and add evidence that each new line
-    equals the line that it replaces.
+    """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
+    each new line equals the line that it replaces.
 
     A result may contain names that the step itself does not, such as a defined quantity.
     """

@@ -188,7 +188,7 @@ def _value(
 
 @dataclass(frozen=True)
 class DescribedImpact:
-    """A described impact; `letters` are the symbols of its impulses."""
+    """A described impact; `letters` are the symbols of the impulses of collisions and of constraint forces."""
 
     acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]

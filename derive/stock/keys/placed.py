@@ -51,8 +51,8 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
     """The keys of one entry of `bodies:`."""
 
     moments: Tree | None = key(
-        "in place of a shape, its three principal moments of inertia, or in a plane the moment about the "
-        "perpendicular axis; about the centre of mass, or with `middle` about the point that is held",
+        "in place of a shape: its three principal moments of inertia or, in a plane, its moment about the axis "
+        "perpendicular to the plane. They are about the centre of mass or, with `middle`, about the point that is held",
         as_written(
             {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
             "one moment or three",
