@@ -153,8 +153,7 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
         place = source.at(*_start(arg or definition), len(name))
         kind = asked_by_annotation(parameter.annotation)
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
-            message = f"`solve()` must take each value by its name, but `{name}` cannot be given by name"
-            faults.error("script", message, place)
+            faults.error("script", f"`{name}` cannot be given by name, so `solve()` cannot ask for it", place)
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
             message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"

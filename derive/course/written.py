@@ -148,7 +148,7 @@ class DrawingKeys(Record):
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(
-        "the numbers of the letters for each panel of a plot",
+        "numbers for letters, one mapping for each panel of a plot; a later mapping needs only the numbers that differ",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
 

@@ -141,8 +141,8 @@ class SystemKeys(Record):
     )
     pulleys: Mapping[Word, PulleyKeys] = key("massless frictionless pulleys with a radius, by name", PULLEYS)
     wires: Sequence[Word] = key(
-        "particles that are threaded on a smooth wire; the wire is the curve on which the one coordinate of the "
-        "particle moves it",
+        "particles that are threaded on a smooth wire: each has one coordinate, and the wire is the curve on which the "
+        "particle moves when this coordinate changes",
         WIRES,
     )
     strings: Sequence[StringKeys] = key("massless inextensible strings", STRINGS)
