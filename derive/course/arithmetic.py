@@ -145,14 +145,14 @@ class Arithmetic:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"`{self.shown(base)}` may be negative, so it cannot be raised to `{self.shown(exponent)}`"
+            message = f"`{self.shown(base)}` may not be positive, so it cannot be raised to `{self.shown(exponent)}`"
             self.refuse("expression", message, base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)
         return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)
 
     def applied(self, name: str, function: Callable[[Expr], Expr], inner: Term, start: int, end: int) -> Term:
-        """Apply a function to a number or an angle, or take the root of any quantity."""
+        """Apply a function to a number or an angle, or take the square root of any quantity."""
         if name == "sqrt":
             root = replace(inner, dimension=inner.dimension ** fraction(Rational(1, 2)))
         elif inner.dimension != NUMBER:

@@ -26,7 +26,8 @@ PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
     """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
-    `Misused` is raised if the name is not allowed, if a file of the problem exists, or if there is no such pattern.
+    `Misused` is raised if the name is not allowed, if a file of the problem exists, or if the pattern or the problem
+    `like` does not exist.
 
     templates   the folder that contains the patterns, in `new/`
     schemas     the folder of the schemas for editors

@@ -117,7 +117,7 @@ class _Parser(Arithmetic):
     # -- words ----------------------------------------------------------------------------------------------------
 
     def check_vocabulary(self) -> None:
-        """Report all undeclared names together; stop at a character or call that has no meaning here."""
+        """Report undeclared names together, up to the first character or call that has no meaning here."""
         faults = Faults()
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}

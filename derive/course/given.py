@@ -308,7 +308,7 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the value that replaces a number with a unit: a letter, with its sign, or zero or an exact angle.
+        """Return the value that replaces a number with a unit: zero, an exact angle, or a letter with a sign.
 
         The result is None if the text is an expression. The number is one of a group of `of` numbers, such as three
         sides.

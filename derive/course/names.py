@@ -1,7 +1,7 @@
 """The names of sets and problems, and the names of the documents of a whole set. No problem can have the name of such a
 document.
 
-The solutions are for students, the sheet has only the questions, and the report is for the instructor.
+The document "solutions" is for students, "problems" has only the questions, and "report" is for the instructor.
 """
 
 from __future__ import annotations

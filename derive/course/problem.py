@@ -161,7 +161,7 @@ class Problem:
 
     @property
     def texts(self) -> tuple[Prose, ...]:
-        """All prose that is printed."""
+        """All prose of the file that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
         around = (prose for prose in (self.strategy, self.note, *(each.why for each in self.limits)) if prose)

@@ -4,7 +4,7 @@ r"""Prose as an instructor writes it: plain text with mentions and formulas.
 `<<problem top>>` for the number of another problem of the set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in
 the letters of the problem when the page is made (`derive.page.formulas`). `\$` is a dollar sign.
 
-Text is data. Prose has no template commands; it is escaped when it is printed.
+Prose has no template commands; it is escaped when it is printed.
 """
 
 from __future__ import annotations

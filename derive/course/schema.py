@@ -26,9 +26,10 @@ R = TypeVar("R", bound="Record")
 
 @dataclass(frozen=True)
 class Reader(Generic[T]):
-    """The contents that a key allows: their JSON schema, and the function that reads their value (None after an error).
+    """The contents that a key allows: their JSON schema, and the function that reads their value and reports errors.
 
-    `read` takes the contents and the name of their key; `absent` makes the value of a missing key.
+    `read` takes the contents and the name of their key; `absent` makes the value of a missing key. If `read` returns
+    None, the key is treated as missing.
     """
 
     schema: dict[str, Any]

@@ -94,7 +94,7 @@ class Answering(Protocol):
         steps."""
 
     def every(self) -> dict[str, Any]:
-        """Return every name that parts may ask for, with its steps or with the error that prevents its derivation."""
+        """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
 
 
 @dataclass(frozen=True)

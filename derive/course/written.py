@@ -42,7 +42,7 @@ from derive.course.yaml_tree import Formula, Mapping, Scalar, Tree, Word, shape_
 from derive.errors import Faults, did_you_mean
 
 ANY_OUTCOME = ""
-POSITIVE = "positive"  # before a kind
+POSITIVE = "positive"  # the word that may be before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step

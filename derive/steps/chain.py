@@ -119,9 +119,9 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check a line that follows a line with an expansion and contains no expansion. If an equals sign joins the two
-    lines, the new line must equal the whole expression. If the new line is a limit, it must not contain the symbol that
-    goes to its limit."""
+    """Check a line that contains no expansion but follows a line with one. If an equals sign joins the two lines, the
+    new line must equal the line before it with the exact expression in place of each expansion. If the new line is a
+    limit, it must not contain the symbol that goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return

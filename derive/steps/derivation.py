@@ -113,8 +113,8 @@ def _named(value: Any) -> str:
 
 
 def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
-    """Return these quantities and all quantities on which they depend by their keys, parents first. Reject two distinct
-    steps with the same key."""
+    """Return, by their keys, these quantities and all quantities on which they depend, parents first. Reject two
+    distinct steps with the same key."""
     found: dict[str, Quantity] = {}
 
     def visit(quantity: Quantity) -> None:

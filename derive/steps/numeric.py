@@ -149,7 +149,7 @@ def value_of(
         return None
 
     def floats(result: Any) -> tuple[Any, Any]:
-        if isinstance(answer.value, Relation):  # the number must change neither the left side nor the mark
+        if isinstance(answer.value, Relation):  # the number must change neither the left side nor the relation sign
             asked, found = (getattr(each, "args", ())[:2] for each in (answer.value, result))
             if asked != found:
                 return Integer(1), Integer(0)

@@ -53,7 +53,7 @@ class Run:
     in_words      the assumed conditions that a step states in words
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
-    defined_at    the place in a file where each of them is written
+    defined_at    the place in a file where each quantity of `define:` is written, by its name
     is_natural    whether results may be written in defined and in usual quantities
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written

@@ -120,7 +120,7 @@ class Fact:
 
 
 class Witness(Fact, ABC):
-    """The described system to which a quantity belongs; its motion can be integrated numerically."""
+    """A fact with the described system to which a quantity belongs; a step is tested on the motion of this system."""
 
     @abstractmethod
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
@@ -158,8 +158,8 @@ class Quantity:
 
     @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates of the step and of its parents, with their kinds. The value may depend on these
-        coordinates."""
+        """Return the coordinates on which the value may depend, with their kinds: those of the step and of its parents,
+        without those that a fact eliminates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}

@@ -40,7 +40,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """The data of a comparison, for a page and its JSON; `here` is that of the `Comparison`."""
+    """The data of a comparison, for a page and its JSON; `here` is true if the input is that of the problem's file."""
 
     facts: dict[str, Any]
     here: bool
@@ -63,7 +63,7 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # the entry is compared for the present input; only then does the page mention it
+    here: bool = True  # whether the input is that of the problem's file; only then does the page mention the entry
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)

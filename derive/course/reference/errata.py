@@ -1,4 +1,4 @@
-"""An erratum of the source document, as on a page: what the document prints, why it is wrong, and what is right."""
+"""An erratum of the source document, as a page shows it: what the document prints, why it is wrong, what is right."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The statements of a document in `problems/<set>/reference.yaml`: groups of entries. Each group fixes its own input.
 
 A value is an expression in the grammar of the problem files (`states:`), or a formula as the document prints it
-(`latex:`): a chain, each side of which is compared, or a relation.
+(`latex:`). Such a formula may be a relation, or a chain of values, each of which is compared.
 """
 
 from __future__ import annotations

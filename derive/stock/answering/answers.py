@@ -70,7 +70,7 @@ def answer_for_each(
 class Answers(Generic[D]):
     """The answers about one system, body, rotation or impact.
 
-    `found` is name -> answer, for the answers that methods with `answer_for_each` have derived.
+    `found` has, by name, the answers that methods with `answer_for_each` have derived.
     """
 
     def __init__(self, described: D):

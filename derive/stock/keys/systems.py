@@ -161,7 +161,8 @@ class SystemKeys(Record):
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
-        "its name, `rest_3`; by default all equilibria",
+        "its name, `rest_3`. By default, stability is decided at all equilibria, and equations are linearised where all "
+        "coordinates are 0 or, if a constant momentum or a given force shifts the equilibrium, at this equilibrium",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
     results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
@@ -173,7 +174,7 @@ class DescribedSystem(Described):
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
     particles, bodies   the particles and the bodies by name, in the order of the file
-    acting        all other parts of the system, sort by sort
+    acting        all other parts of the system, grouped by kind
     surfaces      the surfaces by name
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
