@@ -68,7 +68,8 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0: by default the origin, or the body `of`",
+        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body `of` or, "
+        "without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(

@@ -70,7 +70,8 @@ class CollisionKeys(Record):
         "with `along`, the speed of separation over the speed of approach: 1 if the collision is elastic", SCALAR
     )
     letter: Word | None = key(
-        "the symbol of the impulse, by default `K`; without `along` its components are `K_x`, `K_y` and, in space, `K_z`",
+        "the symbol of the impulse, by default `K`; without `along`, its components are `K_x`, `K_y` and, in space, "
+        "`K_z`",
         TEXT,
         called="impulse",
     )
