@@ -108,7 +108,9 @@ def _observations(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | N
 
 
 OBSERVATIONS = Reader(one_or_more(KEY_OF_STEP), _observations)
-OBSERVATIONS_MEANING = "the kinds of observations after the answers, such as `pendulum`, or `none`; else derive chooses"
+OBSERVATIONS_MEANING = (
+    "the kinds of observations after the answers, such as `pendulum`, or `none`; without this key, derive chooses"
+)
 
 
 @dataclass(frozen=True)

@@ -227,7 +227,7 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key(
-        "the problem in prose; `<<mass>>` stands for what is given, `$x^2$` is a formula", PROSE, required=True
+        "the problem in prose; `<<mass>>` stands for the given value `mass`, `$x^2$` is a formula", PROSE, required=True
     )
     strategy: Prose | None = key(
         "one or two sentences at the head of the solution: the method, and the reason for it", PROSE

@@ -68,8 +68,8 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body `of` or, "
-        "without `of`, the origin",
+        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body `of` "
+        "or, without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
@@ -320,7 +320,8 @@ class StringKeys(Record):
         list_of(PLACE, "a list of places"),
     )
     length: Tree | None = key(
-        "the total length of its straight pieces; a function of the time if the string is pulled in", SCALAR
+        "the total length of the straight pieces of the string; a function of the time if the string is pulled in",
+        SCALAR,
     )
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT

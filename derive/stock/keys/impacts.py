@@ -62,7 +62,7 @@ class CollisionKeys(Record):
         as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
     )
     along: tuple[Tree, ...] = key(
-        "components of a vector along the common normal, the line of the impulse; by default the two bodies stay "
+        "components of a vector along the common normal, the line of the impulse; without `along`, the two bodies stay "
         "together",
         COMPONENTS,
     )

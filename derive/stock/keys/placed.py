@@ -59,7 +59,9 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         ),
     )
     middle: tuple[Tree, ...] = key(
-        "with `moments`, the position of its centre of mass along its own axes", list_of(SCALAR, "components", length=3)
+        "with `moments`: the vector from the point that is held to the centre of mass, by its components along the "
+        "axes of the body",
+        list_of(SCALAR, "components", length=3),
     )
     rim: RimKeys | None = key(
         "with `moments`, in a plane: the circle that bounds the body, with which it touches surfaces",
