@@ -59,8 +59,8 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         ),
     )
     middle: tuple[Tree, ...] = key(
-        "with `moments`: the vector from the point that is held to the centre of mass, by its components along the "
-        "axes of the body",
+        "with `moments`: the position of the centre of mass, measured along the axes of the body from their origin, "
+        "the fixed point",
         list_of(SCALAR, "components", length=3),
     )
     rim: RimKeys | None = key(
