@@ -29,6 +29,6 @@ class Paper(StrEnum):
 class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 
-    NONE = "none"  # the solution says that it was checked, and where the evidence is
-    END = "end"  # a note at the end of the solution says how many checks were made
-    MARGIN = "margin"  # the note, and the grade and the second route next to each displayed formula
+    NONE = "none"  # nothing
+    END = "end"  # a note at the end of the solution, which counts the checks
+    MARGIN = "margin"  # the note and, next to each display of formulas, its grade and a second route if it fits

@@ -1,4 +1,6 @@
-"""In the lines of a step, values replace the symbols of those quantities whose own steps the page does not show.
+"""In the lines of a step, values replace the symbols of quantities whose steps a page shows only in this way.
+
+These are the steps with the manner `taken_in`.
 
 Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
 steps.
