@@ -145,7 +145,7 @@ class Arithmetic:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"`{self.shown(base)}` may not be positive, so it cannot be raised to `{self.shown(exponent)}`"
+            message = f"the base of `{self.shown(exponent)}`, `{self.shown(base)}`, is not known to be positive"
             self.refuse("expression", message, base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)

@@ -63,7 +63,7 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
     """Warn of declared letters that are not used in the givens, the `reference:`, the limits, the drawings or formulas
-    in prose, and that do not replace a number."""
+    in prose, and that do not replace a number. Letters of a kind with an exact number are left out."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}

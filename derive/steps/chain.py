@@ -159,11 +159,14 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return three things: the symbol of the whole expression that the result approximates; whether the symbol of the
-    result is only approximately equal to the first line; and the evidence. The symbol of a truncated result must differ
-    from the symbol of the whole expression. If a result has the same symbol as a truncated parent, the result and the
-    parent approximate the same whole expression. Any other result that is derived from a truncated result is itself
-    only approximate.
+    """Return three values, for a result that may be approximate: a limit, a series, or derived from one.
+
+    The first value is the symbol of the exact expression that the result approximates, or None. The second value says
+    whether the symbol of the result only approximately equals the first line. The third value is the evidence.
+
+    The symbol of a limit or a series must differ from that of the exact expression. If a result has the same symbol as
+    an approximate parent, both approximate the same exact expression. Any other result that is derived from an
+    approximate result is itself only approximate.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):

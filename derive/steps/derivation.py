@@ -26,8 +26,7 @@ W = TypeVar("W", bound=str)
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step on which the answers depend, in the order of the page; the division of the steps into parts; and the
-    assumptions.
+    """The steps of a page in their order, their division into parts, and the assumptions.
 
     `groups` are names that ask for several steps, with the keys of these steps.
     """

@@ -120,8 +120,8 @@ def _what_is_given(problem: Problem) -> object:
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
     """Return the steps for the input of a group. Steps from an earlier comparison in this process are reused if their
-    input is the same: a preview compares after each edit, and an edit of the problem's givens does not change the input
-    that a group fixes."""
+    input is the same. This helps a preview, which compares after each edit: an edit of the problem's givens does not
+    change the input that a group fixes."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
