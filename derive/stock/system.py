@@ -142,8 +142,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body: before Newton's laws of this body or, in space, before the equations of motion
-        that contain the forces; in a plane also if parts of the problem derive the constraint forces on the body."""
+        """Draw the forces on each body.
+
+        If Newton's laws of the body are derived, or in space the equations of motion with constraint forces, the
+        drawing is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived.
+        """
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
@@ -448,11 +451,17 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def potential_at_rest(self) -> Quantity:
         """Return the function that is stationary at equilibria.
 
-        In a system without constraints, this function is the effective potential energy if some but not all momenta are
-        constant, or if the only coordinate is driven. In all other systems of bodies, this function is the Lagrangian
-        if a coordinate is driven or forces are given, and otherwise the potential energy. If the problem gives the
-        Lagrangian, this function is the effective potential energy if some but not all momenta are constant, and
-        otherwise the Lagrangian.
+        If the problem gives the Lagrangian:
+
+        - the effective potential energy, if some but not all momenta are constant;
+        - otherwise the Lagrangian.
+
+        If the problem describes bodies:
+
+        - the effective potential energy, if there are no constraint forces, and if some but not all momenta are
+          constant or the only coordinate is driven;
+        - otherwise the Lagrangian, if a coordinate is driven or forces are given;
+        - otherwise the potential energy.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
