@@ -49,7 +49,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
             help_line = f"use `<`, `<=`, `>` or `>=`{equal}"
             rejected("relation", f"`{mark[0]}` is not an order relation", place, help_line)
     if len({mark[0][0] for mark in marks}) > 1:
-        rejected("relation", f"`{node.text.strip()}` changes its direction", node.place, "write two relations")
+        rejected("relation", f"`{node.text.strip()}` mixes `<` and `>`", node.place, "write two relations")
     ends = [0, *(at for mark in marks for at in mark.span()), len(node.text)]
     pieces = [node.piece(first, last - first) for first, last in zip(ends[::2], ends[1::2], strict=True)]
     sides = [_side(piece, constant, {*moving}) for piece in pieces]

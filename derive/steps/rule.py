@@ -72,7 +72,7 @@ def anything(facts: Judged) -> bool:
 class Theorem:
     """A theorem in its general form. A page above the level `brief` states it before the first step that uses it.
 
-    formula   the formula of the theorem
+    formula   what the theorem states, as a relation or an expression
     source    book and section
     letters   further symbols that the phrase names, with their names in the phrase
     """

@@ -39,7 +39,7 @@ class ByName:
 
     asks          every name that the description offers, with the function that derives its steps
     what          the kind of description: "a rotation"
-    results       results computed from answers
+    results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
     again         makes a second object for the same answers, in which nothing is derived yet
     elsewhere     derives an answer of a body about a point or axis other than the given one
