@@ -1,8 +1,8 @@
 """Values under construction: the data of each part of an expression, and the checks when parts are combined.
 
-Both readers, of plain expressions and of LaTeX, build their values here. Dimensions must agree, nothing is divided by
-zero, and a value that would be too large is rejected before it is computed. `size` bounds digits and degrees; `terms`
-bounds the number of terms after multiplying out.
+Both readers, of plain expressions and of LaTeX, build their values here. The terms of a sum must have the same
+dimension, nothing is divided by zero, and a value that would be too large is rejected before it is computed. `size`
+bounds digits and degrees; `terms` bounds the number of terms after multiplying out.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A symbol that the file declares, its kind, and its range."""
+    """A letter that is declared, introduced for a number, or part of a description: its symbol, kind and range."""
 
     name: str
     symbol: Symbol
@@ -44,7 +44,13 @@ class Declared:
 
 @dataclass(frozen=True)
 class Term:
-    """A value under construction: its expression, its place in the text, and how large it could become."""
+    """A value under construction: its expression, its dimension, and its place in the text.
+
+    start, end   where the value begins and ends in the text
+    size         a bound for its digits and degrees
+    terms        a bound for the number of its terms after multiplying out
+    kind         its kind, if it is a single declared letter
+    """
 
     expr: Expr
     dimension: Dimension
@@ -134,19 +140,19 @@ class Arithmetic:
         return self.real(replace(term, dimension=base.dimension ** fraction(number), kind=None))
 
     def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
-        """Return a power whose exponent has letters, such as (r/a)**n; its base must be dimensionless and positive."""
+        """Return a power whose exponent has letters, such as (r/a)**n. The base must be dimensionless and positive."""
         if base.dimension != NUMBER:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"`{self.shown(base)}` may be negative, so it cannot be raised to `{self.shown(exponent)}`"
+            message = f"the base of `{self.shown(exponent)}`, `{self.shown(base)}`, is not known to be positive"
             self.refuse("expression", message, base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)
         return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)
 
     def applied(self, name: str, function: Callable[[Expr], Expr], inner: Term, start: int, end: int) -> Term:
-        """Apply a function to a number or an angle, or take the root of any quantity."""
+        """Apply a function to a number or an angle, or take the square root of any quantity."""
         if name == "sqrt":
             root = replace(inner, dimension=inner.dimension ** fraction(Rational(1, 2)))
         elif inner.dimension != NUMBER:

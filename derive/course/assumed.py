@@ -1,4 +1,4 @@
-"""The key `assume:` of a description: relations between its letters, such as `a < b < c`, read and checked together."""
+"""The key `assume:` of a description: relations between letters, such as `a < b < c`, read and checked together."""
 
 from __future__ import annotations
 
@@ -46,10 +46,10 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
         if mark[0] not in {"<", "<=", ">", ">="}:
             place = node.place_within(mark.start(), mark.end() - mark.start())
             equal = "; to set letters equal, use `put_in`" if mark[0] in {"=", "=="} else ""
-            help_line = f"the marks are `<`, `<=`, `>` and `>=`{equal}"
+            help_line = f"use `<`, `<=`, `>` or `>=`{equal}"
             rejected("relation", f"`{mark[0]}` is not an order relation", place, help_line)
     if len({mark[0][0] for mark in marks}) > 1:
-        rejected("relation", f"`{node.text.strip()}` changes its direction", node.place, "write two relations")
+        rejected("relation", f"`{node.text.strip()}` mixes `<` and `>`", node.place, "write two relations")
     ends = [0, *(at for mark in marks for at in mark.span()), len(node.text)]
     pieces = [node.piece(first, last - first) for first, last in zip(ends[::2], ends[1::2], strict=True)]
     sides = [_side(piece, constant, {*moving}) for piece in pieces]
@@ -105,7 +105,8 @@ def _cut(known: Range, number: Expr, above: bool, closed: bool) -> Range:
 def order_of(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], wrong: Callable[[Assumed], None] = lambda each: None
 ) -> Order:
-    """Combine all relations into one order; call `wrong` with each relation that contradicts an earlier one."""
+    """Combine the relations into one order. A relation that contradicts the ranges or the earlier relations is left
+    out, and `wrong` is called with it."""
     order = Order()
     with within(ranges):
         for each in assumed:
@@ -122,7 +123,7 @@ def order_of(
 def check_assumed(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], numbers: Mapping[Symbol, Expr], faults: Faults
 ) -> None:
-    """Check that all relations can hold together, within the ranges of their letters and for the given numbers."""
+    """Report relations that contradict the ranges of their letters, the other relations or the given numbers."""
 
     def contradicts(each: Assumed) -> None:
         message = f"`{each.written}` contradicts what is known about these letters"

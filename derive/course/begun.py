@@ -1,7 +1,7 @@
-"""The files of a new problem, made from a pattern or from an existing problem; the new problem builds without changes.
+"""The files of a new problem, copied from a pattern or from an existing problem.
 
-No work of the author is lost: an existing file is never overwritten, and an existing set's file only gains one line in
-its list of problems.
+No work of the author is lost: an existing file is never overwritten, and the file of an existing set only gains one
+entry in its list of problems.
 """
 
 from __future__ import annotations
@@ -24,9 +24,12 @@ PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
 def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
-    """Return the files of a new problem, by path from the root; raise `Misused` if they cannot be written.
+    """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
-    templates   the folder of patterns
+    `Misused` is raised if the name is not allowed, if a file of the problem exists, or if the pattern or the problem
+    `like` does not exist.
+
+    templates   the folder that contains the patterns, in `new/`
     schemas     the folder of the schemas for editors
     like        a pattern by its name, or the id of a problem
     """
@@ -66,7 +69,8 @@ def _pattern(templates: Path, like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return the texts of a problem and of its script; references to other problems of the set become plain words."""
+    """Return the text of a problem's file, and that of its script, "" without a script. References to other problems
+    of the set become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])

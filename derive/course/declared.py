@@ -1,4 +1,4 @@
-"""The letters that a file declares, each with its kind and its range."""
+"""The letters that a file declares, each with its kind and, if it states one, its range."""
 
 from __future__ import annotations
 
@@ -82,7 +82,10 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states after the kind."""
+    """Return the range that a declaration states: the range after the kind, or the positive numbers for `positive`.
+
+    The result is None if there is no range, or if `positive` is before a kind that is always positive.
+    """
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

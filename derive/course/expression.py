@@ -1,4 +1,4 @@
-"""Expressions in YAML: text to SymPy by a grammar of our own, with dimensions and exact places.
+"""Expressions in YAML: they are parsed by a grammar of our own to SymPy expressions with dimensions.
 
     sum      product (("+" | "-") product)*
     product  unary (("*" | "/") unary)*
@@ -6,7 +6,7 @@
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
 A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter if
-`letter_for` is given; otherwise it is rejected.
+`letter_for` returns one; otherwise the number is rejected.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
 before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
@@ -84,13 +84,16 @@ def read_expression(
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
-    letter_for   a function that returns the letter for a number with its unit
+    letter_for   a function that takes a number with its unit, and its kind, and returns the letter for it or None
     """
     return _Parser(scalar, symbols, letter_for).whole()
 
 
 def names_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression that are not reserved, each with its place, without parsing the expression."""
+    """Return the names in an expression, each with its place, without parsing the expression.
+
+    Names of units are among them; `pi` and the names of functions are not.
+    """
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
@@ -114,7 +117,7 @@ class _Parser(Arithmetic):
     # -- words ----------------------------------------------------------------------------------------------------
 
     def check_vocabulary(self) -> None:
-        """Report all undeclared names together; stop at a character or call that has no meaning here."""
+        """Report undeclared names together, up to the first character or call that has no meaning here."""
         faults = Faults()
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}
@@ -133,7 +136,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether the second token is the unit of the first, a number, as in `30 deg`, and not a letter."""
+        """Return whether the first token is a number and the second its unit, as in `30 deg`, and not a letter."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 
@@ -229,7 +232,7 @@ class _Parser(Arithmetic):
         self.refuse("expression", f"something is missing {found}", token.start, token.end)
 
     def measured(self, number: _Token) -> Term:
-        """Read a number with its unit: an angle is exact, any other number is replaced by a letter."""
+        """Read a number with its unit. An angle is exact; any other number is replaced by a letter or rejected."""
         start, end = number.start, self.token.end
         self.at += 1
         piece = self.scalar.piece(start, end - start)

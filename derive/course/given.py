@@ -1,7 +1,8 @@
 """Given values: each becomes a checked value of the kind that the script's `solve()` asks for.
 
 A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. For a type checker, `Mass` is a SymPy `Expr`. A number
-with a unit becomes a symbol with a stored number (`Measured`), so the derivation stays symbolic until its end.
+with a unit becomes a symbol with a stored number (`Measured`), so the derivation stays symbolic until its end. Zero
+and simple angles such as 45 deg stay numbers.
 """
 
 from __future__ import annotations
@@ -39,7 +40,12 @@ DIRECTION_NAMES = ("diagonal", "x", "y", "z")
 
 @dataclass(frozen=True)
 class Measured:
-    """A number substituted at the end: 900 rpm for omega, exactly 30*pi in the SI; `place` is where it is written."""
+    """The number of a symbol, which is substituted at the end: 900 rpm for omega.
+
+    number   the number in its unit, 900
+    si       the exact number in SI units, 30*pi
+    place    where the number is written
+    """
 
     symbol: Symbol
     number: Rational
@@ -57,8 +63,8 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    If the value is a word, `word` is this word. For a value that is used exactly, such as pi/4, `written` is the
-    original form, such as 45 deg.
+    If the value is the name of a direction, `word` is this name. For an angle that is used exactly, such as pi/4,
+    `written` is the original form, such as 45 deg.
     """
 
     name: str
@@ -98,8 +104,9 @@ def read_givens(
 ) -> tuple[tuple[Given, ...], dict[str, Declared]]:
     """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
-    `notes` states for each name where `solve()` asks for it; `used` are symbols that already have a number.
-    `numbers` are the SI numbers of these symbols; with these numbers, no value of a positive kind may be negative.
+    notes     for each name, where `solve()` asks for it
+    used      the names of symbols that already have a number
+    numbers   the SI numbers of these symbols; with these numbers, a value of a positive kind must be positive
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
@@ -301,8 +308,11 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the letter or exact angle for a number with a unit; None if the text is an expression. The number is
-        one of a group of `of` numbers, such as three sides."""
+        """Return the value that replaces a number with a unit: zero, an exact angle, or a letter with a sign.
+
+        The result is None if the text is an expression. The number is one of a group of `of` numbers, such as three
+        sides.
+        """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
         number = number_with_unit(scalar, Wanted(name, kind), self.letters.symbols)
@@ -324,8 +334,8 @@ def _asked_of_kind(kind: str, count: int) -> Asked:
 
 
 class _LettersForNumbers:
-    """Finds a letter for a number: an unused declared letter of its kind, else a free one among the kind's usual
-    letters."""
+    """Finds a letter for a number: an unused declared letter of its kind, else a new letter that is usual for the kind,
+    with an index if the usual letters are taken."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)
@@ -371,8 +381,8 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
         # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube. Small multiples of the smallest number share its
-        # letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
+        # Equal numbers share a letter, so that a cube stays a cube. If all numbers are small multiples of the smallest
+        # number, they share one letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1
         if smallest:
             entry, size = smallest, smallest.si
@@ -390,8 +400,8 @@ def _is_exact_angle(angle: Expr) -> bool:
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """Return the smallest of several positive numbers if all these numbers are small integer multiples of the smallest,
-    else None."""
+    """Return the smallest entry if all entries are positive numbers and integer multiples, at most 12 times, of the
+    smallest; else None."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

@@ -25,7 +25,7 @@ _NUMBER_UNIT = re.compile(
 
 @dataclass(frozen=True)
 class Number:
-    """A number with its unit, its SI value, and its text in the file; later a letter replaces the number."""
+    """A number with its unit, its SI value, and its text in the file."""
 
     number: Rational
     unit: str
@@ -35,8 +35,14 @@ class Number:
 
 @dataclass(frozen=True)
 class Wanted:
-    """The value that is being read: its name, its kind, its bounds, and notes for messages. A note says, for example,
-    where `solve()` asks for the value. The end of a scale may have any sign, whatever its kind."""
+    """What is known about a value before it is read.
+
+    notes             additions to an error about the value, such as where `solve()` asks for it
+    one_of_many       whether the value is an entry of a list
+    bounds            the least and the greatest allowed angle, in degrees
+    numbers           the SI numbers of symbols, with which the sign of the value is checked
+    is_end_of_scale   whether the value is an end of a range of a plot, which may have any sign
+    """
 
     name: str
     kind: str
@@ -86,7 +92,9 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
         is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
         wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)
     if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
-        wanted.refuse("too-large", f"`{text}` is not a number to calculate with", scalar.place)
+        wanted.refuse(
+            "too-large", f"`{text}` has over 30 digits, a power above 10**50, or denominator 0", scalar.place
+        )
     value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
     return Number(value, unit.text, value * unit.factor, scalar)
 

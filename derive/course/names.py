@@ -1,7 +1,7 @@
 """The names of sets and problems, and the names of the documents of a whole set. No problem can have the name of such a
 document.
 
-The solutions are for students, the sheet has only the questions, and the report is for the instructor.
+The document "solutions" is for students, "problems" has only the questions, and "report" is for the instructor.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
-# Further documents, made only on request: every line with the points of each step, hints without the answers, the
-# points alone.
+# Documents that are made only on request: the key has every line and the points of each step, the hints do not give
+# the answers, and the rubric has the points alone.
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
@@ -29,6 +29,6 @@ class Paper(StrEnum):
 class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 
-    NONE = "none"  # states that the solution was checked, and where the evidence is
-    END = "end"  # a note at the end of the solution says how many checks were made
-    MARGIN = "margin"  # the note, and the grade and the second route next to each displayed formula
+    NONE = "none"  # nothing
+    END = "end"  # a note at the end of the solution, which counts the checks
+    MARGIN = "margin"  # the note and, next to each display of formulas, its grade and a second route if it fits

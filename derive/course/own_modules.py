@@ -1,5 +1,5 @@
-"""The modules that a script imports from its own folder. They can be imported only while the script runs, and every run
-reads them again."""
+"""The modules that a script imports from its own folder. They can be imported only while the script is imported or
+runs, and they are read again each time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 def own_modules(script: Path) -> tuple[Path, ...]:
     """Return the files of the modules in the script's folder that the script imports, directly or through other
-    modules. If the script imports a package, each file of the package is returned."""
+    modules. If the script imports a package, each Python file of the package is returned."""
     found: set[Path] = set()
     waiting = [script]
     while waiting:
@@ -27,7 +27,7 @@ def own_modules(script: Path) -> tuple[Path, ...]:
 @contextmanager
 def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
     """Append the script's folder to the module search path, so that no module of a problem hides an installed package.
-    At the end, remove the folder from the path, and its modules from `sys.modules`."""
+    At the end, remove the folder from the path, and the modules that were imported meanwhile from `sys.modules`."""
     if not modules:
         yield
         return
@@ -47,8 +47,8 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the top-level names that a file imports. The set is empty if the file is not Python; the run reports this
-    error."""
+    """Return the names of the top-level modules and packages that a file imports. The set is empty if the file is not
+    Python; this error is reported when the file is imported."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

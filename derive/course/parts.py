@@ -108,7 +108,9 @@ def _observations(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | N
 
 
 OBSERVATIONS = Reader(one_or_more(KEY_OF_STEP), _observations)
-OBSERVATIONS_MEANING = "the kinds of observations after the answers, such as `pendulum`, or `none`; by default chosen"
+OBSERVATIONS_MEANING = (
+    "the kinds of observations after the answers, such as `pendulum`, or `none`; without this key, derive chooses"
+)
 
 
 @dataclass(frozen=True)
@@ -140,10 +142,12 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 @dataclass(frozen=True)
 class Question(Record):
-    """One question; `forms` has an entry for each answer's key, or one entry under `None` for all answers."""
+    """One part of a problem. `forms` has an entry for an answer's key, or one entry under `None` for all answers."""
 
     ask: Prose = key(
-        "the question, in prose; `<<cases>>` stands for the numbers of the cases of its plot", PROSE, required=True
+        "the question, in prose; `<<cases>>` stands for the numbers in the cases of the part's plot",
+        PROSE,
+        required=True,
     )
     answers: tuple[Word, ...] = key(
         "key of the step that answers it, or a list of keys",
@@ -153,7 +157,7 @@ class Question(Record):
     )
     points: Fraction | None = key("points of this part", POINTS)
     extra: bool = key(
-        "`true` if the part asks for more than the source does; it carries no points and is marked", YES_OR_NO
+        "`true` if the part asks for more than the source does; it carries no points and is marked as extra", YES_OR_NO
     )
     detail: Level = key(
         "`full` or `standard`: an extra part appears only at this detail or a higher one; its steps are always derived",
@@ -224,7 +228,8 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """Return the points of a problem: the stated points, checked against its parts, or else the sum over its parts."""
+    """Return the points of a problem: the stated points, checked against its parts, or else the sum over its parts;
+    None if no points are stated."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:

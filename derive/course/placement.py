@@ -27,7 +27,7 @@ ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 
 
 def case_label(index: int) -> str:
-    """Return the label of a case, i, ii, iii, which cannot be mistaken for the label of a part."""
+    """Return the label of a case, counted from 0: i, ii, ... x, then 11, 12, ... Parts have the labels a, b, c."""
     return ROMAN[index] if index < len(ROMAN) else str(index + 1)
 
 
@@ -61,7 +61,8 @@ class Placement:
 def placements(
     drawings: Table[Word, DrawingKeys], symbols: Table[str, Declared], parts: int, faults: Faults
 ) -> tuple[Placement, ...]:
-    """Read every entry of `drawings:`; which drawings exist is known only after the script has run."""
+    """Read every entry of `drawings:`. The names of the drawings are not checked here, because the script defines
+    them when it runs."""
     return tuple(
         Placement(
             key=name,

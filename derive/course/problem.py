@@ -1,7 +1,7 @@
 """A problem as checked values: its YAML, its script, and the match of `given:` to the signature of `solve()`.
 
-`load_problem` finds every error of a file before it stops. Names in prose and answer keys are checked later, where the
-steps are known; `Prose.place_of` and `Problem.place_of` give the places for their errors.
+`load_problem` reports the errors of a file together. Names in prose and answer keys are checked later, where the steps
+are known; `Prose.place_of` and `Problem.place_of` give the places for their errors.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ DEFAULT_FIGURES = 4
 class Problem:
     """The checked contents of a problem's file; paths are relative to the root.
 
-    The statements of a source are read when they are compared; `reference` is their unread text.
+    The statements of a source document are parsed only when they are compared; until then `reference` holds their text.
     """
 
     id: str
@@ -92,12 +92,12 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The steps that the parts of the problem ask for, and the steps of its limiting cases."""
+        """The names of the steps that the parts ask for, that the limiting cases name, and that are plotted."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """The dimension of every letter, including those that were introduced for numbers."""
+        """The dimension of every letter of `symbols`: those that are declared, and those introduced for numbers."""
         return {declared.symbol: declared.dimension for declared in self.symbols.values()}
 
     @property
@@ -121,7 +121,7 @@ class Problem:
 
     @property
     def letters(self) -> tuple[Declared, ...]:
-        """The letters that are declared, and those that a description introduces."""
+        """The letters that are declared, those that replace numbers, and those that a description introduces."""
         return (*self.symbols.values(), *(self.described.letters.values() if self.described else ()))
 
     @property
@@ -161,7 +161,7 @@ class Problem:
 
     @property
     def texts(self) -> tuple[Prose, ...]:
-        """All prose that is printed."""
+        """All prose of the file that is printed."""
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
         around = (prose for prose in (self.strategy, self.note, *(each.why for each in self.limits)) if prose)
@@ -173,15 +173,15 @@ class Problem:
 
 
 def load_problem(root: Path, problem_id: str) -> Problem:
-    """Return the problem, or raise one `Rejected` with all errors of its file and its script."""
+    """Return the problem, or raise one `Rejected` with the errors of its file and its script."""
     problem, faults = problem_and_faults(root, problem_id)
     faults.stop()
     return problem
 
 
 def problem_and_faults(root: Path, problem_id: str) -> tuple[Problem, Faults]:
-    """Return the problem, and the errors in its `drawings:`, on which no step depends; raise all errors if there are
-    others."""
+    """Return the problem, and the errors in its `drawings:`, on which no step depends. If there are other errors, raise
+    them together with those of `drawings:`."""
     faults, of_drawings = Faults(), Faults()
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
@@ -269,7 +269,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that a drawing with `plot` has `against` and `range`, and that a script of the engine draws it."""
+    """Check that a drawing with `plot` has `against` and `range` and belongs to a script of the engine, and that a
+    drawing without `plot` has no `against`."""
     for drawing in drawings:
         if drawing.plot and isinstance(script, Script):
             message, help_line = (
@@ -297,8 +298,8 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of a `with` block to `record`; before them, add the problem's numbers, places of givens, letters
-    and assumptions."""
+    """Add the steps of a `with` block to `record`; before them, add the problem's numbers, places of givens, letters,
+    assumptions and defined quantities."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -324,7 +325,8 @@ def deriving(problem: Problem, record: Run) -> Iterator[None]:
 
 
 def _letters_of(problem: Problem) -> set[str]:
-    """Return the letters of the givens, those that a description introduces itself, and the defined letters."""
+    """Return the names of the letters in the givens, of those that a description introduces itself, of the defined
+    letters, and of the letters with numbers."""
     own = problem.described.letters if problem.described else {}
     given = {letter.name for each in problem.givens for letter in each.letters}
     named = {each.name for each in problem.defined}
@@ -344,8 +346,8 @@ def _assume_range(declared: Declared) -> None:
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
-    """Return the path and the script: a file next to the problem's file, a file next to another problem's, or one of
-    the engine's scripts."""
+    """Return the path and the script: a file in the problem's folder or in another one, or one of the engine's scripts,
+    which has the path "". After an error, the script is None."""
     if name is None:
         return "", None
     if name in stock_names():
@@ -371,8 +373,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """The input of `solve()`: the letters, the given values or the description, and the numbers that letters
-    replace."""
+    """The input of `solve()`: the letters, the given values or the description, and the numbers of letters."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]

@@ -16,7 +16,7 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did
 _NOT_PROBLEMS = ("set", "reference")
 
 
-# The documents of every set, each with the default name of its files.
+# The documents of a set that does not list its documents, each with the name of its files.
 THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 
@@ -162,7 +162,7 @@ def _meant(problem_id: str, known: list[str]) -> str:
 
 
 def set_ids(root: Path) -> list[str]:
-    """Return the name of every folder below `problems/` that has the file of a set."""
+    """Return the names of the folders in `problems/` that have the file of a set and a valid name."""
     folders = sorted(file.parent.name for file in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if NAME.fullmatch(name)]
 
@@ -177,7 +177,7 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set, or raise one `Rejected` with every error of its file."""
+    """Return the set, or raise one `Rejected` with the errors of its file."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
@@ -200,7 +200,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
 
 
 def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -> None:
-    """Check that no two files of a set have the same name."""
+    """Check that no document has the name of another document, of a problem, or of the set's page for a browser."""
     for n, file in enumerate(documents.values()):
         others = [*list(documents.values())[:n], *problems, INDEX]
         if file in others:

@@ -4,7 +4,7 @@ r"""Prose as an instructor writes it: plain text with mentions and formulas.
 `<<problem top>>` for the number of another problem of the set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in
 the letters of the problem when the page is made (`derive.page.formulas`). `\$` is a dollar sign.
 
-Text is data. Prose has no template commands; it is escaped when it is printed.
+Prose has no template commands; it is escaped when it is printed.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from derive.errors import Complaint, Faults, Place
 EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
 LONGEST_IN_PROSE = 400
 
-# A dollar sign next to a number is that of a price: the `$` that opens a formula is not followed by a digit unless the
-# `$` that closes it has neither a blank before it nor a digit after it; "2$a$" has a formula, "5$ each" has none.
+# A dollar sign next to a digit may be the sign of a price. It opens a formula in two cases: it is followed by a letter,
+# `\`, `(` or `{`; or it is followed by a digit, and the closing `$` has neither a blank before it nor a digit after it.
+# "2$a$" has a formula, "5$ each" has none.
 _PIECE = re.compile(
     r"(?P<dollar>\\\$)"
     r"|(?P<formula>\$(?:(?<!\d\$)(?=[^\d$])|(?=[A-Za-z\\({]))[^$]*\$|\$(?=\d)[^$]*[^$\s]\$(?!\d))"
@@ -59,7 +60,7 @@ class TexFormula:
 
     @property
     def names(self) -> set[str]:
-        """The names that its letters may have, without a reading of the formula: `I_{zz}` may be `I_zz`."""
+        """The names that the letters of the formula may have, found without parsing it: `I_{zz}` may be `I_zz`."""
         found = _LETTER.findall(self.scalar.text)
         return {f"{base}_{'_'.join(re.findall('[A-Za-z0-9]+', below))}" if below else base for base, below in found}
 
@@ -119,7 +120,7 @@ class Prose:
 
 
 def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
-    """Return the prose of a node, or nothing after an error."""
+    """Return the prose of a node, or None if the node is not text. Errors in its mentions and formulas are reported."""
     if not isinstance(node, Scalar):
         faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
         return None
@@ -140,7 +141,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
-    """Report what no formula in prose may contain; its letters are known only when the page is made."""
+    """Report an error that is visible without parsing the formula; its letters are known only when the page is made."""
     inner = formula.scalar
     if inner.empty:
         faults.error("formula-in-prose", "there is no formula between these dollar signs", inner.place, help=_DOLLAR)
@@ -158,7 +159,7 @@ def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
 
 
 def _check_dollars(node: Scalar, faults: Faults) -> None:
-    """Report a dollar sign that neither belongs to a formula nor to a price."""
+    """Report the first dollar sign that belongs neither to a formula nor to a price."""
     rest = _PIECE.sub(lambda match: " " * len(match[0]), node.text)
     prices = {i for found in _PRICE.finditer(rest) for i in range(*found.span())}
     lone = next((found.start() for found in re.finditer(r"\$", rest) if found.start() not in prices), None)

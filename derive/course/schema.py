@@ -26,9 +26,10 @@ R = TypeVar("R", bound="Record")
 
 @dataclass(frozen=True)
 class Reader(Generic[T]):
-    """The contents that a key allows: their JSON schema, and the function that reads their value (None after an error).
+    """The contents that a key allows: their JSON schema, and the function that reads their value and reports errors.
 
-    `read` takes the contents and the name of their key; `absent` makes the value of a missing key.
+    `read` takes the contents and the name of their key; `absent` makes the value of a missing key. If `read` returns
+    None, the key is treated as missing.
     """
 
     schema: dict[str, Any]
@@ -149,7 +150,7 @@ FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _fig
 
 
 def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
-    """Return a reader that checks the shape of a node and returns the node unread; later code reads its contents."""
+    """Return a reader that checks only the shape of a node and returns the node; later code parses its contents."""
 
     def read(node: Tree, name: str, faults: Faults) -> Tree | None:
         odd = _misfit(node, schema)
@@ -162,8 +163,8 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed; texts are read
-    later."""
+    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed, or None. The words of
+    a text are not checked here."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 
@@ -187,7 +188,7 @@ SCALAR = as_written(FORMULA.schema, "an expression")
 
 
 def one_of(words: tuple[str, ...]) -> Reader[str]:
-    """Read a word that must be one of a fixed list."""
+    """Return the reader of a word that must be one of a fixed list."""
 
     def read(node: Tree, name: str, faults: Faults) -> str | None:
         if isinstance(node, Scalar) and node.text in words:
@@ -216,7 +217,8 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
-    """Return a reader that returns a mapping unread; later code reads its values. The mapping may be left empty."""
+    """Return a reader that returns the node of a mapping; later code reads its values. The mapping may be left
+    empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
         if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
@@ -227,7 +229,8 @@ def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
 
 
 def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = None) -> Reader[tuple[T, ...]]:
-    """Read a list, which must not be empty; `each` is the name of an item in messages."""
+    """Return the reader of a list, which must have `length` items or, by default, at least one; `each` is the name of
+    an item in messages."""
 
     def read(node: Tree, name: str, faults: Faults) -> tuple[T, ...] | None:
         if not isinstance(node, Sequence) or not node.items or len(node.items) != (length or len(node.items)):

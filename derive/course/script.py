@@ -1,7 +1,7 @@
-"""The script next to a problem: imported as Python, with every failure reported at the script's own line.
+"""The script of a problem: imported as Python, with its failures reported at lines of the script.
 
 A script is trusted code, but its errors must not look like errors in derive. The report of an error has no traceback;
-it shows the innermost line that belongs to the script. This module also reads the kinds that `solve()` asks for.
+it shows the innermost line that belongs to the script. This module also reads which kinds of values `solve()` asks for.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
         place = source.at(*_start(arg or definition), len(name))
         kind = asked_by_annotation(parameter.annotation)
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
-            faults.error("script", f"`solve()` must name what it asks for, but `{name}` does not", place)
+            faults.error("script", f"`{name}` cannot be given by name, so `solve()` cannot ask for it", place)
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
             message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"

@@ -1,4 +1,4 @@
-"""Scripts of the engine: `solve: system` names one, and `given:` then describes the whole system.
+"""Scripts of the engine: `solve: system` names one, and `given:` then describes what it solves.
 
 Each script of the engine is a module of `derive/stock`. Its `STOCK` has the keys that are allowed under `given:`, the
 function that reads their values in the declared symbols, and the class that derives the answers. The module is loaded
@@ -37,10 +37,10 @@ NOWHERE: Mapping[str, Place] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class Methods:
-    """The ways to the equations of motion that a problem asks for.
+    """The methods with which the equations of motion are derived, as a problem and its parts state them.
 
     whole     the method of the problem; None for the default
-    of_names  the name of an answer -> the method of the part that is the first to ask for this answer
+    of_names  the name of an answer -> the method of the first part that asks for this answer and states a method
     """
 
     whole: Word | None = None
@@ -51,7 +51,7 @@ class Methods:
 
     @property
     def stated(self) -> tuple[Word, ...]:
-        """All methods that the problem states."""
+        """The method of the problem, if it states one, and the methods of its parts."""
         return tuple(filter(None, (self.whole, *self.of_names.values())))
 
 
@@ -66,7 +66,7 @@ class Described:
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
     without   keys, each with the names of the answers that do not depend on the key
     assumed   relations between symbols that are assumed to hold
-    methods   the ways to the equations of motion that the problem asks for
+    methods   the methods with which the equations of motion are derived
     """
 
     letters: Mapping[str, Declared] = field(default_factory=dict)
@@ -94,7 +94,7 @@ class Answering(Protocol):
         steps."""
 
     def every(self) -> dict[str, Any]:
-        """Return every name that parts may ask for, with its steps or with the error that prevents its derivation."""
+        """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,8 @@ def stock_script(name: str) -> Stock:
 
 @contextmanager
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
-    """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`.
+    """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`. Rewrite the help
+    lines for a YAML file.
 
     Verbs (the functions of `derive.mechanics`) do not depend on files, so their errors have no places.
     """

@@ -1,4 +1,4 @@
-"""A formula that an author wrote in prose: its LaTeX, and its values if it could be read."""
+"""A formula that an author wrote in prose: its LaTeX, and the values of its sides if the LaTeX was parsed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sympy.core.symbol import Str
 class Transcript(Basic):
     """A formula that is printed in the order in which its author wrote it.
 
-    values   the sides of the formula; none if the formula is printed without being read
+    values   the values of the sides of the formula; empty if the formula is printed without being parsed
     """
 
     def __new__(cls, tex: str, values: Iterable[Any] = ()) -> Transcript:

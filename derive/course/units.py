@@ -79,7 +79,7 @@ _TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit as written, with its exact value in SI units, its dimension, the power of angle in it, and its factors."""
+    """A unit as written: its exact value in SI units, its dimension, its factors, and the power of an angle in it."""
 
     text: str
     rational: Fraction

@@ -16,7 +16,8 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-OF_STATES = ("at", "results", "conserved", "coordinates", "functions")  # may mention unused coordinates
+# Keys under `given`; a coordinate that only these keys mention counts as unused.
+OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
 NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")
@@ -29,7 +30,7 @@ def unused_in(
     measured: Collection[Measured],
     described: Described | None,
 ) -> tuple[Complaint, ...]:
-    """Return a warning about each entry that has no effect."""
+    """Return warnings about entries that have no effect."""
     behind = {each.symbol.name for each in measured} - {*written.values}  # letters that replace numbers
     exact = {given.kind.each for given in givens if given.written is not None}  # kinds with exact numbers
     found = [*_letters(written, behind, exact)]
@@ -46,8 +47,8 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """Return the names that parts ask for, and the names of the answers from which they are computed; `both_x_1` may be
-    a component of `both`."""
+    """Return the names that are asked for, and the names of the results and answers from which they are computed;
+    `both_x_1` may be a component of `both`."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()
@@ -61,7 +62,8 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
-    """Warn of declared letters that occur neither in the givens nor in comparisons, limits, drawings or formulas."""
+    """Warn of declared letters that are not used in the givens, the `reference:`, the limits, the drawings or formulas
+    in prose, and that do not replace a number. Letters of a kind with an exact number are left out."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
@@ -75,7 +77,7 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
 
 
 def _texts(written: ProblemKeys) -> Iterator[Prose]:
-    """Yield the prose whose formulas may introduce a letter."""
+    """Yield the prose in whose formulas a letter counts as used."""
     yield from (part.ask for part in written.parts)
     yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
 
@@ -87,7 +89,7 @@ def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:
 
 
 def _drawings(written: ProblemKeys) -> Iterator[Complaint]:
-    """Warn of settings of a drawing that is not shown."""
+    """Warn of a caption or a width of a drawing that is not shown."""
     for name, each in written.drawings.items():
         hidden = isinstance(each.at, Scalar) and each.at.text == HIDDEN
         for key in (key for key in ("caption", "width") if hidden and key in each.values_at):
@@ -124,7 +126,7 @@ def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of axes that no position and no body uses."""
+    """Warn of axes that no other key under `given` mentions."""
     axes = given.get("axes") if given is not None else None
     if given is None or not isinstance(axes, Mapping):
         return

@@ -42,7 +42,7 @@ from derive.course.yaml_tree import Formula, Mapping, Scalar, Tree, Word, shape_
 from derive.errors import Faults, did_you_mean
 
 ANY_OUTCOME = ""
-POSITIVE = "positive"  # before a kind
+POSITIVE = "positive"  # the word that may be before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
@@ -62,7 +62,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """Read a kind; for an unknown kind, report an error and return an arbitrary kind whose `known` is false."""
+    """Read a kind; for an unknown kind, report an error and return the first of `kinds` with `known` set to false."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -79,7 +79,7 @@ def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] =
 
 
 def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
-    """Return the schema of kinds, positive kinds, and kinds with a range."""
+    """Return the JSON schema of what may be declared for a letter: a kind, a positive kind, or either with a range."""
     plain = list(kinds)
     pattern = rf"^({POSITIVE} )?({'|'.join(plain)}) in [\[(].+,.+[\])]$"
     return {
@@ -88,7 +88,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """Read the words for a step: one text for each outcome, or one text for any outcome."""
+    """Read the sentences for a step: one text for each outcome, or one text for any outcome."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -148,7 +148,7 @@ class DrawingKeys(Record):
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(
-        "the numbers of each curve of a plot, panel by panel",
+        "numbers for letters, one mapping for each panel of a plot; a later mapping needs only the numbers that differ",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
 
@@ -205,7 +205,9 @@ class ProblemKeys(Record):
 
     title: Prose | None = key("the heading of the problem", PROSE, required=True)
     solve: Word | None = key(
-        "the script next to this file whose `solve()` derives the answers, or one of the engine", TEXT, required=True
+        "the Python file whose `solve()` derives the answers, or a script of the engine: `system`, `body`, `rotation`",
+        TEXT,
+        required=True,
     )
     points: Fraction | None = key("total points; the points of the parts must add up to this total", POINTS)
     symbols: dict[Word, SortOfLetter] = key(
@@ -225,19 +227,19 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
     statement: Prose | None = key(
-        "the problem in prose; `<<mass>>` stands for what is given, `$x^2$` is a formula", PROSE, required=True
+        "the problem in prose; `<<mass>>` stands for the given value `mass`, `$x^2$` is a formula", PROSE, required=True
     )
     strategy: Prose | None = key(
         "one or two sentences at the head of the solution: the method, and the reason for it", PROSE
     )
     method: Word | None = key(
-        "the way to the equations of motion of a `system`: `lagrange` (default), `newton`, `energy`, "
+        "the method for the equations of motion of a `system`: `lagrange` (default), `newton`, `energy`, "
         "`angular_momentum`, or `both` for Newton's laws and Lagrange's equations",
         METHOD,
     )
     parts: tuple[Question, ...] = key("the questions", PARTS, required=True)
     wording: Table[str, Table[str, Prose]] = key(
-        "sentences that replace the stock ones of a step, by the step's key, or by key and outcome",
+        "sentences that replace the default sentences of a step, by the step's key, or by key and outcome",
         mapping_of(Reader({"anyOf": [_WORDS, _TEXTS]}, _sentences)),
     )
     show: Table[str, str] = key("how much of a step is shown, by the step's key", mapping_of(one_of(SHOWN)))

@@ -1,4 +1,4 @@
-"""YAML with places: every node has its place in the file, and all errors of a file are reported at once.
+"""YAML with places: every node has its place in the file, and several errors of a file are reported together.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
 because its messages name the wrong character; `_syntax_complaint` rewords these messages. If hundreds of files
@@ -29,7 +29,8 @@ LONG_LINE = 160
 _LEFT_OUT = "... "
 NOTHING = ("~", "null", "Null", "NULL")  # the words that editors read as null
 
-# Printable text, without the line separators that editors do not count and the marks that reorder text on the screen.
+# A character that is not allowed: one that cannot be printed, a line separator that editors do not count, or a mark
+# that reorders text on the screen.
 _ODD = re.compile(
     "[^\t\n\r\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
 )
@@ -118,7 +119,7 @@ class Scalar:
 
     @property
     def left_empty(self) -> bool:
-        """Whether nothing follows the `:` or `-`, or only YAML's word for an absent value; `""` is text."""
+        """Whether nothing follows the `:` or `-`. An unquoted `null` or `~` also counts as nothing; `""` is text."""
         return self.style == "" and self.empty
 
     @property
@@ -254,7 +255,7 @@ def abridged(text: str, limit: int = 40) -> str:
 
 
 def read_source(path: Path, shown_as: str, *, limit: int = LARGEST_FILE) -> Source:
-    """Return the text of a file of the author; reject a file that is not text."""
+    """Return the text of a file of the author; reject a file that is missing, unreadable, too large or not UTF-8."""
     whole = Place(shown_as, 1)
     try:
         # Do not wait for a pipe or a device.
@@ -291,7 +292,8 @@ def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
 
 @lru_cache(maxsize=64)  # each problem of a set reads the same reference
 def yaml_tree(source: Source) -> Tree:
-    """Return the tree of a YAML text, or raise one `Rejected` with all errors in its syntax."""
+    """Return the tree of a YAML text, or raise one `Rejected` with the errors in its syntax. The parser stops at the
+    first error that it finds itself."""
     faults = Faults()
     for odd in islice(_ODD.finditer(source.text), 5):
         faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
@@ -398,13 +400,13 @@ class _Reader:
 
 
 def _nothing_is_empty(node: Tree) -> Tree:
-    """Return an absent value in place of `null` or `~`."""
+    """Return an empty scalar in place of an unquoted `null` or `~`; any other node is unchanged."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it: the end of the value then looks like the next
-    key."""
+    """Return the whole value if a comma inside a bracket has split it, so that the end of the value looks like the next
+    key; else None."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start

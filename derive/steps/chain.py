@@ -38,7 +38,8 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return symbol -> value for these quantities, and component -> value for the components of each vector."""
+    """Return the values of these quantities by their symbols, and the components of each vector by the names of the
+    components."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -54,7 +55,8 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line, if the left side is an expression and not only a name."""
+    """Check that the left side equals the first line, if the left side is an expression and not only a name, and the
+    first line is not a relation."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []
@@ -117,9 +119,9 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check a line that follows a line with an expansion and contains no expansion. If an equals sign joins the two
-    lines, the new line must equal the whole expression. If the new line is a limit, it must not contain the symbol that
-    goes to its limit."""
+    """Check a line that contains no expansion but follows a line with one. If an equals sign joins the two lines, the
+    new line must equal the line before it with the exact expression in place of each expansion. If the new line is a
+    limit, it must not contain the symbol that goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
@@ -157,11 +159,14 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return three things: the symbol of the whole expression that the result approximates; whether the symbol of the
-    result is only approximately equal to the first line; and the evidence. The symbol of a truncated result must differ
-    from the symbol of the whole expression. If a result has the same symbol as a truncated parent, the result and the
-    parent approximate the same whole expression. Any other result that is derived from a truncated result is itself
-    only approximate.
+    """Return three values, for a result that may be approximate: a limit, a series, or derived from one.
+
+    The first value is the symbol of the exact expression that the result approximates, or None. The second value says
+    whether the symbol of the result only approximately equals the first line. The third value is the evidence.
+
+    The symbol of a limit or a series must differ from that of the exact expression. If a result has the same symbol as
+    an approximate parent, both approximate the same exact expression. Any other result that is derived from an
+    approximate result is itself only approximate.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):

@@ -1,4 +1,4 @@
-"""Predicates with which rules of every topic judge an outcome, such as whether the result vanishes or has a certain
+"""Predicates that rules of several topics use to judge an outcome, such as whether the result vanishes or has a certain
 sign."""
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
 
-MARK_OF = {  # name of a comparison -> the mark between its two sides
+MARK_OF = {  # name of a comparison -> the relation sign between its two sides
     "equal_to": "=",
     "different_from": "!=",
     "greater_than": ">",
@@ -107,8 +107,8 @@ def never_vanishes(v: Any) -> bool:
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether two expressions are known to have the same zeros: they are equal, or their ratio has the same sign for
-    all values of the symbols."""
+    """Whether two expressions are known to have the same zeros: they are equal, or the sign of their ratio is known,
+    nonzero, and confirmed by trial numbers."""
     return is_zero(value - other) or not is_zero(other) and not may_be_zero(tidied(value / other))
 
 
@@ -188,7 +188,8 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
     """Whether the sentence states the given number of the symbol, and states correctly whether this number satisfies
-    the condition. The stated number may be rounded: it may differ from the given number by 5 %."""
+    the condition. The stated number may be rounded: it may differ from the given number by 5 %. If there is no
+    condition, the sentence must not make such a statement."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words

@@ -1,4 +1,6 @@
-"""In the lines of a step, values replace the symbols of those quantities whose own steps the page does not show.
+"""In the lines of a step, values replace the symbols of quantities whose steps a page shows only in this way.
+
+These are the steps with the manner `taken_in`.
 
 Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
 steps.
@@ -17,8 +19,8 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
-    """Replace the symbols of known steps in the lines of a step by their results, and add evidence that each new line
-    equals the line that it replaces.
+    """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
+    each new line equals the line that it replaces.
 
     A result may contain names that the step itself does not, such as a defined quantity.
     """

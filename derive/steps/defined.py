@@ -27,7 +27,7 @@ def define(formulas: Iterable[tuple[Symbol, Expr]]) -> None:
 
 
 def _quantity(symbol: Symbol, formula: Expr, before: Iterable[Quantity]) -> Quantity:
-    """Name for a formula in the letters of the problem: a definition that the author sets up.
+    """A quantity that the author defines by a formula in the letters of the problem.
 
     Source: none needed: a definition.
     """

@@ -26,8 +26,7 @@ W = TypeVar("W", bound=str)
 
 @dataclass(frozen=True)
 class Derivation:
-    """Every step on which the answers depend, in the order of the page; the division of the steps into parts; and the
-    assumptions.
+    """The steps of a page in their order, their division into parts, and the assumptions.
 
     `groups` are names that ask for several steps, with the keys of these steps.
     """
@@ -90,7 +89,8 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
 
 
 def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
-    """Return name -> keys of steps, if a script returned a mapping of names to quantities."""
+    """If a script returned a mapping of names to quantities, return the keys of the steps by name; otherwise return an
+    empty mapping."""
     if not isinstance(value, dict):
         return {}
     return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}
@@ -112,7 +112,7 @@ def _named(value: Any) -> str:
 
 
 def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -> dict[str, Quantity]:
-    """Return key -> quantity for these quantities and all quantities on which they depend, parents first. Reject two
+    """Return, by their keys, these quantities and all quantities on which they depend, parents first. Reject two
     distinct steps with the same key."""
     found: dict[str, Quantity] = {}
 
@@ -133,13 +133,13 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
 
 
 def standing_in(steps: Iterable[Step]) -> dict[str, str]:
-    """Return key -> key of the step that replaces it, for each key in `stands_for` without a step of its own."""
+    """Return, for each key in a `stands_for` that has no step of its own, the key of the step that replaces it."""
     found = {step.key: step for step in steps}
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """Return key -> requested name, for each step that a requested name asks for.
+    """Return the keys of the steps that the requested names ask for, each with the name that asks for it.
 
     A name asks for the group with this name, unless the name is the key of a step outside the group. If a group of two
     conditions has the key of one of them as its name, this key asks for both conditions: one condition alone would

@@ -2,8 +2,9 @@
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, under three conditions:
 
-    (a) Each line of the chain equals the line before it. If the left side is an expression, the first line equals the
-        left side. The last line equals the returned value.
+    (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals it only
+        approximately. If the left side is an expression, the first line equals the left side. The returned value equals
+        the last line that is neither a number in a unit nor a truncated series.
     (b) Every second route to the result, and every check of the result, agrees with the result.
     (c) The subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
@@ -105,7 +106,7 @@ class PhraseData:
 
     @property
     def told(self) -> dict[str, Any]:
-        """Return role -> the formula, the symbol or the place that occurs only in the sentence."""
+        """Return, by role, the formulas, symbols and places that occur only in the sentence."""
         return {**{role: formula for role, (formula, _) in self.formulas.items()}, **self.named}
 
 
@@ -362,7 +363,7 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
                     "letter-clash",
                     message,
                     help=Spelled(
-                        'give one of the two verbs `symbol="..."`',
+                        'pass `symbol="..."` to one of the two verbs',
                         "give one of the two another letter, under `symbols` or with `symbol`",
                     ),
                 )
@@ -382,7 +383,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
             Complaint(
                 "letter-clash",
                 message,
-                help=Spelled('use another letter, or give the verb `symbol="..."`', "use another letter"),
+                help=Spelled('use another letter, or pass `symbol="..."` to the verb', "use another letter"),
             )
         )
 

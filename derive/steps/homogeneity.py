@@ -99,7 +99,8 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Return the dimension of every name, and an error for each step that is not homogeneous.
+    """Return the dimension of every name, and an error for each step that is not homogeneous or whose dimension is not
+    that of its kind.
 
     Each symbol must be given or be a coordinate. Any other symbol is rejected, because its meaning and its dependence
     on time are unknown; this error is reported at the place `script`.
@@ -152,7 +153,8 @@ def _free(expr: Any) -> set[Basic]:
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
-    """Return the common dimension of all lines of a step."""
+    """Return the common dimension of the lines of a step; None if no line has one. Relations, and lines that fit any
+    dimension, are left out."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)

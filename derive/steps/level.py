@@ -37,10 +37,11 @@ class Display:
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before this one may state the result of this step
     first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
-    result_again      up to this level, only the result is shown directly after a step with the same rule, outcome and
-                      kinds of lines
-    each_worked_out   whether all lines are shown even after a step with the same rule and the same kinds of lines
-    abbreviates       whether the symbol of the step replaces its formula in later steps
+    result_again      up to this level, only the result is shown if the step directly before has the same rule and
+                      outcome, and an earlier step has the same rule and kinds of lines
+    each_worked_out   whether the lines of the page's level are shown even after a step with the same rule and kinds of
+                      lines; by default, only the lines of the level `brief` are then shown
+    abbreviates       whether the symbol of the step replaces its formula under square roots in later steps
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any
@@ -69,8 +70,7 @@ class Display:
         return self.brief if level is Level.BRIEF else self.standard
 
     def shows_result_alone(self, level: Level) -> bool:
-        """Whether, at this level, only the result is shown directly after a step with the same rule, outcome and kinds
-        of lines."""
+        """Whether `result_again` applies at this level."""
         return self.result_again is not None and self.result_again.shows(level)
 
 

@@ -1,9 +1,13 @@
 """Reuse the results of earlier calls of verbs, with everything that these calls added to the record.
 
-A call is recalled if three things are the same as in a stored call: its arguments; the coordinates, assumptions and
-ranges that are known before the call; and the answers to the questions that the call asks the record. Arguments are
-identified by digests of their content, so a call is recalled even if its arguments were derived again. If an argument
-cannot be described as data, such as a function of a script, the call is not recalled but made.
+A call is recalled if three things are the same as in a stored call:
+
+- the verb and its arguments;
+- the coordinates, assumptions and ranges that are known before the call;
+- the answers to the questions that the call asks the record.
+
+Arguments are identified by digests of their content, so a call is recalled even if its arguments were derived again. If
+an argument cannot be described as data, such as a function of a script, the call is not recalled but made.
 """
 
 from __future__ import annotations

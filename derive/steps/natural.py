@@ -1,8 +1,13 @@
 """A line that writes the result of a step with the symbols of other quantities, if this is shorter.
 
-Three kinds of quantities are used: those that the problem defines under `define:`, those that a verb proposes because
-they are usual in its field, such as beta = b/(2 m), and results of earlier steps on which the step depends, such as the
-radius r_0 of a circular orbit. The line is compared with the line before it like every line of a chain.
+Three kinds of quantities are used:
+
+- those that the problem defines under `define:`;
+- those that a verb proposes because they are usual in its field, such as beta = b/(2 m);
+- results of earlier steps on which the step depends, if their rule allows this, such as the radius r_0 of a circular
+  orbit.
+
+The new line is compared with the line before it, like every line of a chain.
 """
 
 from __future__ import annotations
@@ -70,7 +75,7 @@ class NaturalQuantities:
         return [*chain[:last], before, Form(found.value, NATURAL, nonzero=found.nonzero), *chain[last + 1 :]]
 
     def formulas(self, formulas: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
-        """Return role -> the formula of a sentence in defined and proposed quantities, where this is shorter.
+        """Return, by role, the formulas of a sentence that become shorter in defined and proposed quantities.
 
         A condition for a state must not contain the symbols of this state.
         """
@@ -78,8 +83,8 @@ class NaturalQuantities:
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
-        """Return the shortest form of a value or a condition; None for a value that is to remain in the given letters,
-        such as an energy: a formula of the coordinates that is neither an equation nor a motion."""
+        """Return a shorter form of a value or a condition in known quantities; None if there is none. A matrix, and a
+        value that contains coordinates or rates, such as an energy, is not rewritten."""
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
         is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
         if not known or not (is_value or isinstance(value, Relation)):
@@ -97,7 +102,7 @@ class NaturalQuantities:
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
-    """The quantities and their ancestors whose symbols may replace their values."""
+    """Yield those of the quantities and of their ancestors whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
     return (quantity for quantity in ancestors if quantity.fact(NamesValue))
 

@@ -59,7 +59,8 @@ from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # digits of the values that a check compares; `_error` allows the last five to differ
 HALF = Rational(1, 2)
-FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}  # operator -> true comparisons
+# operator -> the signs (`>`, `=`, `<`) between left and right with which the relation is true
+FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}
 SHORT = 9  # with more numbers than this, only the level `full` shows the formula with the numbers substituted
 
 
@@ -148,7 +149,7 @@ def value_of(
         return None
 
     def floats(result: Any) -> tuple[Any, Any]:
-        if isinstance(answer.value, Relation):  # the number must change neither the left side nor the mark
+        if isinstance(answer.value, Relation):  # the number must change neither the left side nor the relation sign
             asked, found = (getattr(each, "args", ())[:2] for each in (answer.value, result))
             if asked != found:
                 return Integer(1), Integer(0)
@@ -336,7 +337,7 @@ def _as_it_is(value: Any) -> Any:
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
     """Return the part of a result that gets a number, such as the right side of R > a/2, and the function that puts the
-    number back into the result."""
+    number back into the result. For a relation whose left side is not a single symbol, this part is 0."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
@@ -371,8 +372,9 @@ COMPARISON = Rule(
 
 
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
-    """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm; None if
-    letters remain.
+    """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
+
+    The result is None if the condition is not such a relation or has no letters, or if letters remain.
 
     condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
     amounts     symbol -> its number with a unit

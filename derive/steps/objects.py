@@ -1,9 +1,9 @@
 """Objects of derive written as data and read again: quantities, bodies, systems, and everything that they contain.
 
-The name of an object is the digest of its class and its content, with a number if a distinct object already has this
-name. An object appears in the content of other objects by its name. So an object that two objects share is still one
-object after reading, and two equal quantities remain two objects. Cached properties, which an object computes on first
-use, are not part of its content.
+The name of an object is the digest of its class and its content. A number is added if a distinct object already has
+this name, unless the class compares objects by their content. An object appears in the content of other objects by its
+name. So an object that two objects share is still one object after reading, and two equal quantities remain two
+objects. Cached properties, which an object computes on first use, are not part of its content.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ class Run:
     in_words      the assumed conditions that a step states in words
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
-    defined_at    the place in a file where each of them is written
+    defined_at    the place in a file where each quantity of `define:` is written, by its name
     is_natural    whether results may be written in defined and in usual quantities
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
@@ -376,7 +376,7 @@ def _check_one_meaning(
                 "letter-clash",
                 message,
                 help=Spelled(
-                    'give one of the two verbs `symbol="..."`',
+                    'pass `symbol="..."` to one of the two verbs',
                     "give one of the two another letter, under `symbols` or with `symbol`",
                 ),
             )
@@ -391,8 +391,8 @@ def _is_open(quantity: Quantity) -> bool:
 
 
 def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
-    """Return the symbol that makes a value change: the time or a function of it, a coordinate or a rate; None if the
-    value is constant."""
+    """Return the symbol that makes a value change: the time, a function of the time, a coordinate or a rate. Return
+    None if the value is constant."""
     letters = explicit(value).free_symbols
     moving = [*prescribed_in(value), TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
     return next((s for s in moving if s in letters), None)

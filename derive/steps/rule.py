@@ -1,8 +1,11 @@
 """Rules: one record for each law that makes steps, in the module of the verb that uses the law.
 
 A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by this outcome. For
-each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate. Predicates
-are in the file `claims.py` of the folder of their rule, and share no code with the verbs.
+each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
+
+Predicates are in the file `claims.py` of the folder of their rule, or in `derive/steps/claims.py`. They may use the
+facts of a result and the descriptions of bodies and systems. They do not use the modules that define rules, except
+that for coordinates as functions of the time.
 """
 
 from __future__ import annotations
@@ -67,9 +70,9 @@ def anything(facts: Judged) -> bool:
 
 @dataclass(frozen=True)
 class Theorem:
-    """A theorem in its general form, which a page states by name before the first step that uses it.
+    """A theorem in its general form. A page above the level `brief` states it before the first step that uses it.
 
-    formula   the formula of the theorem
+    formula   what the theorem states, as a relation or an expression
     source    book and section
     letters   further symbols that the phrase names, with their names in the phrase
     """

@@ -32,7 +32,8 @@ from derive.steps.rule import Doubt
 from derive.steps.step import is_zero
 
 DIGITS, SHORT = 30, 20
-SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # mark -> signs
+# relation sign -> signs of (left - right) for which the relation holds
+SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
 DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
 
 
@@ -175,11 +176,11 @@ def undecided(value: Any) -> Doubt:
 
 
 def holds(number: Expr | int, mark: str) -> bool:
-    """Whether a number and zero satisfy the relation with this mark, such as `number > 0`."""
+    """Whether a number and zero satisfy the relation with this sign, such as `number > 0`."""
     return (0 if number == 0 else 1 if number > 0 else -1) in SIGNS_OF[mark]
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """Return the absolute value of a difference, with the sign that the mark (=, < or >) requires. If the mark is
-    right, this is the difference itself."""
+    """Return the absolute value of a difference, with the sign that the relation sign (=, < or >) requires. If the
+    relation is true, this is the difference itself."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

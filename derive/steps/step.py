@@ -29,11 +29,12 @@ ONLY_ABOUT = ("limit", "series")  # reasons of forms that are only approximately
 
 @dataclass(frozen=True)
 class Form:
-    """One line of a chain: an expression, and the reason why it equals the line before.
+    """One line of a chain: an expression, and the reason why it follows from the line before.
 
-    `because` is a key that `templates/phrases` puts into words. A form `because="rounded"` is approximately equal. A
-    form may be a `Relation`, which is equivalent to the relation in the line before. The factors `nonzero` may have
-    been divided out: they do not vanish in the case considered, and are positive in an inequality.
+    `because` is a key that `templates/phrases` puts into words. A form with the reason `rounded`, `limit` or `series`
+    only approximately equals the form before it. A form may be a `Relation`, which is equivalent to the relation in the
+    line before. The factors `nonzero` may have been divided out: they do not vanish in the case considered, and are
+    positive in an inequality.
     """
 
     expr: Any
@@ -110,8 +111,8 @@ class Step:
 class Fact:
     """Data that a quantity carries in addition to its value, for the verbs that need such data.
 
-    Each kind of fact is a frozen dataclass in the module of the verb that returns it. The text `missing` completes the
-    message about a quantity without such a fact.
+    Each kind of fact is a frozen dataclass, in the module of the verb whose results carry it or in `facts.py` of the
+    same folder. The text `missing` completes the message about a quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
@@ -119,7 +120,7 @@ class Fact:
 
 
 class Witness(Fact, ABC):
-    """The described system to which a quantity belongs; its motion can be integrated numerically."""
+    """A fact with the described system to which a quantity belongs; a step is tested on the motion of this system."""
 
     @abstractmethod
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:
@@ -157,8 +158,8 @@ class Quantity:
 
     @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates of the step and of its parents, with their kinds. The value may depend on these
-        coordinates."""
+        """Return the coordinates on which the value may depend, with their kinds: those of the step and of its parents,
+        without those that a fact eliminates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}

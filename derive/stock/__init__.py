@@ -1,1 +1,1 @@
-"""Scripts of the engine, for a `solve:` that names one: `given:` then describes the whole system."""
+"""Scripts of the engine, for a `solve:` that names one: `given:` then describes what the script solves."""

@@ -342,11 +342,11 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         self.of = {one.prefix: BodyAnswers(one) for one in described.bodies}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return name -> function that derives the answer, for every name that a part may ask for."""
+        """Return, for every name that a part may ask for, the function that derives the answer."""
         return {f"{prefix}{name}": asked for prefix, one in self.of.items() for name, asked in one.asks().items()}
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
-        """Return name -> answer for the requested names, and draw each body."""
+        """Return the answers by the requested names, and draw each body."""
         for one in self.of.values():
             drawn(one.body)
         return super().solve(asked, drawings)

@@ -56,7 +56,7 @@ from derive.stock.keys.results import RESULTS, read_results
 AXES = "xyz"
 VECTORS = ("spin", "angular_momentum", "torque")
 CONES = {"body_cone": "alpha_b", "space_cone": "alpha_s", "tilt": "alpha_L"}  # angles, and their symbols
-MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # a changing angular velocity
+MOVING = tuple((letter.name, letter) for letter in component_names("omega"))  # components of a changing omega
 KINDS_OF_COMPONENTS = {
     "moments": "moment of inertia",
     "rates": "angular speed",
@@ -186,7 +186,8 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
-    """Return the point at rest; a body that is specified by its moments has only a centre of mass and a fixed point."""
+    """Return the name of the point about which the body rotates. For a body that is specified by its moments, this is
+    the centre of mass or a fixed point."""
     if written.body is not None:
         return body.point(written.about) if body is not None and written.about else "centre"
     if written.about is None:
@@ -204,7 +205,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     what = "a rotation"
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
-        """Return name -> answer for the requested names, and draw the body."""
+        """Return the answers by the requested names, and draw the body."""
         found = super().solve(asked, drawings)
         described = self.described
         if described.body is not None:

@@ -1,4 +1,4 @@
-"""Any mechanical system: its energies, its equations of motion, its equilibria, and what happens in an impact."""
+"""Mechanical systems: energies, equations of motion, equilibria, and impacts."""
 
 from __future__ import annotations
 
@@ -88,11 +88,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def method(self) -> str:
-        """Return the way to the equations of motion."""
+        """Return the method for the equations of motion, by default `lagrange`."""
         return str(self.described.methods.whole or LAGRANGE)
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
-        """Return name -> answer for the requested names, and draw the system."""
+        """Return the answers by the requested names, and draw the system."""
         if self.described.given is None:
             with told_at(self.described.place):
                 start = started(self.described.results, self.system)
@@ -114,7 +114,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
-        """Return name -> answer, each derived by the method of the part that asks for the name; draw the plots."""
+        """Return the answers by the requested names, each derived by the method of the part that asks for it; draw the
+        plots."""
         methods, whole = self.described.methods, self.described.methods.whole
         groups: dict[Word | None, list[Word]] = {whole: []}
         for name in asked:
@@ -141,8 +142,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body: before Newton's laws of this body or, in space, before the equations of motion
-        that contain the forces; in a plane also if parts of the problem derive the constraint forces on the body."""
+        """Draw the forces on each body.
+
+        If Newton's laws of the body are derived, or in space the equations of motion with constraint forces, the
+        drawing is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived.
+        """
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
@@ -161,8 +165,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return [each.key for each in laws if forces & explicit(each.value).free_symbols]
 
     def asks(self) -> dict[str, Any]:
-        """Return name -> function that derives the answer, for every name that a part may ask for, including those of
-        an impact."""
+        """Return, for every name that a part may ask for, the function that derives the answer; answers about an impact
+        are included."""
         return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property
@@ -210,7 +214,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def acting(self) -> list[Any]:
-        """Return what acts on the particles and bodies, in the order of the description."""
+        """Return what acts on the particles and bodies, in the order of `DescribedSystem.acting`."""
         return [part.made(self.parts_by_name) for part in self.described.acting]
 
     # -- energies and equations of motion --------------------------------------------------------------------------
@@ -237,12 +241,12 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def motions(self) -> tuple[Quantity, ...]:
-        """Return one equation of motion for each coordinate, by the method of the problem."""
+        """Return one equation of motion for each independent coordinate, by the method of the problem."""
         return tuple(self.motion(name) for name in self.independent)
 
     @cached_property
     def by_lagrange(self) -> tuple[Quantity, ...]:
-        """Return Lagrange's equations, next to Newton's laws."""
+        """Return Lagrange's equations, for a comparison with Newton's laws."""
         named = self.independent.items()
         return tuple(equation_of_motion(self.lagrangian, q, key=f"lagrange_{name}") for name, q in named)
 
@@ -261,7 +265,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        """Return the energy function h of the Lagrangian; without a Lagrangian, the energy T + U if it is constant."""
+        """Return the energy function h of the Lagrangian; with a method other than `lagrange`, return the energy T + U,
+        which must be constant."""
         return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer
@@ -435,7 +440,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
-        """Return the coordinates that remain in the Lagrangian after the conditions of rolling eliminated some."""
+        """Return the coordinates that remain after conditions such as rolling have eliminated others. With the method
+        `lagrange`, these are the coordinates of the Lagrangian."""
         if self.method != LAGRANGE:
             return {name: q for name, q in self.coordinates.items() if q.symbol in self.system.coordinates}
         moving = self.lagrangian.coordinates
@@ -445,11 +451,17 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def potential_at_rest(self) -> Quantity:
         """Return the function that is stationary at equilibria.
 
-        In a system without constraints, this function is the effective potential energy if some but not all momenta are
-        constant, or if the only coordinate is driven. In all other systems of bodies, this function is the Lagrangian
-        if a coordinate is driven or forces are given, and otherwise the potential energy. If the problem gives the
-        Lagrangian, this function is the effective potential energy if some but not all momenta are constant, and
-        otherwise the Lagrangian.
+        If the problem gives the Lagrangian:
+
+        - the effective potential energy, if some but not all momenta are constant;
+        - otherwise the Lagrangian.
+
+        If the problem describes bodies:
+
+        - the effective potential energy, if there are no constraint forces, and if some but not all momenta are
+          constant or the only coordinate is driven;
+        - otherwise the Lagrangian, if a coordinate is driven or forces are given;
+        - otherwise the potential energy.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian

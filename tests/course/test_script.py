@@ -52,7 +52,7 @@ def solved(folder: Path, text: str) -> object:
         (SCRIPT.replace("def solve", "def sovle"), 6, "rename `sovle`"),
         (SCRIPT.replace("mass: Mass", "mass"), 6, "`mass` has no kind"),
         (SCRIPT.replace("mass: Mass", "mass: 'Mas'"), 6, "did you mean `Mass`?"),
-        (SCRIPT.replace("mass: Mass", "*mass: Mass"), 6, "`solve()` must name what it asks for"),
+        (SCRIPT.replace("mass: Mass", "*mass: Mass"), 6, "`mass` cannot be given by name"),
         (SCRIPT + "solve = None\n", 6, "not a function"),
         ("", 1, "no function `solve`"),
         ("x = '\x00'\n", 1, "not Python"),

@@ -1,12 +1,12 @@
-"""Reads the LaTeX formulas of a document: from text to SymPy, with dimensions and exact places.
+"""Parses the LaTeX formulas of a document to SymPy expressions with dimensions; errors have exact places.
 
     tokens      the tokens of the text and their places, from pylatexenc
     vocabulary  the commands that are known
     letters     the declared name for a letter with subscript and dots
     grids       sums and products of scalars, vectors and matrices
-    integrals   signs and differentials, brackets between limits
-    arguments   functions and how far their arguments reach
-    brackets    brackets, triples, matrices, limits
+    integrals   integral signs, differentials, antiderivatives between limits
+    arguments   letters, units, functions, and how far the arguments of functions reach
+    brackets    the contents of brackets, triples, matrices, the limits of integrals
     titles      left sides that are only a name of the answer
     grammar     chains, sums, products, factors
 

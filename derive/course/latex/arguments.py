@@ -1,8 +1,8 @@
 r"""Letters and functions in a formula: the meaning of a name, and where the argument of a function ends.
 
-Without brackets, an argument is the shortest run of factors that has a letter and is an angle or a number:
-`\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could also belong to the argument, the formula is
-rejected.
+Without brackets, an argument is the shortest run of factors that contains a letter or `\pi` and is an angle or a
+number: `\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If the next factor could also belong to the argument, the
+formula is rejected.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ class Functions(Grids):
         return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
 
     def check_not_a_function(self, letter: Letter, cursor: Cursor) -> None:
-        r"""Refuse `U(\theta)`, which every reader takes for a function: a product is not written as `a(b)`."""
+        r"""Reject `U(\theta)`, which looks like a function: a product is not written as `a(b)`."""
         three = cursor.tokens[cursor.at : cursor.at + 3]
         if len(three) == 3 and three[0].text == "(" and three[2].text == ")" and letter_at(three[1]):
             whole = self.text[letter.start : three[2].end]
@@ -155,7 +155,8 @@ class Functions(Grids):
         return Term(unit.factor, unit.dimension, token.start, token.end)
 
     def unit(self, text: str, cursor: Cursor) -> Term:
-        r"""Return the size in the SI of the unit at the cursor; a power belongs to its last factor: `\text{m/s}^2`."""
+        r"""Return the size in the SI of the unit at the cursor. A power after it, as in `\text{m/s}^2`, belongs to the
+        last factor of the unit."""
         token = cursor.token
         assert token is not None
         cursor.at += 1
@@ -238,7 +239,8 @@ class Functions(Grids):
         return script
 
     def is_plain(self, token: Token | None) -> bool:
-        """Return whether a token may be part of an argument without brackets: a number, a letter or a fraction."""
+        r"""Return whether a token may be part of an argument without brackets: a number, a letter, `\pi` or a
+        fraction."""
         if token is None:
             return False
         return token.kind == "number" or token.text in FRACTIONS | {"pi"} or letter_at(token) is not None
@@ -247,7 +249,7 @@ class Functions(Grids):
         return bool(term.expr.is_number) and not term.expr.has(pi)
 
     def check_end(self, cursor: Cursor, argument: Term, depth: int) -> None:
-        """Reject an argument if the next factor could also belong to the argument."""
+        """Reject an argument if the next factor or a `/` could also belong to the argument."""
         token = cursor.token
         if token is None:
             return

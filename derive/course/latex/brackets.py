@@ -1,4 +1,5 @@
-"""The contents of brackets: grouped values, triples, antiderivatives between limits, matrices."""
+"""The contents of brackets and bars: grouped values, triples, absolute values, antiderivatives between limits,
+matrices."""
 
 from __future__ import annotations
 
@@ -20,7 +21,7 @@ class Brackets(Functions):
     """The base class of `Formula` for brackets; `Formula` defines `sum`, `closed_sum` and `unexpected`."""
 
     def bracketed(self, cursor: Cursor, opening: Token, depth: int) -> TermOrGrid:
-        """Read the contents of brackets: a value, a triple, an antiderivative between limits."""
+        """Read the contents of brackets or bars, with limits or a subscript after them."""
         first = cursor.at
         bars = opening.kind == "bar"
         closing = "|" if bars else OPENING[opening.text]

@@ -37,8 +37,7 @@ class Cursor:
 
     @property
     def written(self) -> str:
-        r"""The current token as it is written in the tables of `vocabulary`: a command begins with `\`, a mark is
-        unchanged."""
+        r"""The text of the current token, with `\` before the name of a command; "" at the end."""
         token = self.token
         if token is None:
             return ""

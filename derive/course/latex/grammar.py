@@ -5,8 +5,8 @@ r"""The grammar of a formula: chains of sides, sums, products, factors.
     product  factor ((\cdot | \times)? factor)* ("/" factor)?    with integral signs and differentials among the factors
     factor   atom power?                             atom    number, letter, fraction, root, function, bracket, matrix
 
-If a formula has two possible readings, it is rejected, and the help shows how to write each reading: `a/2b`, `\sin a b`
-of two numbers, `\sin x^2`, `2\frac12`, `U(\theta)`.
+If a formula has two possible readings, it is rejected, and the help shows how to write it clearly: `a/2b`, `\sin a b`
+of two dimensionless letters, `\sin x^2`, `2\frac12`, `U(\theta)`.
 """
 
 from __future__ import annotations
@@ -63,8 +63,8 @@ class Formula(Brackets):
     # -- chains ---------------------------------------------------------------------------------------------------
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
-        """Return the sides and the relations before them. A side has its alternatives, its number of branches, its
-        first and its last token; the relation is "" if a side has none before it."""
+        """Return the sides, and the relation sign before each side. A side has its alternatives, its number of
+        branches, and its first and last token. The sign is "" if the first side has none before it."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -342,7 +342,7 @@ class Formula(Brackets):
         exponent = replace(number, expr=Rational(1, number.expr))
         return spanning(self.raised(inner, exponent), token.start, token.end)
 
-    # -- what is not there ----------------------------------------------------------------------------------------
+    # -- errors ---------------------------------------------------------------------------------------------------
 
     def unexpected(self, cursor: Cursor) -> NoReturn:
         token = cursor.token

@@ -55,8 +55,9 @@ def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
 class Grids(Arithmetic, ABC):
     """The operations of `Arithmetic`, extended to columns and matrices.
 
-    Zero fits every dimension, because a document writes `0` in any matrix. `homogeneous` is false if numbers replace
-    letters or the document is known to be wrong: dimensions are then not compared.
+    Zero fits every dimension, because a document writes `0` in any matrix. Dimensions are compared only if
+    `homogeneous` is true. It is false if numbers replace letters, if the document is known to be wrong, and after a
+    letter that is not declared.
     """
 
     max_terms = 20_000

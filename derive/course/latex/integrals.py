@@ -26,7 +26,8 @@ class Sign:
     r"""An integral sign in a product: its limits, its place in the text, and, after its differential is read, its
     variable.
 
-    The sign applies to all later factors of its product: in `\int_0^h z dz \int_0^z dx` the second is inside the first.
+    The sign applies to all later factors of its product: in `\int_0^h z dz \int_0^z dx` the second integral is inside
+    the first.
     """
 
     lower: Term
@@ -147,8 +148,8 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy integrates the product quickly: a power of x, or sines and cosines of one argument. A
-    product of powers and sines, or of sines of different arguments, must contain at most two sines or cosines and no
+    """Return whether SymPy integrates the product quickly: a power of x, or up to 24 sines and cosines of one argument.
+    A product of powers and sines, or of sines of different arguments, must contain at most two sines or cosines and no
     power above x^3."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
@@ -210,8 +211,8 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """Return the only letter of the antiderivative that the limits do not contain and that has the dimension of the
-    limits."""
+    """Return the only letter of the antiderivative that the limits do not contain. Letters whose dimension differs from
+    that of the limits do not count, if dimensions are compared."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)

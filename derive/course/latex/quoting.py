@@ -3,7 +3,6 @@
 A quotation is data and never reaches TeX unchanged. The formulas of a quotation are split into commands and signs.
 These must be on a list and correctly nested; then they are written again. Anything unknown is rejected at its place in
 the text. A quotation may contain commands that the grammar does not read, because a garbled formula must be quoted too.
-Not every command of TeX is allowed.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ class Unquotable(ValueError):
 
 
 def quoted(text: str) -> tuple[Quoted, ...]:
-    """Return the words and formulas alternately, or raise `Unquotable`."""
+    """Return the words and formulas in order, or raise `Unquotable`."""
     if len(text) > LONGEST_QUOTATION:
         raise Unquotable(f"a quotation has at most {LONGEST_QUOTATION} characters", 0)
     if text.count("$") % 2:
@@ -55,7 +54,8 @@ def quoted(text: str) -> tuple[Quoted, ...]:
 
 
 def quoted_formula(text: str, offset: int = 0) -> str:
-    """Return the TeX of a formula, rewritten with known signs and commands; rows are aligned."""
+    """Return the TeX of a formula, rewritten with known signs and commands. A formula with rows is put into
+    `aligned`."""
     pieces, rows = "".join(_pieces(text, offset)).strip(), False
     depth = 0
     for word in re.findall(r"\\begin|\\end|\\\\|\\&|&", pieces):
@@ -120,7 +120,7 @@ def _environment(name: str, environment: str, columns: str | None, nesting: list
 
 
 def _shown(environment: str) -> str:
-    """Return the environment that is used within a line in place of a display environment."""
+    """Return `aligned` in place of an environment of displayed rows; any other environment is unchanged."""
     return "aligned" if environment in ALIGNMENTS else environment
 
 

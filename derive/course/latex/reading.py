@@ -1,7 +1,7 @@
 r"""`read_latex` reads a formula in LaTeX as a chain of values.
 
 13 M a^2/12                  one side
-\frac{26}{6} a^2 (6a^3\rho) = \frac{13}{3} M a^2      two, with the mark between them
+\frac{26}{6} a^2 (6a^3\rho) = \frac{13}{3} M a^2      two sides, and the sign `=` between them
 \frac{b \pm \sqrt{c}}{2}     one side with two branches, read as + and as - throughout
 """
 
@@ -42,8 +42,8 @@ class Side:
 
 @dataclass(frozen=True)
 class ReadMath:
-    """The sides of a chain, and the mark before each side: the first mark is "" unless the formula begins with a
-    mark."""
+    """The sides of a chain, and the relation sign before each side. The first sign is "" unless the formula begins with
+    a relation sign."""
 
     sides: tuple[Side, ...]
     marks: tuple[str, ...]
@@ -55,7 +55,8 @@ def read_latex(
     """Read the formula in the declared letters, or raise `Rejected` with the errors and their places.
 
     `homogeneous=False` is for a formula with numbers in place of letters, and for a formula that is known to be wrong.
-    `in_prose=True` is for a formula of an author's text, which may have units and the relations `\\ll` and `\\gg`.
+    `in_prose=True` is for a formula of an author's text, which may have units, `\\infty`, and the relations `\\ll`,
+    `\\gg` and `\\to`.
     """
     return _read(scalar, tuple(letters.items()), homogeneous, in_prose)
 

@@ -258,7 +258,7 @@ class _Tokens:
 
 
 def _joined(reader: Arithmetic, tokens: list[Token]) -> Iterator[Token]:
-    r"""Join `\left` and `\right` with their brackets."""
+    r"""Join `\left` and `\right` with their brackets, and turn commands such as `\lvert` into brackets."""
     at = 0
     while at < len(tokens):
         token = tokens[at]

@@ -44,7 +44,7 @@ RELATIONS: Mapping[str, str] = {
     "\\simeq": "~",
 }
 
-# Prose may also say that a letter is much less than another letter, and that it tends to a value.
+# Prose may also say that a letter is much less or much greater than another letter, or that a letter tends to a value.
 RELATIONS_IN_PROSE: Mapping[str, str] = {**RELATIONS, "\\ll": "<<", "\\gg": ">>", "\\to": "->"}
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
@@ -57,7 +57,7 @@ WORDS = frozenset(["text", "textrm", "textit", "mbox"])
 MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
 ALIGNMENTS = frozenset(["aligned", "align", "align*", "split", "equation", "equation*", "gathered", "alignedat"])
 
-# Commands that only add space or change a size.
+# Commands that are ignored, because they change only the spacing, the size, the font or the numbering.
 SPACES = frozenset(
     [",", "!", ";", ":", " ", ">", "quad", "qquad", "thinspace", "enspace", "limits", "nolimits", "displaystyle"]
     + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "rm", "it", "\n", "/"]

@@ -1,7 +1,6 @@
 """The comparison of one statement of a document with the derived step.
 
-If a letter is not in the step's value, the letter means the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a
-spin.
+A letter that is not in the step's value may mean the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a spin.
 """
 
 from __future__ import annotations
@@ -34,7 +33,10 @@ def given_values(problem: Problem) -> dict[str, Any]:
 
 
 def verdict_on(statement: Statement, step: Quantity, entry: Entry, pinned: Problem) -> Verdict:
-    """Compare entry by entry and branch by branch; the verdict is only as certain as the least certain comparison."""
+    """Compare a statement with a step: a relation as a whole, a value entry by entry and branch by branch.
+
+    The verdict is only as certain as the least certain of these comparisons.
+    """
     derived = explicit(step.value)
     meanings = _meanings(statement, entry.times, step, derived, pinned)
     if entry.times is not None and not isinstance(derived, Relation):
@@ -111,7 +113,7 @@ def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
     """Compare the document's relation with the derived relation. If the entry states a factor, the derived equation is
-    multiplied by this factor before the comparison."""
+    multiplied by this factor, or by its negative, before the comparison."""
     sides = statement.sides
     if any(side.shape for side in sides):
         return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
@@ -206,7 +208,7 @@ def _meanings(
     known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
     if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
         known = {**_letters_of(behind), **known}
-    # A name with two meanings in earlier steps (such as the inertia tensors of two bodies) gets no meaning here.
+    # A name with two meanings in earlier steps (such as the inertia tensors of two bodies) is not replaced by either.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
         for letter in wanted
@@ -225,7 +227,8 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Map each name to its distinct values in these steps; components that are only symbols are left out."""
+    """Map each name to its distinct values in these steps. A value that is only the symbol with this name is left
+    out."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
@@ -247,8 +250,8 @@ def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | N
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Return whether each printed decimal agrees with the derived number within half a unit of its last digit. Both
-    expressions must contain the same products of letters."""
+    """Judge whether each printed decimal agrees with the derived number within half a unit of the decimal's last digit.
+    Both expressions must contain the same products of letters."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")

@@ -1,17 +1,17 @@
 """The comparison of the statements of a document, in `problems/<set>/reference.yaml`, with the derived steps.
 
 The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
-`values:`. An edit of the problem therefore does not break the comparison, and wrong numbers are never compared. Each
-entry of a group states a value of one step:
+`values:`. An edit of the problem's input therefore does not break the comparison. A problem's own file can also have
+entries, under `reference:`; they are compared for the problem's input. An entry states a value of one step:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, equal to that many figures
     erratum              the document is wrong: `states` is refuted and `right` agrees; or the error is only quoted
-    differs              refuted by values at a point; or the entry states an erratum, but the document is right
+    differs              refuted, for example by values at a point; or stated as an erratum, but the document is right
     unknown step         no step has that key
     remark               nothing is compared: a claim of the document is quoted, with a comment
 
-Each side of a chain is compared, and counts as one comparison.
+Each side of a chain of values is compared, and counts as one comparison.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """The data of a comparison, for a page and its JSON."""
+    """The data of a comparison, for a page and its JSON; `here` is true if the input is that of the problem's file."""
 
     facts: dict[str, Any]
     here: bool
@@ -63,7 +63,7 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # the entry is compared for the present input; only then does the page mention it
+    here: bool = True  # whether the input is that of the problem's file; only then does the page mention the entry
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
@@ -88,9 +88,11 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Compare every entry about this problem; `known` are the steps for the input in the problem's file. If the input
-    of a group differs from that in the problem's file, the steps for the input of the group are derived; calls that are
-    stored in `memory` are reused."""
+    """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
+
+    If the input of a group differs from that in the problem's file, the steps for the input of the group are derived.
+    Results of calls that are stored in `memory` are reused.
+    """
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
 
@@ -118,8 +120,8 @@ def _what_is_given(problem: Problem) -> object:
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
     """Return the steps for the input of a group. Steps from an earlier comparison in this process are reused if their
-    input is the same: a preview compares after each edit, and an edit of the problem's givens does not change the input
-    that a group fixes."""
+    input is the same. This helps a preview, which compares after each edit: an edit of the problem's givens does not
+    change the input that a group fixes."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
@@ -151,7 +153,8 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 
 
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
-    """Return the sides of a chain as separate entries; an entry that states a relation is not split."""
+    """Return the sides of a chain as separate entries. An entry is not split if its step is a relation or is
+    unknown."""
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]

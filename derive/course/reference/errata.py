@@ -1,4 +1,4 @@
-"""An erratum of the source document, as on a page: what the document prints, why it is wrong, and what is right."""
+"""An erratum of the source document, as a page shows it: what the document prints, why it is wrong, what is right."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from derive.course.reference.statements import Entry, Stated, Statement
 
 @dataclass(frozen=True)
 class Erratum:
-    """`printed` and `right` are two values of the step `answer`; decimals keep their printed number of figures.
+    """`printed` and `right` are the wrong and the right value of the step `answer`; decimals keep their stated figures.
 
     `quote` and `instead` are what the document prints and what is right, in the document's own letters: prose with
     formulas between dollar signs. `quote` is empty if the entry has neither `quote:` nor `latex:`, for example if its
@@ -47,8 +47,8 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """Return the erratum that an entry of the reference states; its letters become the problem's letters with the same
-    names."""
+    """Return the erratum that an entry of the reference states. The letters in its values become the problem's letters
+    with the same names."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
@@ -86,7 +86,8 @@ def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
 
 
 def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
-    """Rewrite an expression in the problem's own letters; integrals and their variables stay as printed."""
+    """Rewrite an expression in the problem's own letters. An integral is not evaluated, and its brackets are
+    removed."""
     opened = expr.replace(lambda e: isinstance(e, Group) and isinstance(e.args[0], Integral), lambda e: e.args[0])
     return opened.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in opened.atoms(Symbol)})
 

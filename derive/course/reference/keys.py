@@ -58,7 +58,7 @@ class EntryKeys(Record):
     )
     unit: Word | None = key("the unit of the stated value", Reader(UNIT, TEXT.read), called="in")
     put_in: Tree | None = key(
-        "letters that the document has replaced by numbers; those of `values` are replaced on both sides",
+        "letters that the document has replaced by numbers; their numbers are substituted in both compared values",
         as_written(one_or_more(TEXT.schema), "letters that have numbers"),
         called="with",
     )
@@ -90,7 +90,11 @@ class GroupKeys(Record):
         "letters of the document that have another name here: `I_1: I_xx`",
         _OUR_LETTERS,
     )
-    values: dict[Word, Tree] = key("numbers for letters, substituted where a stated value lacks the letter", VALUES)
+    values: dict[Word, Tree] = key(
+        "numbers for letters; if a stated value does not contain the letter, its number is substituted in the derived "
+        "value",
+        VALUES,
+    )
     entries: tuple[EntryKeys, ...] = key(
         "the values that the document states", list_of(_ENTRY, "a list of entries"), required=True
     )
@@ -100,7 +104,7 @@ class GroupKeys(Record):
 class DocumentKeys(Record):
     """The first item of the list, if it names the document; errata and remarks then show lines of the document."""
 
-    document: Word | None = key("the document that the groups below compare", TEXT, required=True)
+    document: Word | None = key("the name of the document whose values the groups below state", TEXT, required=True)
 
 
 @dataclass(frozen=True)

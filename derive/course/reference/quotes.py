@@ -15,9 +15,12 @@ LAST_LINE = 99_999
 
 @dataclass(frozen=True)
 class Remark:
-    """A claim of the document that is wrong, right by luck, incomplete or not a formula: text, line and reason.
+    """A claim of the document that is wrong, right by luck, incomplete or not a formula.
 
-    Both texts are prose with formulas between dollar signs.
+    part    the part of the document, if stated
+    line    the line of the document, if stated
+    quote   what the document prints: prose with formulas between dollar signs
+    why     a comment on the claim: prose with formulas between dollar signs
     """
 
     part: str | None

@@ -1,7 +1,7 @@
-"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries, each with its own fixed input.
+"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries. Each group fixes its own input.
 
 A value is an expression in the grammar of the problem files (`states:`), or a formula as the document prints it
-(`latex:`): a chain, each side of which is compared, or a relation.
+(`latex:`). Such a formula may be a relation, or a chain of values, each of which is compared.
 """
 
 from __future__ import annotations
@@ -62,7 +62,8 @@ class Stated:
 
 @dataclass(frozen=True)
 class Statement:
-    """A value, a chain of values, or a relation: the sides, and the mark before each, usually "" before the first."""
+    """A value, a chain of values, or a relation: the sides, and the sign before each side, such as `=` or `<`. The sign
+    before the first side is usually ""."""
 
     sides: tuple[Stated, ...]
     marks: tuple[str, ...]
@@ -80,10 +81,16 @@ class Statement:
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of the file; `figures` has a number for each component of the value; `unit` applies to all of them.
+    """One entry of the file.
 
-    `quote` is what the document prints and `instead` what it should print, in its own letters; `states` is missing
-    if there is only a remark.
+    states      the value in the document; None if nothing is compared, for a remark or an erratum that is only quoted
+    right       the value that the document should state, for an erratum
+    figures     the significant figures: one number, or one for each component or branch; empty for an exact value
+    unit        the unit of every component
+    put_in      the names of the letters that the document has replaced by numbers
+    times       the factor by which the document has multiplied the derived equation
+    quote       what the document prints, in its own letters
+    instead     what the document should print, in its own letters
     """
 
     answer: str
@@ -117,7 +124,7 @@ def reference_of_set(root: Path, set_id: str) -> Tree | None:
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """Return the groups about this problem, each as the problem with the group's input; raise `Rejected` on errors.
 
-    Groups of other problems are read when those problems are derived: their errors do not concern this problem.
+    The contents of groups for other problems are not read here, so their errors do not concern this problem.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -266,8 +273,12 @@ class _EntryReader:
         )
 
     def quotes(self, entry: EntryKeys) -> tuple[str, str]:
-        """Return two formulas between dollar signs: what the document prints, and what it should print. Both texts are
-        empty without `latex:`, and for an entry that is neither an erratum nor a remark."""
+        """Return what the document prints, and what it should print.
+
+        The first text is that of `quote:`, or else the formula of `latex:` between dollar signs. The second is the
+        right formula between dollar signs, for an erratum with `latex:`. Both are empty for an entry that is neither an
+        erratum nor a remark.
+        """
         should = entry.erratum.right if entry.erratum else None
         told = [entry.latex, should if entry.latex is not None else None]
         printed, right = (f"${' '.join(x.text.split())}$" if isinstance(x, Scalar) else "" for x in told)
@@ -290,8 +301,8 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
-        """Read the value that an entry states under `states:` or `latex:`; a value that is an erratum need not be
-        homogeneous."""
+        """Read the value that an entry states under `states:` or `latex:`. Under `latex:`, the dimensions of the terms
+        are not compared for an erratum or after numbers have been substituted."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])

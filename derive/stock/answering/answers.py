@@ -70,7 +70,7 @@ def answer_for_each(
 class Answers(Generic[D]):
     """The answers about one system, body, rotation or impact.
 
-    `found` is name -> answer, for the answers that methods with `answer_for_each` have derived.
+    `found` has, by name, the answers that methods with `answer_for_each` have derived.
     """
 
     def __init__(self, described: D):
@@ -78,8 +78,8 @@ class Answers(Generic[D]):
         self.found: dict[str, Any] = {}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return name -> function that derives the answer, for every name that a part may ask for, in the order of the
-        class."""
+        """Return, for every name that a part may ask for, the function that derives the answer, in the order of the
+        methods of the class."""
         asks: dict[str, Callable[[], Any]] = {}
         for name, own in vars(type(self)).items():
             if isinstance(own, answer):
@@ -121,8 +121,8 @@ class StockAnswers(Answers[W]):
         return None
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
-        """Return name -> answer for the requested names, and draw the requested plots; a subclass also draws the
-        described objects."""
+        """Return the answers by the requested names, and draw the requested plots. A subclass also draws the described
+        objects."""
         found = self.by_name.answers(asked)
         for drawing in drawings:
             if drawing.plot and drawing.against and drawing.range:

@@ -39,7 +39,7 @@ class ByName:
 
     asks          every name that the description offers, with the function that derives its steps
     what          the kind of description: "a rotation"
-    results       results computed from answers
+    results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
     again         makes a second object for the same answers, in which nothing is derived yet
     elsewhere     derives an answer of a body about a point or axis other than the given one
@@ -66,7 +66,7 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return requested name -> answer; an error is reported at the part that asks for the answer."""
+        """Return the answers by the requested names; an error is reported at the part that asks for the answer."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
@@ -126,8 +126,8 @@ class ByName:
                 return self.again()._derived(name, None)
 
     def _copied_run(self) -> Run:
-        """Return a record without steps, for the same problem. It has the same store of calls, so that a search derives
-        nothing that the answers need again."""
+        """Return a record without steps, for the same problem. It shares the store of calls, so that steps derived in a
+        search need not be derived a second time for the answers."""
         run = current_run.get() or Run()
         memory = run.memory and run.memory.of_another_run()
         return Run(

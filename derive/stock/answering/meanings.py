@@ -94,7 +94,8 @@ FORCE = "a force of constraint or an impulse"  # the name of this answer is the 
 
 
 def meaning_of(name: str) -> str:
-    """Return the meaning of an answer in words; the coordinate or the axis in its name is part of the meaning."""
+    """Return the meaning of an answer in words, including the coordinate or the axis in its name. A name that is not in
+    the table is the symbol of a force or an impulse."""
     if name in MEANINGS:
         return MEANINGS[name]
     fitting = []

@@ -1,4 +1,4 @@
-"""The ways to an equation of motion: Lagrange's equation, Newton's and Euler's laws, or conservation of energy."""
+"""Methods for equations of motion: equations by Newton's laws, and checks of the methods that a problem states."""
 
 from __future__ import annotations
 

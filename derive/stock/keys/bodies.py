@@ -53,7 +53,7 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Return id -> class, for every body with sizes. The id, such as `thick_shell`, is the name of the shape in
+    """Return the classes of bodies with sizes, by their ids. The id, such as `thick_shell`, is the name of the shape in
     YAML."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
@@ -75,7 +75,7 @@ def ways_to_tell(shape: type[Body]) -> tuple[tuple[str, ...], ...]:
 
 @dataclass(frozen=True)
 class ShapeKeys(Record):
-    """The keys of a body without parts."""
+    """The keys that specify a body by a shape with its sizes, or by the positions of its points."""
 
     shape: Word | None = key(
         "its shape: `disc`, `cone`, `thick_shell`, ...", Reader({"enum": sorted(shapes())}, TEXT.read)
@@ -190,8 +190,8 @@ class DescribedBody:
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return the names of the points of the body. If it has parts or named points, these are `centre`, `origin` and
-        the named points."""
+        """Return the names of the points of the body. If the body has parts or named points, these names are `centre`,
+        `origin` and those of the named points."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts

@@ -54,7 +54,7 @@ RIGHT_OR_LEFT = one_of(("right", "left"))
 
 @dataclass(frozen=True)
 class Connected:
-    """The names that connections may use: bodies and particles, and the described surfaces and pulleys."""
+    """What connections may refer to: bodies and particles by name, described surfaces and pulleys, places, symbols."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
@@ -68,17 +68,23 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0: by default the origin, or the body `of`",
+        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body `of` "
+        "or, without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
-        "for a plane, in a plane of motion, a direction along it: the free side is on the left, so above `[1, 0]`",
+        "for a plane surface, if the motion is in a plane: a direction along the surface. The free side is to the left "
+        "of this direction, so above `[1, 0]`",
         COMPONENTS,
     )
-    normal: tuple[Tree, ...] = key("for a plane, in place of `along`, the direction towards its free side", COMPONENTS)
+    normal: tuple[Tree, ...] = key(
+        "for a plane surface, in place of `along`: the direction towards its free side", COMPONENTS
+    )
     centre: WrittenPlace | None = key("for a circle or a sphere, its centre", PLACE)
     radius: Tree | None = key("for a circle or a sphere, its radius", SCALAR)
-    y: Tree | None = key("for a curve y = f(x) in a plane of motion, the formula f(x), such as `x**2/(2*b)`", SCALAR)
+    y: Tree | None = key(
+        "for a curve y = f(x), if the motion is in a plane: the formula f(x), such as `x**2/(2*b)`", SCALAR
+    )
     side: str | None = key(
         "the side on which the bodies are: `outside` or `inside` of a circle or a sphere, `above` or `below` a curve; "
         "`both` for a rail or a wire, which holds them",
@@ -157,7 +163,7 @@ class FrictionKeys(Record):
     """The keys of `friction:` of a contact."""
 
     rolling: Word | None = key(
-        "the symbol F of the friction that prevents slipping; in space its components are F_x and F_y", TEXT
+        "the symbol F of the friction that prevents slipping; in space it has two components, such as F_x and F_y", TEXT
     )
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
     direction: Any = key(
@@ -187,7 +193,7 @@ FRICTION: Reader[Any] = Reader(
 
 
 def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
-    """Return the parts of a contact; static friction knows the name of the body that would slip."""
+    """Return the parts of a contact. The limit of static friction gets the name of the body that would slip."""
 
     def with_name(part: Any) -> Any:
         limit = getattr(part, "limit", None)
@@ -237,7 +243,7 @@ class ContactKeys(Record):
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return the symbols of the components that the friction of rolling has in space."""
+        """Return the symbols that the components of the friction of rolling may have in space; none in a plane."""
         rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
         if rolling is None or not known.places.turns:  # only a body that moves in space has axes
             return []
@@ -314,13 +320,14 @@ class StringKeys(Record):
         list_of(PLACE, "a list of places"),
     )
     length: Tree | None = key(
-        "the total length of its straight pieces; a function of the time if the string is pulled in", SCALAR
+        "the total length of the straight pieces of the string; a function of the time if the string is pulled in",
+        SCALAR,
     )
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
     mass_of: Word | None = key(
-        "for a uniform rope with mass: the particle that has its mass and moves with its speed, at a constant height; "
+        "for a uniform rope with mass: a particle at a constant height, with the mass and the speed of the rope; "
         "`gravity` acts on each piece of the rope",
         TEXT,
     )

@@ -45,7 +45,7 @@ class Formula:
 
     @property
     def answers(self) -> tuple[Word, ...]:
-        """Return the names in the formula that are not given symbols."""
+        """Return the names in the formula that are not given symbols; they are taken to be names of answers."""
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
         found = {str(name): name for name in names_in(self.node) if name not in given}
         return tuple(found.values())
@@ -61,7 +61,8 @@ class Formula:
         return expression, {marks[name].symbol: found[name] for name in found}
 
     def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
-        """Return a placeholder symbol for an answer, with its sign and dimension."""
+        """Return a placeholder symbol for an answer, with the dimension of the answer. It is positive if the answer is
+        known to be positive."""
         value = explicit(quantity.value.right if isinstance(quantity.value, Relation) else quantity.value)
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)

@@ -62,7 +62,7 @@ class CollisionKeys(Record):
         as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
     )
     along: tuple[Tree, ...] = key(
-        "components of a vector along the common normal, the line of the impulse; by default the two bodies stay "
+        "components of a vector along the common normal, the line of the impulse; without `along`, the two bodies stay "
         "together",
         COMPONENTS,
     )
@@ -70,7 +70,8 @@ class CollisionKeys(Record):
         "with `along`, the speed of separation over the speed of approach: 1 if the collision is elastic", SCALAR
     )
     letter: Word | None = key(
-        "the symbol of the impulse, by default `K`; without `along` its components are `K_x`, `K_y`",
+        "the symbol of the impulse, by default `K`; without `along`, its components are `K_x`, `K_y` and, in space, "
+        "`K_z`",
         TEXT,
         called="impulse",
     )
@@ -188,7 +189,7 @@ def _value(
 
 @dataclass(frozen=True)
 class DescribedImpact:
-    """A described impact; `letters` are the symbols of its impulses."""
+    """A described impact; `letters` are the symbols of the impulses of collisions and of constraint forces."""
 
     acts: tuple[Deferred[Impulse | Collision], ...]
     at: tuple[tuple[str, Expr], ...]

@@ -27,9 +27,11 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
     """Return the steps of each case: the limiting case, and steps that compare it with a known result.
 
     Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
-    can therefore have the same symbol. No steps are returned for a case in three situations: the step of the case does
-    not exist for the current inputs; the inputs or the result no longer contain a symbol of the case; or the value of
-    another symbol of the case depends on the symbol that goes to its limit.
+    can therefore have the same symbol. No steps are returned for a case in three situations:
+
+    - The step of the case does not exist for the current inputs.
+    - The inputs or the result no longer contain a symbol of the case.
+    - The value of another symbol of the case depends on the symbol that goes to its limit.
     """
     if not problem.limits:
         return []
@@ -56,8 +58,11 @@ def _is_of_another_case(
 ) -> bool:
     """Return whether the current inputs belong to another case.
 
-    This is so in three situations: another step replaces the step of the case; the value of a symbol that the case
-    needs depends on the symbol that goes to its limit; or a symbol that the case needs is declared but not given.
+    This is so in three situations:
+
+    - Another step replaces the step of the case.
+    - The value of a symbol that the case needs depends on the symbol that goes to its limit.
+    - A symbol that the case needs is declared but not given.
     """
     together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
     if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):

@@ -53,6 +53,7 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 def drawn_turning(answers: Any, has_angle: bool) -> None:
     """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
 
+    Nothing is drawn if the boundary of the body is neither round nor made of faces.
     If the angular velocity is known at one instant only, an arrow along it replaces the axis of rotation. If the axis
     is given and `has_angle` is true, a second drawing shows the angle between the angular velocity and the angular
     momentum.
@@ -76,9 +77,6 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """Draw a body with known principal moments; if `turns`, also draw its angular velocity and its angular momentum.
-
-    The two vectors always have distinct directions in the drawing.
-    """
+    """Draw a body with known principal moments; if `turns`, also draw its angular velocity and its angular momentum."""
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))

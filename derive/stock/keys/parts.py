@@ -129,10 +129,14 @@ class ForceKeys(Record):
 class DampingKeys(Record):
     """The keys of one entry of `damping:`."""
 
-    constant: Tree = key("the damping constant; in kg/s with `at`, or with `on` for a length", SCALAR, required=True)
-    at: WrittenPlace | None = key("the place whose velocity it opposes", PLACE)
+    constant: Tree = key(
+        "the damping constant: the drag per speed or, with `on` for an angle, the torque per angular speed",
+        SCALAR,
+        required=True,
+    )
+    at: WrittenPlace | None = key("the place whose velocity the drag opposes", PLACE)
     of: Word | None = key("the body or particle on which the drag acts, if `at` does not move with it", TEXT)
-    on: Tree | None = key("in place of `at`, the coordinate whose rate it opposes", SCALAR)
+    on: Tree | None = key("in place of `at`, the coordinate whose rate the drag opposes", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.at is not None and self.on is None:

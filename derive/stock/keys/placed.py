@@ -51,15 +51,17 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
     """The keys of one entry of `bodies:`."""
 
     moments: Tree | None = key(
-        "in place of a shape, its three principal moments of inertia, or in a plane the moment about the "
-        "perpendicular axis; about the centre of mass, or with `middle` about the point that is held",
+        "in place of a shape: its three principal moments of inertia or, in a plane, its moment about the axis "
+        "perpendicular to the plane. They are about the centre of mass or, with `middle`, about the point that is held",
         as_written(
             {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
             "one moment or three",
         ),
     )
     middle: tuple[Tree, ...] = key(
-        "with `moments`, the position of its centre of mass along its own axes", list_of(SCALAR, "components", length=3)
+        "with `moments`: the position of the centre of mass, measured along the axes of the body from their origin, "
+        "the fixed point",
+        list_of(SCALAR, "components", length=3),
     )
     rim: RimKeys | None = key(
         "with `moments`, in a plane: the circle that bounds the body, with which it touches surfaces",

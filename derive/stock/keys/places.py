@@ -158,7 +158,7 @@ def _may_be_named(name: Word, symbols: Mapping[str, Declared], what: str, faults
 
 
 def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range of a coordinate."""
+    """Return the range that is declared for a coordinate or a function of the time; None if there is none."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort, signed=not sort.positive)
@@ -171,7 +171,7 @@ def point_called(name: str) -> str:
 
 
 class Places:
-    """The named places and axes of a description, each computed when it is first needed."""
+    """The named places and axes of a description, each computed when it is needed."""
 
     def __init__(
         self,

@@ -73,9 +73,11 @@ def _of_a_body(
 class Sort:
     """A sort of key: its shape in the file, how it is read in symbols, and the value that the verb receives.
 
-    read   (verb, key, written value, symbols) -> the read value, before any answer is derived
-    made   (result, key, read value, surroundings) -> the argument of the verb
-    uses   (read value) -> the names of answers in the read value
+    read   a function of the verb, the key, the written value and the symbols, called before any answer is derived;
+           it returns the value in symbols
+    made   a function of the result, the key, the value in symbols and the surroundings; it returns the argument of the
+           verb
+    uses   a function of the value in symbols; it returns the names of answers in this value
     """
 
     shape: Reader[Any]
@@ -229,7 +231,7 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return name -> value with names that are plain texts: a call with names that carry a position in the file cannot
+    """Return the values with names that are plain texts, because a call whose names carry a position in the file cannot
     be stored."""
     return {str(name): value for name, value in found.items()}
 

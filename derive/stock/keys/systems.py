@@ -141,7 +141,9 @@ class SystemKeys(Record):
     )
     pulleys: Mapping[Word, PulleyKeys] = key("massless frictionless pulleys with a radius, by name", PULLEYS)
     wires: Sequence[Word] = key(
-        "particles that are threaded on a smooth wire, which has the shape of the curve of their one coordinate", WIRES
+        "particles that are threaded on a smooth wire: each has one coordinate, and the wire is the curve on which the "
+        "particle moves when this coordinate changes",
+        WIRES,
     )
     strings: Sequence[StringKeys] = key("massless inextensible strings", STRINGS)
     massless_rods: Sequence[MasslessRodKeys] = key("rigid rods without mass", MASSLESS_RODS)
@@ -159,7 +161,9 @@ class SystemKeys(Record):
     )
     at: Tree | None = key(
         "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
-        "its name, `rest_3`; by default all equilibria",
+        "its name, `rest_3`. By default, stability is decided at all equilibria. Equations are by default linearised "
+        "where all coordinates are 0 or, if a constant momentum or a given force shifts the equilibrium, at this "
+        "equilibrium",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
     results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
@@ -170,7 +174,8 @@ class DescribedSystem(Described):
     """A described system, whose values are expressions in its symbols.
 
     coordinates   the name of each coordinate, its kind, and whether it is positive
-    particles, bodies, acting   the parts of the system, in the order of the file; `acting` has all other parts
+    particles, bodies   the particles and the bodies by name, in the order of the file
+    acting        all other parts of the system, grouped by kind
     surfaces      the surfaces by name
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
@@ -257,8 +262,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return name of a field of `DescribedSystem` -> its value, for the particles, bodies, surfaces and
-    everything that acts on them."""
+    """Return a mapping from the names of fields of `DescribedSystem` to their values: the particles, the bodies, the
+    surfaces and everything that acts on them."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
         return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
@@ -298,7 +303,8 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact names, unless a contact names something that is not described."""
+    """Report a surface that no contact and no flight names, unless one of them names something that is not
+    described."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
@@ -321,7 +327,7 @@ def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
 
 
 def _connections(written: SystemKeys) -> list[Any]:
-    """Return everything that connects bodies with each other and with the ground."""
+    """Return the contacts, strings, massless rods, joints, motors and dashpots."""
     lines = [*written.strings, *written.massless_rods]
     return [*written.contacts, *lines, *written.joints, *written.motors, *written.dashpots]
 
@@ -383,15 +389,15 @@ def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
 
 
 def _brought(written: SystemKeys) -> list[Word]:
-    """Return the symbols that the description introduces in addition to its coordinates."""
+    """Return the symbols that the description introduces for constraint forces and for constant momenta."""
     forces = [one.force for one in written.constraints]
     forces += [symbol for one in _connections(written) for symbol in one.symbols()]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
 
 def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
-    """Return coordinate -> symbol of its constant momentum, and whether this symbol is declared positive. Entries with
-    a value in place of a symbol are left out."""
+    """Return, for each coordinate whose constant momentum has a symbol, this symbol and whether it is declared
+    positive. Entries with a value in place of a symbol are left out."""
     found = {}
     for q, node in written.items():
         word = node.word if isinstance(node, Scalar) else ""
@@ -424,7 +430,7 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
-    """Return the symbol of a constant momentum, which is assumed to be nonzero."""
+    """Return the symbol of a constant momentum, which is assumed to be nonzero or, if declared so, positive."""
     return scalar(name, positive=True) if positive else Symbol(name, real=True, nonzero=True)
 
 
