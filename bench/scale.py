@@ -1,13 +1,13 @@
 """Measure how the work grows with the size of the problem, in processor seconds. Run by `make bench`.
 
     a set of N problems      Copies of short problems of the library. The time of a build from nothing, with a
-                             substitute for TeX, is divided by that of N sets of one problem (aim below 1). The times of a build
-                             with nothing changed and of a build with one problem changed are divided by that of the
-                             build from nothing; they should grow at most in proportion to N.
+                             substitute for TeX, is divided by that of N sets of one problem (aim below 1). The times
+                             of a build with nothing changed and of a build with one problem changed are divided by
+                             that of the build from nothing; they should grow at most in proportion to N.
     a body of N parts        The time of its centre of mass and its inertia tensor, with every step and check, divided
-                             by that of the same sum multiplied out by SymPy. For equal rods on a line the time grows as N^1, and also for
-                             rods with separate masses and positions if the tensor is about the origin. About their
-                             centre of mass, the answer has N^2 terms.
+                             by that of the same sum multiplied out by SymPy. For equal rods on a line the time grows
+                             as N^1, and also for rods with separate masses and positions if the tensor is about the
+                             origin. About their centre of mass, the answer has N^2 terms.
     an identity in n angles  (sum l_i cos a_i)^2 + (sum l_i sin a_i)^2 in sums of angles, n^2 terms, and cos(a_1 + ... +
                              a_n) in products, 2^(n - 1) terms. derive decides that the two sides are equal, and that
                              they are unequal if one sign is changed. Both times are divided by that of SymPy's
