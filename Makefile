@@ -1,16 +1,19 @@
-# `make` builds every set of problems; `make help` lists the rest. Works with GNU make 3.81 and later.
-# A stamp is newer than all that it was made from, so with nothing changed no Python is started.
+# `make` builds every set of problems except the library; `make help` lists the other targets. GNU make 3.81 suffices.
+# After a build the stamp `.built` of a set is newer than all inputs of the set. If nothing has changed since then,
+# `make` starts no Python.
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
 MAKEFLAGS += --no-builtin-rules
 PYTHON := .venv/bin/python
-# What Python compiles is kept beside the sources, also where the environment says not to: it would compile a second long
-# at every start, and the tests start it a hundred times.
+# Python keeps compiled modules next to the sources, even if the environment says that it should not. Otherwise each start
+# would compile them for about a second, and the tests start Python very often.
 export PYTHONDONTWRITEBYTECODE :=
 
-# Names are words of rules and of commands: of sets and files, those with other characters are not named here, and no
-# set may have the name of another target. What lies in build/ is read as words, never as rules.
+# The names of sets and files become words of rules and commands. A set whose name has other characters than letters,
+# digits, `-` and `_`, or is the name of another target, is left out with a warning. Files whose names have characters
+# other than letters, digits, `.`, `_` and `-` are not prerequisites. The record `.outputs` in build/ is read as a list
+# of words and is never included as rules.
 RESERVED := all always bench build check clean derive help mutants problems schemas templates test tests tools
 SETS := $(shell cd problems 2>/dev/null && LC_ALL=C && for name in *; do \
     test -e "$$name/set.yaml" || continue; \
@@ -26,22 +29,23 @@ ENVIRONMENT := pyproject.toml locks/runtime.txt locks/tests.txt tools/bootstrap.
 
 .PHONY: all help check bench test schemas mutants clean always $(SETS)
 
-# The library is for looking things up: it is built when it is asked for.
+# The library is built only on request (`make library`).
 all: .venv/.runtime $(filter-out library,$(SETS))
 
 help:
-	@echo 'make          the PDFs of every set but the library, in build/; installs what it needs into .venv first'
-	@$(foreach set,$(SETS),echo 'make $(set)      the PDFs of $(set)';)
-	@echo 'make check    derive every problem, verify each line, compare with the reference'
-	@echo 'make test     lint, types and the whole test suite'
-	@echo 'make schemas  the JSON schemas of problem and reference files, for editors'
-	@echo 'make mutants  change the code and the results in every place that can be changed: what is not refused (two hours)'
-	@echo 'make bench    how long a build takes, as ratios to the least it could take'
-	@echo 'make clean    empty build/; .venv stays'
-	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor shows them'
+	@echo 'make          builds every set except the library, in build/; the first run installs the packages into .venv'
+	@$(foreach set,$(SETS),echo 'make $(set)      builds the set $(set)';)
+	@echo 'make check    derives every problem, verifies each line, compares with the references'
+	@echo 'make test     runs lint, types and the test suite; with DERIVE_ALL_TESTS=1 all cases of each test'
+	@echo 'make schemas  writes the JSON schemas with which text editors check problems, sets and references'
+	@echo 'make mutants  alters code and results one at a time, and lists the changes that no check refuses (two hours)'
+	@echo 'make bench    measures times of builds, derivations and comparisons, most of them as ratios'
+	@echo 'make clean    removes the folders in build/; .venv stays'
+	@echo 'DERIVE_ENGINE=latexmk (or pdflatex, lualatex, tectonic) chooses another TeX; .venv/bin/derive doctor lists those found'
 
-# An output that was deleted, or made with other options, is made again although its stamp is new. A set may use a script
-# of another set. What the environment says of the engine is text.
+# The record `.outputs` of a set lists its engine, its outputs, and scripts of other sets that it uses. If an output was
+# deleted, or was made with another engine or another level of detail, the set is built again although its stamp is new.
+# `$(value DERIVE_ENGINE)` is used because make would expand a `$` in the setting.
 define RULES_OF_A_SET
 record_of_$(1) := $$(shell test -f build/$(1)/.outputs && while read -r word; do \
     case "$$$$word" in (*[!A-Za-z0-9._/=-]*) ;; (*) echo "$$$$word" ;; esac; done < build/$(1)/.outputs)
@@ -83,7 +87,7 @@ mutants: .venv/.tests
 clean:
 	@rm -rf build/*/
 
-# A link to a Python that is gone does not count as one.
+# If `.venv/bin/python` is missing, or is a link to a Python that no longer exists, the environment is made again.
 .venv/.runtime .venv/.tests: $(ENVIRONMENT) $(if $(wildcard $(PYTHON)),,always)
 	@for python in python3 python3.14 python3.13 python3.12 python3.11; do \
 	  if $$python -I -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \

@@ -1,10 +1,11 @@
-"""Measure how much faster than SymPy derive decides whether two expressions are equal. Run by `make bench`.
+"""Measure how much faster derive decides than SymPy whether two expressions are equal. Run by `make bench`.
 
     equal    over `left.equals(right)`             aim 20
     equal    over `simplify(left - right) == 0`    aim 20
 
-All three methods decide the same pairs of the tests. Before each decision all caches are emptied, and each decision has
-the same time limit. The figure is the median of the ratios of processor times. Wrong and missing answers are counted.
+All three methods decide the same pairs of `tests/algebra/pairs.txt`, as many as possible in a fixed time. Before each
+decision all caches are emptied, and each decision has the same time limit. The figure is the median of the ratios of
+processor times. Wrong and missing answers are counted.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def emptied() -> None:
 
 
 def timed(question: Callable[[], Any]) -> tuple[Any, float]:
-    """Return the answer, or None if it takes too long or fails, and the processor seconds."""
+    """Return the answer to a question and the processor seconds; the answer is None if it takes too long or fails."""
 
     def stop(*_: Any) -> None:
         raise TimeoutError

@@ -5,9 +5,10 @@
     HTML of a set                divided by the time of its PDFs, with derivations from the cache        aim 0.5
     HTML of a set, cold          the same, with everything derived and drawn                             aim 0.5
 
-Each edit writes a new text. The derivation alone is timed for the same edit, just after it, in a process that has
-derived before, like the preview. The pages of the set are those of a build, one after another in a process that has
-loaded all modules. Each figure is the least of several runs, except the cold one, which is a single run.
+Each edit writes a text that was not in the file before. The derivation alone is timed for the same edit, just after it,
+in a process that, like the preview, has derived the problem before. The pages of the set are those that a build makes.
+They are made one after another, in a process that has loaded all modules. Each figure is the least of several runs,
+except for "cold", which is a single run.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@
     a body of n parts    the exponent b of n^b, from 8 parts to 16; aim 2.5
 
 The problems are those of `bench/problems`, and the chains and bodies of this module. Each is derived in a separate
-process, without the time of imports; the figure is the least of two processes. One problem has neither a closed form
-nor numbers, so its time is that until it is refused. `derive --root bench check timed` shows how many steps each
-problem has.
+process, without the time of imports; the figure is the smaller time of two processes. One problem has neither a closed
+form nor numbers, so derive refuses it, and its time is that until the refusal. `derive --root bench check timed` shows
+how many steps each problem has.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ORDINALS = (
 
 
 def chain_of_rods(n: int) -> str:
-    """Return the description of n equal rods in a vertical plane, each hinged to the end of the one above it."""
+    """Return the description of n equal rods in a vertical plane, each hinged to the lower end of the rod above it."""
     across = [f"l*sin(theta_{k + 1})" for k in range(n)]
     down = [f"l*cos(theta_{k + 1})" for k in range(n)]
     hinges = [(" + ".join(across[:k]) or "0", " ".join(f"- {each}" for each in down[:k]) or "0") for k in range(n)]

@@ -4,12 +4,13 @@
     cold build of the library / the same                                                      aim 3
     edit of a word to PDF     / one pdflatex pass on the problem's TeX and `import sympy`     aim 1.5
     edit of a given to PDF    / the same                                                      aim 2.5
-    edit of a word, warm      / that pass alone; until `derive build --watch` writes the PDF  aim 1.2
+    edit of a word, warm      / one pdflatex pass; until `derive build --watch` writes the PDF aim 1.2
     make, nothing to do       in milliseconds                                                 aim 30
     derive --help             / `python -P -c pass`                                           aim 3
 
-All times are measured in one run, in a copy of the tree. Each figure is the median of several runs (the
-library is built once), so a slow machine changes the seconds but hardly the ratios. No test depends on these figures.
+All times are measured one after another in a copy of the repository, so a slow machine changes the seconds but hardly
+the ratios. Each time is the median of several repetitions (the library is built once). No test depends on these
+figures.
 """
 
 from __future__ import annotations
@@ -106,7 +107,7 @@ def warm(tree: Path, edit: Callable[[], None]) -> float:
 
 
 def two_passes(pages: Path, folder: Path) -> float:
-    """Return the time of two TeX passes on a whole document, each with known page numbers."""
+    """Return the time of two TeX passes on a whole document: twice the time of a pass with known page numbers."""
     engine, scratch, tex = chosen_engine(None), folder / "scratch.pdf", pages.read_text()
     beside = [(file.name, file.read_bytes()) for file in pages.parent.glob("*-*.pdf")]
     noted = Kept(Cache(folder / "noted" / pages.parent.name), digest("numbers"))

@@ -1,16 +1,17 @@
 """Measure how the work grows with the size of the problem, in processor seconds. Run by `make bench`.
 
-    a set of N problems      Copies of short problems of the library. Built from nothing, without TeX, divided by N sets
-                             of one problem (aim below 1). Built again with nothing changed, and with a word of one
-                             problem changed, divided by the build from nothing: both at most proportional to N.
-    a body of N parts        Its centre of mass and its inertia tensor with every step and check, divided by the same
-                             sum multiplied out by SymPy. Rods of one mass on a line grow as N^1. So do rods with
-                             separate masses and positions about the origin. About their common centre the answer has
-                             N^2 terms, and each of N parts has a step.
+    a set of N problems      Copies of short problems of the library. The time of a build from nothing, with a
+                             substitute for TeX, is divided by that of N sets of one problem (aim below 1). The times
+                             of a build with nothing changed and of a build with one problem changed are divided by
+                             that of the build from nothing; they should grow at most in proportion to N.
+    a body of N parts        The time of its centre of mass and its inertia tensor, with every step and check, divided
+                             by that of the same sum multiplied out by SymPy. For equal rods on a line the time grows
+                             as N^1, and also for rods with separate masses and positions if the tensor is about the
+                             origin. About their centre of mass, the answer has N^2 terms.
     an identity in n angles  (sum l_i cos a_i)^2 + (sum l_i sin a_i)^2 in sums of angles, n^2 terms, and cos(a_1 + ... +
-                             a_n) in products, 2^(n - 1) terms. Each is decided to be equal, and unequal with one sign
-                             changed, divided by SymPy's `expand(trig=True)`, which decides only the second (aim below
-                             1).
+                             a_n) in products, 2^(n - 1) terms. derive decides that the two sides are equal, and that
+                             they are unequal if one sign is changed. Both times are divided by that of SymPy's
+                             `expand(trig=True)`, which decides only the second identity (aim below 1).
 
 The growth is given as the exponent b of n^b, from the upper half of the sizes.
 """

@@ -4,10 +4,10 @@
     springs N     N masses on a line between two walls, joined by springs
 
 Three ratios are measured for each system. The first is the time of L and all equations of motion with every check,
-divided by that of SymPy's `LagrangesMethod`, which checks nothing (aim below 1). The second is the time of the laws
-alone, without lines, routes and outcomes, divided by the same (aim 1/20 from n = 4). The third is the time of the laws
-divided by that of Maxima, if Maxima is installed. Each runs in a separate process. Times are processor seconds without
-imports; each is the least of several runs.
+divided by the time of SymPy's `LagrangesMethod`, which checks nothing (aim below 1). The second is the time of the laws
+alone, without lines, routes and outcomes, divided by the time of `LagrangesMethod` (aim 1/20 from n = 4). The third, if
+Maxima is installed, is the time of the laws divided by the time of Maxima (aim 3). Each runs in a separate process.
+Times are processor seconds without imports; each is the least of several runs.
 """
 
 from __future__ import annotations
@@ -73,8 +73,7 @@ def derived(kind: str, n: int) -> float:
 
 
 def laws_alone(kind: str, n: int) -> float:
-    """Return the seconds for L = T - U and d/dt dL/dq_dot - dL/dq, collected by accelerations, without anything
-    else."""
+    """Return the seconds for L = T - U and d/dt dL/dq_dot - dL/dq, collected by accelerations, and nothing else."""
     from sympy import Add, Rational
 
     import derive.mechanics  # noqa: F401  the time of this import is not counted
@@ -129,8 +128,10 @@ def by_sympy(kind: str, n: int) -> float:
 
 
 def by_maxima(kind: str, n: int) -> float:
-    """Return the time that Maxima measures for the laws, with sums of angles, averaged over 20 rounds, because Maxima
-    resolves only 0.01 s."""
+    """Return the seconds that Maxima needs for the laws, with products of sines and cosines written as sums.
+
+    The time is the mean of 20 repetitions, because the clock of Maxima has a resolution of 0.01 s.
+    """
     times = 20
     energy = (
         "T: sum(m[i]*diff(x[i],t)^2/2, i, 1, n), U: k[1]*x[1]^2/2 + k[n+1]*x[n]^2/2"
@@ -156,13 +157,13 @@ WAYS: dict[str, Callable[[str, int], float]] = {"derive": derived, "laws": laws_
 
 
 def timed_apart(way: str, kind: str, n: int) -> float:
-    """Return the least time of several processes, each starting with empty caches."""
+    """Return the least time of several processes, each of which starts with empty caches."""
     command = [sys.executable, "-P", __file__, way, kind, str(n)]
     return min(float(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(ROUNDS))
 
 
 def exponent(sizes: Sequence[int], times: list[float]) -> float:
-    """Return b of time = a size^b, through the upper half of the sizes."""
+    """Return the exponent b of time = a * size^b, from the middle and the largest of the sizes."""
     half = len(times) // 2
     return math.log(times[-1] / times[half]) / math.log(sizes[-1] / sizes[half])
 

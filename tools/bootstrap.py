@@ -1,12 +1,12 @@
 """Make or repair the environment in `.venv` if necessary. `make` runs this script; it needs no installed packages.
 
-The installer accepts only wheels with the digests in `locks/`, so no code of an unknown package runs. It then installs
-derive itself with the build tools among these packages, without access to any registry.
+The installer accepts only wheels with the digests in `locks/`, so it cannot install an unknown package. It then
+installs derive itself with the build tools among these packages, without access to any registry.
 
 A stamp file in `.venv` records that the environment fits `pyproject.toml` and `locks/`. The stamp `.runtime` covers
 the packages that `derive` needs; `.tests` covers these packages, the linters and the test tools. The file
 `.unfinished` exists while packages are being installed. If `.unfinished` exists at the start, an earlier installation
-was interrupted, and this script makes the environment from the beginning.
+was interrupted or failed, and this script makes the environment from the beginning.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Stopped(Exception):
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Allow one installation at a time: a second `make` waits here until the first has ended."""
+    """Allow one installation at a time: a second `make` waits here until the first has finished its installation."""
     lock = os.open(ROOT / ".venv.lock", os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     try:
         try:

@@ -1,7 +1,7 @@
-"""Write docs/errors.md: every error code, with its messages, its cause, its fix and an example.
+"""Write docs/errors.md: every error code, with some of its messages, its cause, its fix and perhaps an example.
 
-The messages come from the code, the examples from golden outputs of the tests, and the causes and fixes from
-tools/errors.yaml.
+The messages come from the code, the examples from the stored expected outputs of the tests, and the causes and fixes
+from tools/errors.yaml.
 """
 
 from __future__ import annotations
@@ -28,15 +28,16 @@ _BEGINNING = """\
 
 `tools/errors.py` writes this page from the code, the tests and `tools/errors.yaml`; do not edit the page.
 
-An error message states the file, the line and the column, a code such as `wrong-kind`, and what is wrong. It shows
-the line, and a fix if there is one. All errors of a file are reported at once; earlier outputs stay unchanged. In the
-messages below, `…` replaces names and numbers of your problem.
+A message about a file states the file, the line and the column, a code such as `wrong-kind`, and what is wrong. It
+shows the line, and a fix if there is one. Errors that are found together are reported together; earlier outputs stay
+unchanged. In the messages below, `…` replaces names and numbers of your problem.
 """
 
 
 @cache
 def messages() -> dict[str, list[str]]:
-    """Return every error code that the modules of derive raise, with its messages in the order of the modules."""
+    """Return the codes of errors and warnings in the modules of derive, each with its messages in the order of the
+    modules."""
     found: dict[str, list[str]] = {}
     for file in sorted((ROOT / "derive").rglob("*.py")):
         for code, message in _raised_in(ast.parse(file.read_text(encoding="utf-8"))):
@@ -68,7 +69,7 @@ def _code_at(call: ast.Call) -> int | None:
 
 
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
-    """Return the last value that each name in a scope gets before the given line."""
+    """Return, for each name in a scope, the expression that is assigned to it last before the given line."""
     found: dict[str, list[ast.expr]] = {}
     assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
@@ -104,7 +105,7 @@ def _texts(node: ast.expr, names: dict[str, list[ast.expr]], depth: int = 3) -> 
 
 @cache
 def examples() -> dict[str, str]:
-    """Return, for each code, the shortest example in the golden outputs of the tests."""
+    """Return, for each code, the shortest example in the stored expected outputs of the tests."""
     found: dict[str, list[str]] = {}
     for file in sorted(EXAMPLES.rglob("*.txt")):
         for said in _each_complaint(file.read_text(encoding="utf-8")):

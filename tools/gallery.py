@@ -1,5 +1,5 @@
-"""Write docs/gallery.md. With `--pictures`, also take new pictures, in Chromium, of pages that `make library` has
-built, and copy the drawings that docs/connections.md shows.
+"""Write docs/gallery.md. With `--pictures`, also make new pictures of pages that `make library` has built, with
+Chromium, and copy the drawings that docs/connections.md shows.
 
 A picture shows the beginning of a problem's page in a browser; the YAML of the problem is below the picture.
 """

@@ -1,7 +1,7 @@
 """Write the lists of packages in `locks/`, with the digests of their files: `python -P -m tools.locks`.
 
-The versions come from `constraints.txt`. `uv` finds the files of each version for every platform; `locks/` names no
-registry.
+The versions come from `constraints.txt`. `uv` finds the files of each version for the supported platforms. The files in
+`locks/` name no registry.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _ENTRY = re.compile(r"^([a-z0-9][a-z0-9._-]*)==.*(?:\n +--hash=.*)*", re.MULTILI
 
 
 def entries(text: str) -> dict[str, str]:
-    """Return, by the name of each package of a lock file, its entry: version, conditions and digests."""
+    """Return the entries of a lock file by the names of the packages: version, conditions and digests."""
     return {found[1]: found[0] for found in _ENTRY.finditer(text)}
 
 

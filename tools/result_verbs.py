@@ -1,4 +1,4 @@
-"""Write the table of the verbs of `results:` in the documentation, from the declarations next to their functions."""
+"""Write the table of the verbs of `results:` in the documentation, from the decorators of their functions."""
 
 from __future__ import annotations
 

@@ -22,10 +22,11 @@ DOCUMENT, SOUNDNESS = DOCS / "rules.md", DOCS / "soundness.md"
 START, END = "<!-- rules with checks only, by tools/rules.py -->\n", "<!-- the end of these rules -->\n"
 HEAD = """# The rules
 
-Each step of a solution is made by one of these rules. A rule is a record in the code, next to the verb that uses it.
-The *outcome* of a step determines its sentence; each outcome has a predicate that must be true of the result. A *route*
-derives the result again by another path through the physics. A *check* tests the result. A rule with neither routes nor
-checks is a definition. `python -P -m tools.rules` writes this page from the records.
+Each step of a solution is made by one of these rules, or by a rule that a script defines. A rule is a record in the
+code, next to the verb that uses it. The *outcome* of a step determines its sentence; an outcome may have a predicate
+that must be true of the result. A *route* derives the result again by another path through the physics. A *check* tests
+the result. A rule with neither routes nor checks is a definition. `python -P -m tools.rules` writes this page from the
+records.
 """
 
 
@@ -37,7 +38,7 @@ def rules() -> list[Rule]:
 
 
 def verbs() -> str:
-    """Return a table with a line for each verb that a script can call: its verb of `results:`, and what it yields."""
+    """Return a table of the verbs of scripts: for each, the verb of `results:` that calls it, and its result."""
     public = {name: each for name, each in vars(derive.mechanics).items() if isfunction(each) and name[0] != "_"}
     asked: dict[str, str] = {}
     for name, verb in RESULT_VERBS.items():
@@ -52,7 +53,8 @@ def verbs() -> str:
 
 
 def summary(text: str) -> str:
-    """Return the first paragraph of a docstring up to the first line on arguments, outcomes, evidence or sources."""
+    """Return the beginning of a docstring, up to a blank line or to the first line on arguments, outcomes, evidence or
+    sources."""
     below = r"\n\n|\n(?:Outcomes|Errors|Source|Check|Second route)s?:|\n\w+  +\w"
     return " ".join(re.split(below, text)[0].split())
 

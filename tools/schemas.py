@@ -1,4 +1,4 @@
-"""Write the JSON schemas with which text editors check the author's files; the keys are those that derive accepts."""
+"""Write the JSON schemas with which text editors check the files that authors write."""
 
 from pathlib import Path
 

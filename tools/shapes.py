@@ -22,7 +22,7 @@ M = Symbol("M", positive=True)
 
 
 def table() -> str:
-    """Return a table with a line for each shape: its sizes, its position in its own axes, and its points."""
+    """Return a table with a line for each shape: its sizes, its position in its body axes, and its named points."""
     lines = ["| `shape` | sizes | in its own axes | points |\n", "|---|---|---|---|\n"]
     return "".join([*lines, *(_line(name, shape) for name, shape in sorted(shapes().items()))])
 
@@ -34,7 +34,7 @@ def _line(name: str, shape: type[Body]) -> str:
 
 
 def _how_it_lies(shape: type[Body]) -> str:
-    """Return the first sentence of the docstring of a shape, without the article and the words "thin", "uniform"."""
+    """Return the first sentence of the docstring of a shape, without "A", "thin" and "uniform" at its beginning."""
     first = " ".join((shape.__doc__ or "").split(".")[0].split())
     return re.sub(r"^(A|An|The|Half of a) (thin )?(uniform )?", lambda m: "half of a " * ("Half" in m[0]), first)
 
@@ -49,7 +49,7 @@ def _points(shape: type[Body]) -> str:
 
 
 def _made(shape: Any) -> Any:
-    """Return a body with a symbol for each size, or None if the corners of the shape can be anywhere."""
+    """Return a body of this shape with a symbol for each size; None if the sizes of the shape are its corners."""
     if shape in (Triangle, Wedge):
         a, h, d, l = symbols("base height foot length", positive=True)
         face = Triangle.on_base(a, h, M, d)

@@ -1,4 +1,4 @@
-"""Write docs/yaml.md: every key of the author's files, from the schemas for editors."""
+"""Write docs/yaml.md, the list of all keys of the files that authors write, from the schemas for text editors."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Schema = dict[str, Any]
 
 
 class Sections:
-    """A table for each mapping of the files; two mappings with the same keys share one table."""
+    """The tables of keys, one for each mapping in the files; mappings with the same keys share a table."""
 
     def __init__(self) -> None:
         self.tables: list[str] = []

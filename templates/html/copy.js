@@ -1,4 +1,4 @@
-// Only a convenience: each display gets a button that copies it as LaTeX.
+// Each display gets a button that copies it as LaTeX. The page also works without this script.
 for (const display of document.querySelectorAll(".display[data-tex]")) {
   const button = document.createElement("button");
   button.type = "button";

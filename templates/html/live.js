@@ -1,4 +1,4 @@
-// A page that is being written: shown anew as soon as it has changed, at the place where one reads.
+// The preview: when the page changes, its content is replaced, and the scroll position is kept.
 const name = document.querySelector("main").dataset.name;
 const complaints = document.getElementById("complaints");
 const heading = complaints.querySelector("h2");

@@ -1,4 +1,4 @@
-"""A rod that swings about its end: its Lagrangian, and how fast it swings."""
+"""A rod that swings about its end: its Lagrangian, and the angular frequency of small oscillations."""
 
 from sympy import pi
 
