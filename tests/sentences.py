@@ -29,7 +29,12 @@ def _comments(source: str) -> Iterator[tuple[int, str]]:
     tokens = [each for each in tokenize.generate_tokens(io.StringIO(source).readline) if each.type == tokenize.COMMENT]
     first, lines = 0, list[str]()
     for before, token in pairwise([None, *tokens]):
-        follows = before is not None and token is not None and token.start == (before.start[0] + 1, before.start[1])
+        follows = (
+            before is not None
+            and token is not None
+            and token.start == (before.start[0] + 1, before.start[1])
+            and token.line.lstrip().startswith("#")
+        )
         if lines and not follows:
             yield first, " ".join(lines)
             lines = []

@@ -79,7 +79,10 @@ def test_a_prescribed_function_is_neither_constant_nor_a_coordinate() -> None:
     constant = Relation(l * rate(q, 2) + g * sin(q), "=", 0)
     along_X = Relation(X.rate(2) + l * rate(q, 2) * cos(q) - l * rate(q) ** 2 * sin(q), "=", 0)
     for wrong in (constant, along_X):
-        assert judged(along.equation, motion, wrong, of=moved).detail == "the equation does not hold in the described motion"
+        assert (
+            judged(along.equation, motion, wrong, of=moved).detail
+            == "the equation does not hold in the described motion"
+        )
     h = energy_function(lagrangian(System(Particle(m, point(*place)), weight(g))))
     called_conserved = replace(h, step=replace(h.step, outcome="conserved"))
     assert not judged(along.conserved, called_conserved, h.value, of=moved)
