@@ -206,6 +206,7 @@ def test_cube_roots_of_letters_are_one_root_and_keep_their_value() -> None:
     assert plain(Notation().layout(value)) == "(J²/(M g))^(1/3)"
     assert explicit(found).equals(value)
     assert higher_roots_together(sqrt(M) * sqrt(g)) == sqrt(M) * sqrt(g)
+    assert plain(Notation().layout(2 * M ** Rational(2, 3))) == "2M^(2/3)", "one root keeps its exponent"
 
 
 def test_powers_of_a_letter_with_a_letter_stand_together() -> None:
