@@ -233,7 +233,10 @@ def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rat
 
 
 def higher_roots_together(expr: Expr) -> Expr:
-    """Write J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3). A product with one root is unchanged."""
+    """Write J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3).
+
+    A product with one root is unchanged.
+    """
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and f.exp.is_Rational and not f.exp.is_Integer]
     if len(roots) < 2 or not any(root.free_symbols and root.exp.q > 2 for root in roots):
