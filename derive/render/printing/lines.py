@@ -83,7 +83,8 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
     packed = _with_bare_value_framed(packed, begun) if equations.frames_bare_value else packed
-    packed = [*packed[:-1], _framed_whole(packed[-1])] if equations.framed else packed
+    if _frames_left_side(packed[-1], equations):
+        packed[-1] = replace(packed[-1], framed=len(packed[-1].sides))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
 
@@ -107,10 +108,16 @@ def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
-def _framed_whole(line: Printed) -> Printed:
-    """Frame an inequality, and a short line, with the left side: half an equation, such as "= 0", is not an answer."""
-    whole = line.left is not None and (line.sides[0][0] in INEQUALITIES or line.width <= FRAMED_WIDTH)
-    return replace(line, framed=len(line.sides)) if whole else line
+def _frames_left_side(line: Printed, equations: Equations) -> bool:
+    """Return whether the frame includes the left side of the last line.
+
+    Half an equation, such as "= 0", is not an answer. But a long line, or one in which numbers are substituted, has only its result in the frame; an inequality is framed as a
+    whole.
+    """
+    if line.left is None or not equations.framed:
+        return False
+    is_short = line.width <= FRAMED_WIDTH and not equations.lines[-1].numeric
+    return is_short or line.sides[0][0] in INEQUALITIES
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
