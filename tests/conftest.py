@@ -47,14 +47,14 @@ FAMILY, EVERY = 4, 5  # of a test with at least FAMILY cases, one case of EVERY 
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out tests of pages in a browser if none is installed, and most cases of tests with many cases.
+    """Leave out tests of pages in a browser if none is installed, long tests, and most cases of tests with many cases.
 
     `DERIVE_ALL_TESTS=1 make test` tries all cases; so does a run that names single files or tests.
     """
     kept = items if chromium() is not None else [item for item in items if not item.get_closest_marker("browser")]
     names_files = any(Path(each.partition("::")[0]).suffix == ".py" for each in config.args)
     if not names_files and not os.environ.get("DERIVE_ALL_TESTS"):
-        kept = _sampled(kept)
+        kept = _sampled([item for item in kept if not item.get_closest_marker("long")])
     chosen = set(kept)
     config.hook.pytest_deselected(items=[item for item in items if item not in chosen])
     items[:] = kept

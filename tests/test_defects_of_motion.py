@@ -371,6 +371,7 @@ def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> No
     assert equal(around.right, R * letters["F"])
 
 
+@pytest.mark.long
 def test_the_friction_of_a_disc_in_a_bowl_is_that_on_a_slope(tmp_path: Path) -> None:
     """The friction is a third of the component of the weight along the road, and points up the road, as on any
     slope."""

@@ -633,6 +633,7 @@ parts:
 """
 
 
+@pytest.mark.long
 def test_a_disc_in_a_hollow_is_assumed_to_be_smaller_than_its_radius_of_curvature(tmp_path: Path) -> None:
     """The radius of curvature is b (1 + x^2/b^2)^(3/2). A hill, in place of the hollow, needs no assumption."""
     assert "(b**2 + x**2)**(3/2) > R*b**2" in assumptions(tmp_path, IN_A_HOLLOW)

@@ -84,6 +84,7 @@ lagrangian: sqrt(r_dot**2/sin(alpha)**2 + r**2*phi_dot**2)
     assert at(steps["conserved_phi"].value, **here) == pytest.approx(float(1.3**2 * 0.9 / speed))
 
 
+@pytest.mark.long
 def test_a_disc_that_rolls_on_waves_has_equations_of_motion(tmp_path: Path) -> None:
     """On a flat road what moves the centre by F turns the disc by R F."""
     given = """\

@@ -111,8 +111,8 @@ def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list
 def _frames_left_side(line: Printed, equations: Equations) -> bool:
     """Return whether the frame includes the left side of the last line.
 
-    Half an equation, such as "= 0", is not an answer. But a long line, or one in which numbers are substituted, has only its result in the frame; an inequality is framed as a
-    whole.
+    Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
+    only its result in the frame. An inequality is framed as a whole.
     """
     if line.left is None or not equations.framed:
         return False
