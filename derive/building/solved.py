@@ -2,9 +2,9 @@
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
 reference. From the problem it depends on the given values, the description, and the symbols and their numbers. It also
-depends on the limiting cases (`limits:`, with `why:` and its line in the file), on the chosen observations, and on the
-answers, forms and cases that parts ask for. It does not depend on any other prose, on the marks (`points:`) or on
-templates.
+depends on the limiting cases (`limits:`, with `why:` and its line in the file), on the chosen observations, on the
+quantities of plots, and on the answers, forms and cases that parts ask for. It does not depend on any other prose, on
+the marks (`points:`) or on templates.
 """
 
 from __future__ import annotations
@@ -72,5 +72,6 @@ def steps_key(problem: Problem) -> str:
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     observed = (problem.observations, [part.observations for part in problem.parts])
-    read = (problem.reference, repr(problem.limits), repr(observed))
+    plots = [(each.key, each.plot, each.against, each.kind_against) for each in problem.drawings if each.plot]
+    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from sympy import Symbol, cos, pi, sin
 
+from derive.building.cache import Cache
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
@@ -16,6 +17,19 @@ from tests.courses import ROOT
 from tests.stock.described import course_with, edited, loaded, messages
 
 HOOP = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
+
+PENDULUM = """\
+title: A pendulum
+solve: system
+symbols: {m: mass, g: acceleration, l: length}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+values: {m: 1 kg, g: 9.8 m/s^2, l: 1 m}
+statement: A bob of mass <<m>> hangs on a light rod of length <<l>>, at the angle <<theta>> from the vertical.
+parts: [{ask: Find the potential energy., answer: potential_energy}]
+"""
 
 
 def test_the_curve_of_an_answer_is_drawn(tmp_path: Path) -> None:
@@ -27,6 +41,16 @@ def test_the_curve_of_an_answer_is_drawn(tmp_path: Path) -> None:
     assert (curve.expr + m * g * R * cos(theta) + m * R**2 * omega**2 * sin(theta) ** 2 / 2).expand() == 0
     assert (curve.variable, curve.lower, curve.upper) == (Symbol("theta", real=True), -2 * pi / 3, 2 * pi / 3)
     assert (curve.of, curve.kind) == ("angle", "energy")
+
+
+def test_a_plot_that_is_added_after_a_build_is_drawn(tmp_path: Path) -> None:
+    """The stored derivation of the same problem without the plot is not used."""
+    cache = Cache(tmp_path / "cache")
+    first = rendered(course_with(tmp_path, PENDULUM), "trial/one", None, cache, only={"json"})
+    assert '"energy"' not in first.texts["json"]
+    drawn = f"{PENDULUM}drawings: {{energy: {{plot: potential_energy, against: theta, range: [0 deg, 90 deg]}}}}\n"
+    second = rendered(course_with(tmp_path, drawn), "trial/one", None, cache, only={"json"})
+    assert '"key": "energy"' in second.texts["json"]
 
 
 @pytest.mark.parametrize(
