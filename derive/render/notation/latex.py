@@ -39,6 +39,7 @@ from derive.render.notation.layout import (
     row,
 )
 
+SHORT_SUM = 3  # the most terms of a sum that is a numerator or denominator in running text: (a + b)/(c + d)
 TEX_FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
 TEX_OPERATORS = {
     "dot": r"\cdot ",
@@ -155,18 +156,39 @@ def _with_stroke(item: Layout) -> Layout:
             return RootSign(_with_strokes(inside), degree)
         case Lowered(base, word):
             return Lowered(_with_strokes(base), word)
-        case Fraction(above, below) if _are_letters(above) and _are_letters(below):
+        case Fraction(above, below) if _fits_in_line(above) and _fits_in_line(below):
             is_product = isinstance(below, Row) and not is_differential(first_of(below))
-            return row(Fenced(above) if _has_function(above) else above, STROKE, Fenced(below) if is_product else below)
+            begins = Fenced(above) if _has_function(above) or _is_sum(above) else above
+            return row(begins, STROKE, Fenced(below) if is_product else below)
     return item
 
 
+def _is_sum(layout: Layout) -> bool:
+    return len(terms_of(layout)) > 1
+
+
+def _fits_in_line(layout: Layout) -> bool:
+    """Return whether a numerator or a denominator can be written in a line: a product of letters and of short sums in
+    parentheses, or a short sum of such products."""
+    terms = terms_of(layout)
+    return len(terms) <= SHORT_SUM and all(_are_letters(_unsigned(term)) for term in terms)
+
+
+def _unsigned(term: Layout) -> Layout:
+    """Return a term of a sum without the sign in front of it."""
+    return row(*term.items[1:]) if isinstance(term, Row) and isinstance(term.items[0], Operator) else term
+
+
 def _are_letters(layout: Layout) -> bool:
-    """Return whether the layout is a product of letters, numbers, powers, roots and functions of one letter."""
+    """Return whether the layout is a product of letters, numbers, powers, roots, functions of one letter, and short
+    sums in parentheses."""
     return all(
         _are_letters(factor.argument) and not isinstance(factor.argument, Row)
         if isinstance(factor, Applied)
         else isinstance(factor, Digits | Name | Raised | Upright | RootSign)
+        or isinstance(factor, Fenced)
+        and _is_sum(factor.inside)
+        and _fits_in_line(factor.inside)
         for factor in _factors(layout)
     )
 
@@ -177,7 +199,7 @@ def _has_function(layout: Layout) -> bool:
 
 
 def _factors(layout: Layout) -> tuple[Layout, ...]:
-    return layout.items if isinstance(layout, Row) else (layout,)
+    return tuple(i for i in layout.items if i != THIN_SPACE) if isinstance(layout, Row) else (layout,)
 
 
 class _Printer:
