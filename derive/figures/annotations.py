@@ -32,6 +32,7 @@ from derive.figures.space import (
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
+FORCE = 48.0  # length of the greatest force in force diagrams, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
@@ -224,7 +225,7 @@ class Arrow(Mark):
         start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
         if not size_of(along):
             return []
-        far = paper.numbers.of(self.size) * paper.reach
+        far = self._length(paper)
         spots = paper.spots(start, plus(start, along, -far if self.pushes else far))
         if self.aside:
             x, y = direction(*spots)
@@ -234,11 +235,23 @@ class Arrow(Mark):
             return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
 
+    def _length(self, paper: Paper) -> float:
+        return paper.numbers.of(self.size) * paper.reach
+
     def in_words(self) -> InWords:
         names = {"label": self.label, "direction": _components(self.value)}
         if _vanishes(self.value):
             return "no_arrow", names
         return "arrow" if names["direction"] else "arrow_of_letters", names
+
+
+@dataclass(frozen=True)
+class ForceArrow(Arrow):
+    """A force on a body that is drawn alone. `size` is its length relative to FORCE points, so the forces of several
+    drawings have one scale."""
+
+    def _length(self, paper: Paper) -> float:
+        return paper.numbers.of(self.size) * FORCE / paper.scale
 
 
 @dataclass(frozen=True)

@@ -219,7 +219,8 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
             return []
         told = [mark.label for mark in marks]
         marks += [mark for mark in found if mark.label is None or mark.label not in told]
-    return marks
+    # In its plane a thin rod is drawn over the other parts, so that the whole rod is visible.
+    return sorted(marks, key=lambda mark: in_plane and isinstance(mark, ThinRod))
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:

@@ -37,6 +37,7 @@ from derive.figures.parts import (
 )
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
+from derive.figures.pulleys import PulleyRopeMark, SmallPulleyMark, TiedEndMark
 from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
@@ -274,7 +275,7 @@ class Connections:
             for plane in self._planes:
                 yield from self._table(plane)
         for pulley in connections_of(self.system, Pulley):
-            yield from self._pulley(pulley.at, pulley.radius, Rational(9, 5) * pulley.radius)
+            yield from self._pulley(pulley.at, pulley.radius)
         labels: set[Any] = set()  # each angle is drawn once
         for line in self.lines:
             yield from self._line(line, labels)
@@ -533,20 +534,49 @@ class Connections:
             start, corner, end = columns
             yield CornerRopeMark(start, corner, end, self._lifts(line))
         else:
-            small = self._span * WHEEL if self.in_a_plane and len(places) > 2 else ZERO
-            radii = [e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]]
-            label = self._kept_length(line) if len(places) == 2 else None
-            yield RopeMark(tuple(columns), (ZERO, *radii, ZERO), label=label)
-            for each in line.through[1:-1]:
-                if not isinstance(each, Pulley) and self.in_a_plane:
-                    yield from self._pulley(each, small, HANGER * self._span)
+            yield from self._string(line)
         if len(places) == 2:
             for mark in angle_marks(self.system, self._link_along(line)):
                 if mark.label is None or mark.label not in labels:
                     labels.add(mark.label)
                     yield mark
-        for place, other in ((places[0], places[1]), (places[-1], places[-2])):
+        for place, other in self._loose_ends(line):
             yield from self._end(line, place, other)
+
+    def _string(self, line: Line) -> Iterable[Mark]:
+        """Yield a string with its pulleys of negligible radius, if there are any."""
+        columns = tuple(column_of(place) for place in line.places)
+        small = self._span * WHEEL if self.in_a_plane and len(columns) > 2 else ZERO
+        radii = (ZERO, *(e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]), ZERO)
+        corners = self._small_pulleys(line)
+        if not corners:
+            yield RopeMark(columns, radii, label=self._kept_length(line) if len(columns) == 2 else None)
+            return
+        tied = tuple(is_fixed(self.system, line.places[k]) for k in (0, -1))
+        string = PulleyRopeMark(columns, radii, corners=corners, tied=(tied[0], tied[1]))
+        yield string
+        for k in corners:
+            place = line.places[k]
+            particle = next((one for one in self.system.particles if same(one.at, place)), None)
+            hangs = particle is None and is_fixed(self.system, place)
+            label = particle.mass if particle else None
+            yield SmallPulleyMark(string, k, HANGER * self._span if hangs else None, label=label)
+        for k in (0, 1):
+            if tied[k]:
+                yield TiedEndMark(string, k == 1)
+
+    def _small_pulleys(self, line: Line) -> tuple[int, ...]:
+        """Return the indices of the pulleys of negligible radius, for a system in a plane."""
+        if line.is_rod or line.rope is not None or not self.in_a_plane or self._is_corner(line):
+            return ()
+        last = len(line.through) - 1
+        return tuple(k for k, each in enumerate(line.through) if 0 < k < last and not isinstance(each, Pulley))
+
+    def _loose_ends(self, line: Line) -> Iterator[tuple[Location, Location]]:
+        """Yield each end of a line that has no support yet, with the place next to it."""
+        for k, beside in ((0, 1), (-1, -2)):
+            if not (self._small_pulleys(line) and is_fixed(self.system, line.places[k])):
+                yield line.places[k], line.places[beside]
 
     def _is_corner(self, line: Line) -> bool:
         """Whether a string has one fixed corner without a radius, as at the edge of a table."""
@@ -578,14 +608,13 @@ class Connections:
         moving = [moving_in(self.system, *place.components) for place in (start, end)]
         return line_between(end, start) if len(moving[1]) < len(moving[0]) else line_between(start, end)
 
-    def _pulley(self, at: Location, radius: Expr, hanger: Expr) -> Iterable[Mark]:
-        """Yield a pulley. If the pulley is fixed and is not a particle, also yield its hanger, whose length is
-        `hanger`, and the ceiling."""
+    def _pulley(self, at: Location, radius: Expr) -> Iterable[Mark]:
+        """Yield a pulley. If the pulley is fixed and is not a particle, also yield its hanger and the ceiling."""
         particle = next((one for one in self.system.particles if same(one.at, at)), None)
-        label = radius if radius.is_Symbol and hanger != HANGER * self._span else None
+        label = radius if radius.is_Symbol else None
         yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
         if particle is None and is_fixed(self.system, at):
-            above = at + Location((ZERO, hanger))
+            above = at + Location((ZERO, Rational(9, 5) * radius))
             yield BarMark(column_of(at), column_of(above))
             yield FixedEnd(column_of(above), downwards(2))
 

@@ -17,7 +17,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, PointMark
+from derive.figures.annotations import Arrow, ForceArrow, PointMark
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed
 from derive.figures.marks import Drawing, Mark
@@ -26,13 +26,14 @@ from derive.figures.placed_bodies import own_angle, placed_outline, with_its_sha
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.space import Vector, cross, dot, numeric, plus, size_of, unit
-from derive.figures.surroundings import AngleBetween
+from derive.figures.surroundings import AngleBetween, SurfacePiece
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce
 from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.strings import Line
 from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.system import System
 from derive.steps.known_numbers import with_numbers
@@ -41,10 +42,10 @@ from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import assumptions_about, trial_points
 
-__all__ = ["force_diagram", "free_body_diagram"]
+__all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state"]
 
-LONG = Rational(3, 5)  # the drawn length of a force, relative to the size of the body
-ON_PARTICLE = Rational(3, 5)
+LONG = Rational(4, 5)  # about the drawn length of the greatest force, relative to the size of the body
+VISIBLE, LONGER = Rational(1, 2), 2  # the desired length of the least force, and the limit of its enlargement
 OFF = Rational(
     1, 30
 )  # if a force acts along a rod: the distance of its arrow from the rod, relative to the rod's length
@@ -54,9 +55,23 @@ ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in r
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
 
-def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> Drawing | None:
-    """Return a drawing of one body or particle with the forces on it: its weight, and the forces of contacts, strings,
-    rods and joints.
+@dataclass(frozen=True)
+class BodyAlone:
+    """A body or particle with the forces on it, from which its diagram is drawn.
+
+    key       the name of the drawing
+    leads_to  the keys of the laws of this body, before which the drawing is placed
+    """
+
+    key: str
+    of: Any
+    forces: tuple[_Drawn, ...]
+    leads_to: tuple[str, ...] = ()
+
+
+def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Quantity]) -> BodyAlone | None:
+    """Return one body or particle with the forces on it in the drawn state: its weight, and the forces of contacts,
+    strings, rods and joints.
 
     key     the name of the drawing
     of      the body or particle, as a part of the system
@@ -79,17 +94,16 @@ def force_diagram(key: str, system: System, of: Any, found: Mapping[Symbol, Quan
     if not {*signs} <= {1, -1, 0}:
         return None
     kept = [each.reversed() if sign == -1 else each for each, sign in zip(drawn, signs, strict=True) if sign != 0]
-    return _diagram(key, system, of, kept, scene)
+    return BodyAlone(key, of, (*_weight(system, of), *kept))
 
 
-def free_body_diagram(
+def forces_as_named(
     key: str, system: System, of: Any, leads_to: Sequence[str], found: Mapping[Symbol, Quantity]
-) -> Drawing | None:
-    """Return a drawing of one body or particle with the forces on it, each in the direction in which its symbol is
-    positive.
+) -> BodyAlone | None:
+    """Return one body or particle with the forces on it, each in the direction in which its symbol is positive.
 
     leads_to  the keys of the laws of this body, before which the drawing is placed
-    found     as for `force_diagram`; the lengths have no meaning if a force is missing in `found`, or in space
+    found     as for `forces_in_state`; the lengths have no meaning if a force is missing in `found`, or in space
 
     The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
     also None if a body that touches a curve is not on the curve in the drawn state.
@@ -99,25 +113,36 @@ def free_body_diagram(
         return None
     drawn = _forces(system, of, acting, found)
     shown = [replace(each, keys=(), value=each.value if scene.in_a_plane else None) for each in drawn]
-    return _diagram(key, system, of, shown, scene, leads_to)
+    return BodyAlone(key, of, (*_weight(system, of), *shown), tuple(leads_to))
 
 
-def _diagram(
-    key: str, system: System, of: Any, drawn: Sequence[_Drawn], scene: Connections, leads_to: Sequence[str] = ()
-) -> Drawing:
-    """Return the drawing of a body with its weight, these forces, and the angles of their directions."""
-    drawn = [*_weight(system, of), *drawn]
-    long, sizes = (
-        ON_PARTICLE if not isinstance(of, PlacedBody) else LONG if scene.in_a_plane else 1,
-        _sizes(drawn, scene),
-    )
-    shares, reach = [long * _share(size, max(sizes)) for size in sizes], _reach(of, drawn, scene)
-    apart = _set_apart([each.line(share * reach, scene) for each, share in zip(drawn, shares, strict=True)])
-    arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
-    angles = _angles(system, of, [(each, share * reach) for each, share in zip(drawn, shares, strict=True)])
+def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
+    """Return the diagrams of bodies of a system. All diagrams have the same scale of forces, if the forces are known
+    for the same trial numbers."""
+    scene = Connections(system)
+    shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
+    # If a force is small, all forces are drawn longer, so that the mark of a particle does not cover it.
+    least = min((share for own in shares for share in own), default=1)
+    longer = min(max(VISIBLE / least, 1), LONGER) if scene.in_a_plane else 1
+    return [
+        _diagram(system, each, [longer * share for share in own], scene)
+        for each, own in zip(bodies, shares, strict=True)
+    ]
+
+
+def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene: Connections) -> Drawing:
+    """Return the drawing of a body with its forces, and the angles of their directions.
+
+    shares   the lengths of the arrows, in units of FORCE points; in space, relative to the body
+    """
+    of, drawn, reach = alone.of, alone.forces, _reach(alone.of, alone.forces, scene)
+    lengths = [float(LONG * share * reach) for share in shares]
+    apart = _set_apart([each.line(length, scene) for each, length in zip(drawn, lengths, strict=True)])
+    arrows = [each.arrow(share, off, scene) for each, share, off in zip(drawn, shares, apart, strict=True)]
+    angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
-    marks, mass = [*_outline(of), *arrows, *angles], explicit(_mass(of))
-    return drawing(key, marks, values=values, leads_to=leads_to, forces_on=mass)
+    marks, mass = [*_outline(of), *_surfaces(scene, of), *arrows, *angles], explicit(_mass(of))
+    return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass)
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
@@ -151,8 +176,10 @@ class _Drawn:
         assert self.value is not None
         return replace(self, way=-self.way, value=-self.value, label=-self.label)
 
-    def arrow(self, size: Expr, aside: float) -> Arrow:
-        return Arrow(column_of(self.at), self.way, size, False, aside=aside, label=self.label, keys=self.keys)
+    def arrow(self, size: Expr, aside: float, scene: Connections) -> Arrow:
+        """Return the arrow. In a plane its length is in points, the same for all bodies."""
+        sort = ForceArrow if scene.in_a_plane else Arrow
+        return sort(column_of(self.at), self.way, size, False, aside=aside, label=self.label, keys=self.keys)
 
     def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
         """Return the start and the end of the arrow."""
@@ -171,16 +198,27 @@ def _there(value: Expr | None, scene: Connections) -> Expr:
     return tidied(as_expr(value).subs(values).subs(values))
 
 
-def _sizes(drawn: Sequence[_Drawn], scene: Connections) -> list[float]:
-    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions and for which no surface
-    pulls.
+def _sizes(diagrams: Sequence[Sequence[_Drawn]], scene: Connections) -> list[list[float]]:
+    """Return the magnitudes of the forces of each diagram, relative to the greatest force of all diagrams.
 
-    A symbol has the same number in all forces. If a value is unknown or no such numbers are found, all magnitudes are
-    1.
+    If there are no numbers for all diagrams together, the greatest force of each diagram is 1.
     """
-    equal = [1.0] * len(drawn)
-    if any(each.value is None for each in drawn):
-        return equal
+    known = [drawn for drawn in diagrams if all(each.value is not None for each in drawn)]
+    together = iter(_magnitudes([each for drawn in known for each in drawn], scene) or ())
+    sizes = [[next(together, 0.0) for _ in drawn] if drawn in known else [] for drawn in diagrams]
+    greatest = max((size for own in sizes for size in own), default=0.0)
+    if greatest > 0:
+        return [[size / greatest for size in own] or [1.0] * len(d) for own, d in zip(sizes, diagrams, strict=True)]
+    alone = [(_magnitudes(drawn, scene) if drawn in known else None) or [1.0] * len(drawn) for drawn in diagrams]
+    return [[size / (max(own) or 1.0) for size in own] for own in alone]
+
+
+def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | None:
+    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions and for which no surface
+    pulls; None without such numbers.
+
+    A symbol has the same number in all forces.
+    """
     values = [explicit(with_numbers(as_expr(each.value).subs(scene.values).subs(scene.values))) for each in drawn]
     letters = sorted(set().union(*(value.free_symbols for value in values)), key=str)
     angles = {s for value in values for f in value.atoms(sin, cos) for s in f.free_symbols}
@@ -191,12 +229,12 @@ def _sizes(drawn: Sequence[_Drawn], scene: Connections) -> list[float]:
             size > 0 for each, size in zip(drawn, sizes, strict=True) if each.pushes
         ):
             return [abs(float(size)) for size in sizes]
-    return equal
+    return None
 
 
-def _share(size: float, greatest: float) -> Rational:
+def _share(size: float) -> Rational:
     """Return the length of an arrow relative to the longest arrow: at least 1/5, so that small forces stay visible."""
-    return Rational(max(round(60 * size / greatest), 12), 60)
+    return Rational(max(round(60 * size), 12), 60)
 
 
 def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
@@ -283,6 +321,8 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
     )
     if free and rows.rank(simplify=True) < len(free):
         return False
+    if _is_on_axle(system, of):
+        return True
     values = {letter: explicit(step.value) for letter, step in found.items()}
     for k in set(range(len(centre.components))) - set(free):
         if any(n[k] != 0 for n in normals):
@@ -307,6 +347,14 @@ def _outline(of: Any) -> Iterator[Mark]:
         yield PointMark(column_of(of.centre))
     else:
         yield ParticleMark(column_of(of.at), label=of.mass)
+
+
+def _surfaces(scene: Connections, of: Any) -> Iterator[Mark]:
+    """Yield a piece of each surface that touches a particle, so that the direction of the normal force is visible."""
+    if scene.in_a_plane and not isinstance(of, PlacedBody):
+        for touch in (each for each in scene.contacts if each.of == of):
+            normal = column_of(touch.normal)
+            yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided)
 
 
 def _weight(system: System, of: Any) -> Iterator[_Drawn]:
@@ -339,7 +387,27 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
         drawn = _Drawn(at, way, value, times * size, keys, size in surfaces or not letters)
         (named if letters else unnamed).append(drawn)
     others = [*_weight(system, of), *named]
-    return [*named, *(replace(each, value=_balance(each, others)) for each in unnamed)]
+    balancing = _axle_force(of, others) if _is_on_axle(system, of) else []
+    return [*named, *(replace(each, value=_balance(each, others)) for each in unnamed), *balancing]
+
+
+def _is_on_axle(system: System, of: Any) -> bool:
+    """Whether only strings act on a body with a fixed centre in a plane. Then it is on an axle, like a pulley."""
+    if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
+        return False
+    return all(isinstance(each, Line) for each in connections_of(system, Connection) if each.on(of))
+
+
+def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
+    """Return the force of an axle, which balances the other forces, if all forces are vertical. No equation contains
+    its symbol, so its label is the sum of the other forces."""
+    up = -downwards(2)
+    if any(each.way not in (up, -up) for each in others):
+        return []
+    label = tidied(Add(*(-as_expr(each.label) * each.way[1] for each in others)))
+    known = all(each.value is not None for each in others)
+    value = tidied(Add(*(-as_expr(each.value) * each.way[1] for each in others))) if known else None
+    return [_Drawn(of.centre, up, value, label)] if label != 0 else []
 
 
 def _balance(normal: _Drawn, others: Sequence[_Drawn]) -> Expr | None:

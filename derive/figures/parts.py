@@ -6,6 +6,7 @@ of any scale.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, atan2, cos, hypot, pi, sin, sqrt
@@ -168,10 +169,16 @@ class RopeMark(_Piecewise):
         return [numbers.vector(place) for place in self.along]
 
     def pieces(self, paper: Paper) -> list[Piece]:
+        return self.string(self.circles(paper))
+
+    def circles(self, paper: Paper) -> list[tuple[Spot, float]]:
+        """Return the centres and radii of the wheels, with negative radii where the string bends to the right."""
         spots = paper.spots(*self.places(paper.numbers))
         radii = [WHEEL if r is None else paper.numbers.of(r) * paper.scale for r in self.radii]
-        turns = [0.0, *(_bend(*three) for three in zip(spots, spots[1:], spots[2:], strict=False)), 0.0]
-        circles = [(spot, r * turn) for spot, r, turn in zip(spots, radii, turns, strict=True)]
+        turns = [0.0, *(bend(*three) for three in zip(spots, spots[1:], spots[2:], strict=False)), 0.0]
+        return [(spot, r * turn) for spot, r, turn in zip(spots, radii, turns, strict=True)]
+
+    def string(self, circles: Sequence[tuple[Spot, float]]) -> list[Piece]:
         lines = [_tangent(*a, *b) for a, b in pairwise(circles)]
         path = [lines[0][0]]
         for (middle, radius), before, after in zip(circles[1:], lines, [*lines[1:], None], strict=True):
@@ -191,7 +198,7 @@ class HeavyRopeMark(RopeMark):
         return "heavy_rope"
 
 
-def _bend(a: Spot, b: Spot, c: Spot) -> float:
+def bend(a: Spot, b: Spot, c: Spot) -> float:
     """Return 1 if the path from a to c bends to the left at b, or -1 if it bends to the right or is straight."""
     return 1.0 if (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0 else -1.0
 
@@ -260,8 +267,8 @@ class CornerRopeMark(_Piecewise):
             (spot[0] - n[0] * lift, spot[1] - n[1] * lift)
             for spot, n, lift in zip((a, b), inwards, self.lifts, strict=True)
         )
-        arc = _round((hub[0], hub[1]), WHEEL * _bend(a, corner, b), *touching)
-        return [Stroke((a, *arc, b), "string"), *_disc((hub[0], hub[1]), WHEEL, "blank"), Bullet((hub[0], hub[1]))]
+        arc = _round((hub[0], hub[1]), WHEEL * bend(a, corner, b), *touching)
+        return [Stroke((a, *arc, b), "string"), *disc((hub[0], hub[1]), WHEEL, "blank"), Bullet((hub[0], hub[1]))]
 
     @property
     def told_as(self) -> str:
@@ -351,7 +358,7 @@ class CartMark(BlockMark):
         down = direction(corners[3], corners[0])
         for share in (0.22, 0.78):
             hub = x + (u - x) * share + CASTER * down[0], y + (v - y) * share + CASTER * down[1]
-            wheels += [*_disc(hub, CASTER, "blank"), Bullet(hub, 0.9)]
+            wheels += [*disc(hub, CASTER, "blank"), Bullet(hub, 0.9)]
         return [Patch(corners, "body"), Stroke((*corners, corners[0]), "edge"), *wheels, self._named(middle, corners)]
 
 
@@ -376,7 +383,7 @@ class WheelMark(_Piecewise):
     def pieces(self, paper: Paper) -> list[Piece]:
         hub = paper.spot(paper.numbers.vector(self.centre))
         radius = WHEEL if self.radius is None else paper.numbers.of(self.radius) * paper.scale
-        pieces = _ring(hub, radius) if self.is_ring else _disc(hub, radius, "body")
+        pieces = _ring(hub, radius) if self.is_ring else disc(hub, radius, "body")
         if self.pointer is not None and not self.is_ring:
             ahead = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.pointer)))
             end = hub[0] + radius * ahead[0], hub[1] + radius * ahead[1]
@@ -384,14 +391,14 @@ class WheelMark(_Piecewise):
         return [*pieces, Bullet(hub), Tag(self.label, hub, (-0.6, 0.8))]
 
 
-def _disc(middle: Spot, radius: float, fill: str) -> list[Piece]:
+def disc(middle: Spot, radius: float, fill: str) -> list[Piece]:
     angles = [2 * pi * i / 72 for i in range(73)]
     spots = tuple((middle[0] + radius * cos(t), middle[1] + radius * sin(t)) for t in angles)
     return [Patch(spots, fill), Stroke(spots, "edge")]
 
 
 def _ring(middle: Spot, radius: float) -> list[Piece]:
-    return [Stroke(piece.spots, "bar") for piece in _disc(middle, radius, "blank") if isinstance(piece, Stroke)]
+    return [Stroke(piece.spots, "bar") for piece in disc(middle, radius, "blank") if isinstance(piece, Stroke)]
 
 
 @dataclass(frozen=True)

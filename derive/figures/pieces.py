@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
-from derive.figures.space import NOUGHT, Spot, Stance, Vector
+from derive.figures.space import NOUGHT, Spot, Stance, Vector, plus, size_of
 
 
 @dataclass(frozen=True)
@@ -104,6 +104,11 @@ class Paper(ABC):
     middle: Vector = NOUGHT
     fixed: tuple[Vector, ...] = field(default=(), repr=False)
     drawn: tuple[Spot, ...] = field(default=((0.0, 0.0),), repr=False)
+
+    @property
+    def is_of_a_point(self) -> bool:
+        """Whether all bodies are at one point, as in the force diagram of a particle."""
+        return all(size_of(plus(place, self.middle, -1.0)) < 1e-9 * self.reach for place in self.fixed)
 
     def spot(self, place: Vector) -> Spot:
         right, up = self.stance.spot(place)

@@ -256,13 +256,15 @@ class TableMark(Circle):
 
 @dataclass(frozen=True)
 class Cavity(Mark):
-    """A cavity inside a body, drawn as a dashed outline."""
+    """A cavity inside a body, drawn as a blank area with a dashed outline, so that it differs from a part."""
 
     of: Surface
+    layer: ClassVar[int] = 2
 
     def pieces(self, paper: Paper) -> list[Piece]:
         patches = [piece for piece in self.of.pieces(paper) if isinstance(piece, Patch)]
-        return [Stroke((*patch.spots, patch.spots[0]), "hidden") for patch in patches]
+        blank = [Patch(patch.spots) for patch in patches]
+        return [*blank, *(Stroke((*patch.spots, patch.spots[0]), "hidden") for patch in patches)]
 
     def in_words(self) -> InWords | None:
         return ("cavity", {"name": self.of.name, "measures": self.of.measures}) if self.of.name else None
@@ -271,8 +273,6 @@ class Cavity(Mark):
 @dataclass(frozen=True)
 class Bore(Cavity):
     """A bore through a body: its rim on the side of the viewer, and its other lines dashed."""
-
-    layer: ClassVar[int] = 2
 
     def pieces(self, paper: Paper) -> list[Piece]:
         assert isinstance(self.of, Revolved)
@@ -284,8 +284,6 @@ class Bore(Cavity):
 @dataclass(frozen=True)
 class Hole(Cavity):
     """A hole in a flat body, drawn as a blank area with an edge over the body."""
-
-    layer: ClassVar[int] = 2
 
     def pieces(self, paper: Paper) -> list[Piece]:
         rims = [piece.spots for piece in self.of.pieces(paper) if isinstance(piece, Patch)]

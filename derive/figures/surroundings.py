@@ -9,12 +9,14 @@ from typing import Any, ClassVar
 
 from derive.figures.annotations import ASIDE, measured
 from derive.figures.marks import LAST, InWords, Mark, Position, Surface
+from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and length of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
+UNDER = 20.0  # half the length of the piece of a surface under a particle
 ARC = (11.0, 27.0)  # least and greatest radius of an arc
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
@@ -128,6 +130,33 @@ class FixedEnd(Surface):
 
     def in_words(self) -> InWords:
         return "pivot" if self.joint else "fixed_end", {"label": self.label}
+
+
+@dataclass(frozen=True)
+class SurfacePiece(Surface):
+    """A piece of the surface that touches a particle, with its slope.
+
+    normal         the direction from the surface to the particle
+    is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
+    """
+
+    at: Position
+    normal: Position
+    is_two_sided: bool = False
+    layer: ClassVar[int] = -1
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        n = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.normal)))
+        below = 0.0 if self.is_two_sided else BOB
+        start, end = ((x - below * n[0] - s * n[1] * UNDER, y - below * n[1] + s * n[0] * UNDER) for s in (1, -1))
+        return [Stroke((start, end), "edge")] if self.is_two_sided else hatched(start, end, (-n[0], -n[1]))
+
+    def in_words(self) -> InWords:
+        return "surface", {}
 
 
 @dataclass(frozen=True)

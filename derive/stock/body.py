@@ -347,8 +347,9 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
         """Return the answers by the requested names, and draw each body."""
-        for one in self.of.values():
-            drawn(one.body)
+        for prefix, one in self.of.items():
+            asks_centre = any(name.startswith(f"{prefix}centre_of_mass") for name in asked)
+            drawn(one.body, "" if asks_centre else one.about, one.about in one.described.described.points)
         return super().solve(asked, drawings)
 
     @property

@@ -16,7 +16,7 @@ from derive.course.placement import Placement
 from derive.course.stock import Methods, Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
-from derive.figures import force_diagram, free_body_diagram, sketch
+from derive.figures import draw_alone, forces_as_named, forces_in_state, sketch
 from derive.mechanics import (
     Coordinate,
     System,
@@ -145,17 +145,22 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Draw the forces on each body.
 
         If Newton's laws of the body are derived, or in space the equations of motion with constraint forces, the
-        drawing is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived.
+        drawing is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived. All
+        drawings have one scale.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
+        found = []
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
             if laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
-                free_body_diagram(key, self.system, of, laws, at_rest | along)
-            elif force_diagram(key, self.system, of, at_rest | along) is None:
-                force_diagram(key, self.system, of, at_rest)
+                alone = forces_as_named(key, self.system, of, laws, at_rest | along)
+            else:
+                alone = forces_in_state(key, self.system, of, at_rest | along)
+                alone = alone or forces_in_state(key, self.system, of, at_rest)
+            found += [alone] if alone is not None else []
+        draw_alone(self.system, found)
 
     def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
         """Return, in space, the keys of the equations of motion that contain constraint forces."""

@@ -303,7 +303,7 @@ def test_each_part_is_drawn_where_it_is_and_equal_sizes_are_told_once() -> None:
 
 
 def test_a_part_that_is_turned_is_seen_from_the_point_that_is_named() -> None:
-    rod, disc = (mark for mark in outline(CLOCK, "pivot", named=False) if isinstance(mark, Surface))
+    disc, rod = (mark for mark in outline(CLOCK, "pivot", named=False) if isinstance(mark, Surface))
     assert isinstance(rod, ThinRod) and {rod.start, rod.end} == {column(0, 0, 0), column(0, -l, 0)}
     assert isinstance(disc, Revolved) and (disc.through, disc.along) == (column(0, -l, 0), column(0, 0, 1))
 

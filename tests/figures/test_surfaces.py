@@ -60,12 +60,13 @@ def test_a_rod_is_one_line_and_a_piece_of_it_is_not_told_again() -> None:
     assert rod.in_words() is None
 
 
-def test_what_is_cut_out_is_a_dashed_outline_that_hides_nothing() -> None:
+def test_what_is_cut_out_is_a_blank_area_with_a_dashed_outline() -> None:
     heights = [Rational(k, 24) for k in range(-24, 25)]
     ball = Revolved(
         tuple((k * R, R * sqrt(1 - k**2)) for k in heights), ORIGIN, Z, name="a ball", measures=(("radius", R),)
     )
-    (line,) = pieces_of(plane(Cavity(ball)))
+    blank, line = pieces_of(plane(Cavity(ball)))
+    assert isinstance(blank, Patch) and blank.fill == "blank"
     assert isinstance(line, Stroke) and line.pen == "hidden" and line.spots[0] == line.spots[-1]
     assert Cavity(ball).in_words() == ("cavity", {"name": "a ball", "measures": (("radius", R),)})
     assert Cavity(replace(ball, name="")).in_words() is None

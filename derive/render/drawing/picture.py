@@ -20,6 +20,8 @@ SMALLEST = 15.0  # points: the size of the drawing if its parts of fixed size le
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """Return the pieces in points; without their labels the pieces fit into `width` x `height` centimetres."""
     paper = _paper(drawing, numbers)
+    if drawing.forces_on is not None and paper.is_of_a_point:
+        return _pieces(drawing, paper)  # all lengths of the force diagram of a particle are in points
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
     for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
         spots = [spot for piece in _pieces(drawing, paper) for spot in piece.spots]

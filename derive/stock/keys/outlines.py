@@ -12,16 +12,31 @@ from derive.algebra.tidy import tidied
 from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
 from derive.figures.bodies import is_in_plane, seen_outline, widest_of
 from derive.figures.marks import PLANE, SPACE, Mark
+from derive.figures.surroundings import FixedEnd
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.boundary import Faces, Hollowed, Round, Toroidal
 from derive.steps.step import is_zero
 
 
-def drawn(body: Body) -> None:
-    """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane."""
-    if marks := seen_outline(body):
+def drawn(body: Body, about: str = "", is_named: bool = False) -> None:
+    """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane.
+
+    about      the name of the point at which the axes begin, if it is known to be the centre of a body with faces
+    is_named   whether `about` is a point that the problem names, such as a pivot; then a small circle shows it
+    """
+    if marks := seen_outline(body, "centre" if about == "centre" and _has_known_centre(body) else None):
         key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
+        if is_named and view == PLANE:
+            at = body.point(body.reference).seen(body.point(about).position)
+            marks.append(FixedEnd(at, column(0, 0, 0), True))
         drawing(key, marks, view=view, values=_proportions(body))
+
+
+def _has_known_centre(body: Body) -> bool:
+    """Whether each corner of a body with faces has an opposite corner, so that the centre is known by symmetry."""
+    corners = body.boundary.corners if isinstance(body.boundary, Faces) else ()
+    twice = sum(corners, column(0, 0, 0)) * Rational(2, max(len(corners), 1))
+    return bool(corners) and all(twice - corner in corners for corner in corners)
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import AngleMark, Arrow, Axis
+from derive.figures.annotations import AngleMark, Arrow, Axis, Line
 from derive.figures.marks import Drawing
 from derive.figures.surfaces import EllipsoidMark
+from derive.figures.surroundings import FixedEnd
 from derive.steps.record import Run
 from tests.figures.machines import of
 from tests.stock.bodies import CONE, CONE_IS
@@ -103,3 +104,23 @@ def test_a_body_known_by_its_moments_is_drawn_and_its_momentum_where_it_turns_in
     (drawn,) = run.drawings
     assert isinstance(drawn, Drawing)
     assert (len(of(drawn, Arrow)), len(of(drawn, EllipsoidMark)), drawn.keys) == (2, 1, ())
+
+
+def drawing_of(folder: Path, name: str, *changes: tuple[str, str]) -> Drawing:
+    (path,) = (Path(__file__).parents[3] / "problems/library").glob(f"*/{name}.yaml")
+    run = Run()
+    run_solve(loaded(folder, edited(path.read_text(encoding="utf-8"), *changes)), run)
+    (drawn,) = run.drawings
+    assert isinstance(drawn, Drawing)
+    return drawn
+
+
+def test_the_axes_of_a_cube_begin_at_its_centre_unless_the_centre_is_asked_for(tmp_path: Path) -> None:
+    assert len([mark for mark in of(drawing_of(tmp_path, "cube"), Line) if mark.pen == "hidden"]) == 3
+    asks = drawing_of(tmp_path, "cube", ("answer: moment_about", "answer: [centre_of_mass, moment_about]"))
+    assert not [mark for mark in of(asks, Line) if mark.pen == "hidden"]
+
+
+def test_a_named_point_of_reference_is_drawn_as_a_joint(tmp_path: Path) -> None:
+    (joint,) = of(drawing_of(tmp_path, "clock_pendulum"), FixedEnd)
+    assert joint.joint and list(joint.at) == [0, 0, 0] and not any(joint.away)

@@ -1,0 +1,52 @@
+"""Diagrams of the forces on bodies: their common scale, axles of pulleys, and surfaces under particles."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import dist, pi, tan
+from pathlib import Path
+
+import pytest
+
+from derive.figures.annotations import FORCE, ForceArrow
+from derive.figures.surroundings import SurfacePiece
+from derive.render.drawing.camera import FLAT, Numbers
+from derive.render.drawing.hidden_lines import OnPaper
+from derive.render.drawing.picture import picture
+from tests.figures.test_connected import drawings, library, of_class
+
+
+def test_the_forces_on_all_bodies_have_one_scale(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("movable_pulley"))
+    _, once = of_class(drawn["forces_weight"], ForceArrow)
+    _, twice = of_class(drawn["forces_pulley"], ForceArrow)
+    assert str(twice.label) == "2*T" and twice.size == 2 * once.size
+
+
+def test_an_axle_balances_the_strings_and_the_weight_of_a_pulley(tmp_path: Path) -> None:
+    weight, *strings, axle = of_class(drawings(tmp_path, library("atwood_disc"))["forces_pulley"], ForceArrow)
+    assert list(axle.value) == [0, 1] and axle.label == weight.label + strings[0].label + strings[1].label
+    assert len(strings) == 2 and axle.size == pytest.approx(weight.size + strings[0].size + strings[1].size, abs=0.1)
+
+
+def test_small_forces_are_drawn_longer_with_all_others(tmp_path: Path) -> None:
+    weight, normal = of_class(drawings(tmp_path, library("parabolic_hill"))["forces_particle"], ForceArrow)
+    assert 1 < weight.size <= 2 and normal.size < weight.size
+
+
+def test_the_surface_is_drawn_under_a_particle_with_a_normal_force(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("block_on_incline"))["forces_block"]
+    (surface,) = of_class(drawn, SurfacePiece)
+    pieces = surface.pieces(OnPaper(Numbers({}), FLAT))
+    (x, y), (u, v) = pieces[0].spots
+    assert (v - y) / (u - x) == pytest.approx(-tan(pi / 5)) and len(pieces) > 3
+    assert surface.in_words() == ("surface", {})
+    rail = replace(surface, is_two_sided=True)
+    assert len(rail.pieces(OnPaper(Numbers({}), FLAT))) == 1
+
+
+def test_the_force_diagram_of_a_particle_has_lengths_in_points(tmp_path: Path) -> None:
+    drawing = drawings(tmp_path, library("parabolic_hill"))["forces_particle"]
+    weight, _ = of_class(drawing, ForceArrow)
+    strokes = [piece for piece in picture(drawing, Numbers({}), 5.0, 4.2) if getattr(piece, "pen", "") == "given"]
+    assert max(dist(*stroke.spots) for stroke in strokes) == pytest.approx(float(weight.size) * FORCE, abs=0.1)
