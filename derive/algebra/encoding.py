@@ -101,7 +101,10 @@ def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
         as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else SymPy multiplies out 2(a + b)
         return kind(*(made(arg, depth + 1) for arg in args), **as_written)
 
-    return made(data, 0)
+    try:
+        return made(data, 0)
+    except (AttributeError, IndexError, KeyError, TypeError) as error:  # a known class with wrong arguments
+        raise ValueError("this is not an expression") from error
 
 
 def _plain(name: str, args: list[Any]) -> Any:

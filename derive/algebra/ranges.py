@@ -5,7 +5,7 @@ Checks that need the sign of an expression for all allowed values of its symbols
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -183,11 +183,20 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign from `sign_within`; None if the range of a symbol includes one of its ends, since the expression may
-    vanish at this end."""
-    if any(True in known.closed for letter in expr.free_symbols if (known := range_of(letter)) is not None):
+    """The sign from `sign_within`; None if the expression does not have this sign at an end that belongs to the range
+    of a symbol."""
+    sign = sign_within(expr)
+    if sign is None:
         return None
-    return sign_within(expr)
+    closed = ((letter, end) for letter in expr.free_symbols for end in _ends_included(letter))
+    return sign if all(strict_sign_within(expr.xreplace({letter: end})) == sign for letter, end in closed) else None
+
+
+def _ends_included(letter: Any) -> list[Expr]:
+    """Return the ends that belong to the range of a symbol."""
+    known = range_of(letter)
+    ends = zip((known.least, known.greatest), known.closed, strict=True) if known is not None else ()
+    return [end for end, closed in ends if closed]
 
 
 def never_vanishes_within(expr: Expr) -> bool:
@@ -241,7 +250,8 @@ def _sign_of_sum(total: Expr) -> int | None:
         if any(strict) and all(sure or _is_nonnegative(term) for sure, term in zip(strict, terms, strict=True)):
             return sign
     ends = _ends(total)
-    return None if ends is None else _sign_between(*ends)
+    sign_of_bounds = None if ends is None else _sign_between(*ends)
+    return _sign_as_product(total) if sign_of_bounds is None else sign_of_bounds
 
 
 def _is_nonnegative(term: Expr) -> bool:
@@ -260,9 +270,37 @@ def _sign_by_squares(total: Add) -> int | None:
         terms = Add.make_args(squares.expand())
         for sign in (1, -1):
             signed = [sign * term for term in terms]
-            if all(term.is_nonnegative for term in signed) and any(term.is_positive for term in signed):
+            if not all(term.is_nonnegative for term in signed):
+                continue
+            if any(term.is_positive for term in signed) or _have_sine_and_cosine(signed):
                 return sign
     return None
+
+
+def _have_sine_and_cosine(terms: Sequence[Expr]) -> bool:
+    """Whether the squares of the sine and of the cosine of one angle, which never vanish together, have positive
+    factors in these terms, as in M sin^2 + m cos^2."""
+    positive = {
+        square.base for term in terms for square in term.atoms(Pow) if square.exp == 2 and (term / square).is_positive
+    }
+    return any(cos(each.args[0]) in positive for each in positive if isinstance(each, sin))
+
+
+def _sign_as_product(total: Add) -> int | None:
+    """The sign of a sum or difference of two sines or of two cosines with the same factor, written as a product."""
+    if len(total.args) != 2:
+        return None
+    (factor, one), (other_factor, other) = (term.as_independent(sin, cos, as_Add=False) for term in total.args)
+    if not isinstance(one, sin | cos) or one.func != other.func or other_factor not in (factor, -factor):
+        return None
+    half_sum, half_difference = ((one.args[0] + sign * other.args[0]) / 2 for sign in (1, -1))
+    if other_factor == factor:
+        product = one.func(half_sum) * cos(half_difference)
+    elif isinstance(one, sin):
+        product = cos(half_sum) * sin(half_difference)
+    else:
+        product = -sin(half_sum) * sin(half_difference)
+    return sign_within(factor * product)
 
 
 def _sign_of_function(function: Expr) -> int | None:

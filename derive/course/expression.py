@@ -18,6 +18,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from sympy import Expr, acos, asin, atan, cos, cosh, exp, log, pi, sin, sinh, sqrt, tan, tanh
 
@@ -28,7 +29,7 @@ from derive.course.units import UNIT_NAMES, read_unit
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import Complaint, Faults, did_you_mean
 
-__all__ = ["RESERVED", "Declared", "names_in", "rational", "read_expression"]
+__all__ = ["RESERVED", "Declared", "letters_in", "names_in", "rational", "read_expression"]
 
 LONGEST_EXPRESSION = 300
 DEEPEST_EXPRESSION = 40
@@ -96,6 +97,18 @@ def names_in(scalar: Scalar) -> list[Word]:
     """
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
+
+
+def letters_in(scalar: Scalar) -> list[Word]:
+    """Return the names in an expression without the unit behind a number, `deg` in `30 deg`."""
+    tokens = [m for m in _TOKEN.finditer(scalar.text) if m.lastgroup != "space"]
+    units = {
+        unit.start()
+        for number, unit in pairwise(tokens)
+        if number.lastgroup == "number" and unit[0].replace("°", "deg") in UNIT_NAMES
+    }
+    starts = [m.start() for m in tokens if m.lastgroup == "name" and m[0] not in RESERVED]
+    return [name for start, name in zip(starts, names_in(scalar), strict=True) if start not in units]
 
 
 class _Parser(Arithmetic):

@@ -8,13 +8,13 @@ move a drawing to a later part, but never to an earlier one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import Amount
+from derive.algebra.expressions import Amount, Relation, bound, explicit
 from derive.course.given import Measured
 from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
@@ -23,8 +23,10 @@ from derive.figures import marks as m
 from derive.page.plots import Curve, Curves, curves_of, panel_letters, told_value, with_unit
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
+from derive.steps.signs import truth_known
 
 CURVE = "way"  # the phrase for a dashed curve
+CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
 FOUND = -1  # the index of the statement; part (a) has the index 0
 
 
@@ -65,6 +67,7 @@ def depictions(
     """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
+    faults += [f for drawing in drawings for f in _outside_its_case(problem, drawing, derivation)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
     for drawing in drawings:
@@ -183,6 +186,55 @@ def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
             found.append(Complaint("twice", message, place, help="change a number, or leave the case out"))
         before.append(numbers)
     return found
+
+
+def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> list[Complaint]:
+    """Return an error for each curve whose numbers violate a condition under which the plotted result holds, such as
+    b^2 < 4 k m for an underdamped motion."""
+    placement = placement_of(problem, drawing.key)
+    if not isinstance(drawing, m.Plot):
+        return []
+    conditions = _conditions_for(drawing, derivation)
+    names = {name: explicit(value) for step in derivation.steps for name, value in step.names}
+    first, *more = (placement.cases if placement else ()) or ((),)
+    found: list[Complaint] = []
+    for i, case in enumerate((first, *more)):
+        numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
+        numbers |= {number.symbol: number.si for number in (*first, *case)}
+        numbers.pop(drawing.variable, None)
+        broken = next((each for each in conditions if _is_broken(each, names, numbers)), None)
+        if broken is not None:
+            which = f"case {case_label(i)} of the plot `{drawing.key}`" if more else f"the plot `{drawing.key}`"
+            message = f"the numbers of {which} do not satisfy {broken}, on which its result depends"
+            place = case[0].place if case else placement.place if placement else problem.place_of("solve")
+            help_line = "change the numbers, or plot a result that holds for these numbers"
+            found.append(Complaint("drawing", message, place, help=help_line))
+    return found
+
+
+def _conditions_for(plot: m.Plot, derivation: Derivation) -> list[Relation]:
+    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results."""
+    steps = {step.key: step for step in derivation.steps}
+    waiting, seen = list(plot.keys), dict[str, None]()
+    while waiting:
+        key = waiting.pop()
+        if key in steps and key not in seen:
+            seen[key] = None
+            waiting += steps[key].inputs
+    told = [each for key in seen for role, each in steps[key].roles if role in CONDITIONS]
+    return [each for each in dict.fromkeys(told) if isinstance(each, Relation)]
+
+
+def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:
+    """Whether a condition does not hold for these numbers; it is not broken if a symbol has no number.
+
+    names   the values of the symbols that steps introduce
+    """
+    value = explicit(condition)
+    for _ in names:  # the value of a name may contain other names
+        value = bound(value, names)
+    value = explicit(value).xreplace(dict(numbers))
+    return not value.free_symbols and truth_known(value) is False
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:

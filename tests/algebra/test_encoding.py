@@ -213,6 +213,12 @@ def test_any_expression_comes_back_unchanged(expr: Any) -> None:
         ["MatrixSymbol", "A", 10**9, 1],
         [["Integer"], 1],
         ["Add", 3],
+        ["sin"],
+        ["sin", ["Integer", 1], ["Integer", 2]],
+        ["Pow", ["Integer", 1]],
+        ["Integral", ["None"]],
+        ["MatMul", ["Str", "a"], ["None"]],
+        ["Amount"],
     ],
     ids=lambda data: type(data).__name__,
 )

@@ -75,6 +75,15 @@ def acute() -> Iterator[None]:
         (atan(x) - 2, -1),
         (atan(x) + pi / 3, None),
         (pi / 4 - atan(a / b), None),
+        (a * sin(x) ** 2 + b * cos(x) ** 2, 1),
+        (-a * sin(x) ** 2 - b * cos(x) ** 2, -1),
+        (a * sin(x) ** 2 + b * cos(P) ** 2, None),  # it vanishes at x = 0, P = pi/2
+        (a * sin(x) ** 2 - b * cos(x) ** 2, None),
+        (cos(alpha / 2) - cos(alpha), 1),
+        (a * cos(2 * alpha) - a * cos(alpha), -1),
+        (sin(2 * alpha) - sin(alpha), None),
+        (sin(alpha) + sin(2 * alpha), 1),
+        (sin(alpha) - sin(alpha / 2), 1),
     ],
 )
 def test_a_sign_is_told_where_it_is_one_in_the_whole_range(expr: Expr, sign: int | None) -> None:
@@ -164,3 +173,12 @@ def test_factors_whose_sign_a_range_settles_leave_a_root() -> None:
     assert with_positive_factors_out(root) == sqrt(x**2 + a**2 * sin(alpha) ** 2) / sin(alpha)
     assert with_positive_factors_out(sqrt(x**2 / sin(beta) ** 2 + a**2)) == sqrt(x**2 / sin(beta) ** 2 + a**2)
     assert equal(x / (root * sin(alpha)), x / sqrt(x**2 + a**2 * sin(alpha) ** 2))
+
+
+@pytest.mark.parametrize(
+    ("expr", "sign"),
+    [(sin(x), 1), (cos(x), None), (a * sin(x) ** 2 + b * cos(x) ** 2, 1), (1 - cos(x), 1), (a + cos(x), 1)],
+)
+def test_a_strict_sign_is_tried_at_the_ends_that_belong_to_a_range(expr: Expr, sign: int | None) -> None:
+    with within({x: Range(Integer(0), pi / 2, closed=(False, True))}):
+        assert strict_sign_within(expr) == sign

@@ -579,6 +579,17 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
         (lambda x: solution(equation(x.rate + x.symbol, h), x, x0, v0), "of first order"),
         (lambda x: solution(equation(x.acceleration + x.symbol, log(t)), x, x0), "the driving force"),
         (lambda x: solution(equation(x.acceleration + c * x.symbol), x, x0), "sign of c is unknown"),
+        (lambda x: solution(equation(x.rate + c * x.symbol), x, x0), "sign of c is unknown"),
+        (lambda x: solution(equation(x.acceleration + c * x.rate), x, x0), "sign of c is unknown"),
+        (
+            lambda x: solution(equation(x.acceleration + c * x.rate + h * x.symbol), x, x0, case="underdamped"),
+            "sign of c is unknown",
+        ),
+        (
+            lambda x: solution(equation(x.acceleration + h * x.rate + c * x.symbol), x, x0, case="overdamped"),
+            "sign of c is unknown",
+        ),
+        (lambda x: solution(equation(x.acceleration - x.rate + x.symbol), x, x0), "the damping is negative"),
         (lambda x: steady_amplitude(equation(x.acceleration + x.symbol, h), x), "is not driven by a single force"),
     ],
 )

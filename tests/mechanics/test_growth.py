@@ -23,6 +23,7 @@ from derive.mechanics import (
     space,
     stability,
 )
+from derive.mechanics.rest import growth
 from derive.mechanics.rest import stability as minima
 from derive.mechanics.rest.growth import grows_always, is_turned_aside
 from derive.steps.record import recorded
@@ -98,3 +99,13 @@ def test_a_field_does_not_hold_a_saddle() -> None:
     assert is_turned_aside(system.matter, there, points)
     hill, *_ = on_plane(lambda x, y: -(c * x**2 + k * y**2) / 2, B)
     assert not grows_always(hill.matter, there, points)
+
+
+def test_numbers_without_a_motion_are_skipped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """If no definite motion exists for the first numbers, the other numbers still decide."""
+    valley, x, y = on_plane(lambda x, y: (c * x**2 + k * y**2) / 2)
+    points = [{k: Rational(3), c: Rational(1, 3)}, {k: Rational(1, 3), c: Rational(3)}]
+    there = {x.symbol: Rational(0), y.symbol: Rational(0)}
+    right = growth._motion
+    monkeypatch.setattr(growth, "_motion", lambda *at: None if at[2] is points[0] else right(*at))
+    assert not grows_always(valley.matter, there, points)

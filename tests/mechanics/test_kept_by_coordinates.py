@@ -76,6 +76,29 @@ def test_things_without_a_force_change_no_equation(tmp_path: Path) -> None:
     assert explicit(described["motion_theta"].value) == explicit(bare["motion_theta"].value)
 
 
+PULLED = """
+title: A string that is pulled in
+solve: system
+symbols: {l: length, u: speed, m: mass, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [(l - u*t)*sin(theta), -(l - u*t)*cos(theta)]}}
+  strings: {from: [0, 0], to: bob}
+  gravity: g
+statement: A system.
+parts:
+  - {ask: Find the equation of motion., answer: motion_theta}
+"""
+
+
+def test_a_string_whose_length_changes_with_the_time_needs_its_length(tmp_path: Path) -> None:
+    """A bob on a string that is pulled in through a hole, at a known rate."""
+    (found,) = messages(tmp_path / "without", PULLED)
+    assert "the length l - t*u of the string changes with the time" in found
+    edit = ("from: [0, 0], to: bob", "from: [0, 0], to: bob, length: l - u*t")
+    assert "motion_theta" in solved(tmp_path / "with", edited(PULLED, edit))
+
+
 def test_a_string_over_a_pulley_with_a_radius_has_the_tension_of_atwoods_machine(tmp_path: Path) -> None:
     """Taylor, Classical Mechanics, example 7.8: T = 2 m_1 m_2 g/(m_1 + m_2)."""
     m_1, m_2, g = symbols("m_1 m_2 g", positive=True)

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, eye, pi, sin
+from sympy import Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, eye, pi, sin, symbols
 
 import derive.steps.establish as establishing
 from derive.algebra.equality import Grade
@@ -18,8 +18,11 @@ from derive.algebra.expressions import Amount, Relation, explicit, rate
 from derive.algebra.rounding import Rounded
 from derive.building.solution import derived, rendered
 from derive.course.problem import deriving, load_problem
+from derive.mechanics import Particle, System, coordinate, lagrangian, point
 from derive.mechanics.observations.chosen import MOST, OBSERVATIONS
-from derive.steps.record import Run
+from derive.mechanics.observations.frequencies import _has_polar_coordinates
+from derive.mechanics.observations.view import View
+from derive.steps.record import Run, recorded
 from derive.steps.rule import RULES, Judged, Rule
 from tests.courses import ROOT
 from tests.stock.described import course_with, edited
@@ -266,6 +269,17 @@ def test_only_orbits_of_an_exactly_linear_motion_are_ellipses(tmp_path: Path, fo
     text = edited(NAIL, (" + k*x**4/b**2", force))
     page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
     assert ("every orbit is a closed ellipse" in page) is said
+
+
+@pytest.mark.parametrize(("places", "said"), [("", True), (", z", False)])
+def test_only_a_motion_in_polar_coordinates_of_a_plane_has_a_closed_orbit(places: str, said: bool) -> None:
+    """The radius and the angle alone do not decide whether a motion in space closes."""
+    with recorded():
+        r, z = coordinate("r", "length", positive=True).symbol, coordinate("z", "length").symbol
+        phi = coordinate("phi").symbol
+        along = (r * cos(phi), r * sin(phi), *([z] if places else []))
+        found = lagrangian(System(Particle(symbols("m", positive=True), point(*along))))
+    assert _has_polar_coordinates(View((), (found,), (found,), {})) is said
 
 
 MACHINE = """\

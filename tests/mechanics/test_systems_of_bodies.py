@@ -171,6 +171,16 @@ def test_a_disc_rolls_on_a_plank_that_slides() -> None:
     assert equal(rolling.value, Relation(turning.rate, "=", (x.rate - s.rate) / R))
 
 
+def test_a_rate_that_cannot_be_isolated_as_asked_is_refused() -> None:
+    """The factor of x_dot varies, so the rate of the rotation is isolated, although the script asks for x_dot."""
+    x, turning = coordinate("x", "length"), coordinate("theta")
+    way = x.symbol**2 / R
+    disc = Disc(R, M).placed(-turning, centre=point(way, R))
+    assert no_slip(disc, at=point(way, 0), fixes=turning).value.left == turning.rate
+    with pytest.raises(Rejected, match="cannot isolate the rate of x: the conditions isolate theta_dot"):
+        no_slip(disc, at=point(way, 0), fixes=x)
+
+
 def test_a_ball_rolls_on_a_plane_with_two_conditions() -> None:
     """Goldstein, section 1.3: they cannot be integrated."""
     x, y = coordinate("x", "length"), coordinate("y", "length")

@@ -23,6 +23,7 @@ from derive.mechanics import (
     Z,
     accelerations,
     applied_force,
+    central,
     charge,
     conserved,
     constraint,
@@ -286,6 +287,17 @@ def two() -> System:
         (lambda: constraint(coordinate("x", "length").rate ** 2, l), "linear in their rates"),
         (lambda: constraint(coordinate("x", "length").acceleration), "linear in their rates"),
         (lambda: System(Particle(m, point(*lengths("x", "y"))), couple(tau, coordinate("phi"))), "depends on phi"),
+        (
+            lambda: System(Particle(m, at := point(coordinate("x", "length"), 0)), force((k * coordinate("y"), 0), at)),
+            "depends on y",
+        ),
+        (
+            lambda: System(
+                Particle(m, at := point(coordinate("x", "length"), 0)),
+                central(k * coordinate("y") * l, l, point(0, 0), at),
+            ),
+            "depends on y",
+        ),
         (
             lambda: System(Particle(m, point(*(p := lengths("x", "y")))), constraint(p[0]), constraint(p[1])),
             "the same symbol",

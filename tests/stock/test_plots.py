@@ -68,6 +68,29 @@ def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], sai
     assert any(said in each for each in messages(tmp_path, edited(HOOP, *edits)))
 
 
+DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "said"),
+    [
+        ("[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 5 kg/s}]", "the plot `curve`"),
+        ("[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 5 kg/s}]", "case ii of the plot `curve`"),
+        ("[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 1.5 kg/s}]", ""),
+    ],
+)
+def test_numbers_outside_the_case_of_a_result_are_not_drawn(tmp_path: Path, numbers: str, said: str) -> None:
+    """An underdamped motion needs b^2 < 4 k m."""
+    curve = f"drawings:\n  curve: {{plot: weak, against: t, range: [0 s, 9 s], at: b, cases: {numbers}}}\n"
+    try:
+        rendered(course_with(tmp_path, edited(DAMPED, ("note: >\n", f"{curve}note: >\n"))), "trial/one", only=("text",))
+        found = ""
+    except DeriveError as error:
+        (found,) = [each.message for each in error.complaints]
+    expected = f"the numbers of {said} do not satisfy beta < omega_0, on which its result depends"
+    assert found == (expected if said else "")
+
+
 SLOW = "      - {R: 1 m, m: 1 kg, g: 9.8 m/s^2, omega: 2 rad/s}\n"
 FAST = "      - {omega: 4 rad/s}\n"
 

@@ -91,6 +91,10 @@ class GivenForce(_AtPlace):
         return Load(self.components, self.point.place, self.point.held)
 
     @property
+    def acts_by(self) -> Vector:
+        return (*self.at, *self.components)
+
+    @property
     def opposite(self) -> GivenForce | None:
         """The opposite force at the same place, on the body or particle `by`; None if `by` is None or the ground."""
         if self.by is None or self.by == GROUND:

@@ -47,20 +47,26 @@ def no_slip(
     at       the place where the body touches the surface, m
     ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
              rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
-    fixes    the coordinate whose rate is preferred when the first rate is isolated; by default the coordinate of the
-             last rotation. A rate with a constant factor is isolated before any rate with a factor that varies
+    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. A rate with a
+             constant factor is isolated before any rate with a factor that varies
     Each independent condition isolates another rate. A condition with constant coefficients can be integrated, so it
     may be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, with a constant position in the body.
     If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
     velocity, each condition is satisfied.
-    Errors: the particle at the contact is always at rest; the body cannot roll at this place.
+    Errors: the particle at the contact is always at rest; the body cannot roll at this place; no condition isolates the
+    rate of `fixes`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
     for condition in _independent(body, at, ground, fixes):
         name = key if not found else f"{key}_{len(found) + 1}"
         found[condition.q] = _solved(body, at, ground, condition, name, fixes)
+    if fixes is not None and fixes.symbol not in found:
+        isolated = ", ".join(rate(q).name for q in found)
+        message = f"`no_slip` cannot isolate the rate of {fixes.symbol.name}: the conditions isolate {isolated}"
+        help_line = "leave out `fixes`, or name a coordinate whose rate has a constant factor"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
 
 

@@ -339,12 +339,16 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | N
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
     """Check a string or rod without a symbol for its force: its length must contain no coordinates, and must equal the
-    given length, if a length is given."""
+    given length. If no length is given, the length must be constant."""
     what = "rod" if verb == "massless_rod" else "string"
     key = "force" if verb == "massless_rod" else "tension"
     if kept is None:
         message = f"the coordinates allow the length of the {what} to change, so a force must keep it constant"
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
+    if whole is None and depends_on_time(kept):
+        message = f"the length {kept} of the {what} changes with the time, but a {what} is inextensible by default"
+        help_line = f"give this `length`, for a {what} that is pulled in or paid out"
+        raise Rejected(Complaint("missing-key", message, help=help_line))
     if whole is not None and not is_zero(kept - whole):
         raise Rejected(Complaint("sizes", f"the coordinates keep the length {kept} of the {what}, not {whole}"))
 

@@ -188,6 +188,10 @@ class Central(Part):
         return [self.start, self.end]
 
     @property
+    def acts_by(self) -> tuple[Expr, ...]:
+        return (self.energy.xreplace({self.distance: DISTANCE}),)
+
+    @property
     def loose_ends(self) -> Sequence[tuple[str, tuple[Expr, ...]]]:
         what = "spring" if self.is_spring else "central force"
         return [] if self.massless else [(what, end.components) for end in self.places]
@@ -334,8 +338,8 @@ class System:
             )
 
     def _check_what_acts(self) -> None:
-        """Require the places of forces, the potential energies and the constraints to depend only on coordinates of
-        this system."""
+        """Require the forces and their places, the potential energies and the constraints to depend only on coordinates
+        of this system."""
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:

@@ -22,7 +22,7 @@ from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData
 from derive.steps.numeric import WholeSwing
-from derive.steps.record import free_letter
+from derive.steps.record import coordinates_in, free_letter
 from derive.steps.rule import CHECK, TRIALS, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
@@ -148,11 +148,15 @@ def orbit(view: View) -> Observed:
 
 
 def _has_polar_coordinates(view: View) -> bool:
-    """Whether exactly one coordinate of the page's Lagrangian is an angle and exactly one other is positive, and is a
-    length; other coordinates do not matter."""
+    """Whether the page's Lagrangian has exactly two coordinates, a positive length and an angle, apart from coordinates
+    for which the page substitutes constants."""
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
     known = lagrangian.coordinates if lagrangian is not None else {}
-    return sorted(kind for q, kind in known.items() if kind == "angle" or q.is_positive) == ["angle", "length"]
+    substituted = [told for q in view.shown for role, told in q.step.roles if role.startswith("value_")]
+    constant = {told.left for told in substituted if isinstance(told, Relation) and not coordinates_in(told.right)}
+    moving = {q: kind for q, kind in known.items() if q.is_positive or q not in constant}
+    positive = [kind for q, kind in moving.items() if q.is_positive]
+    return positive == ["length"] and sorted(moving.values()) == ["angle", "length"]
 
 
 def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, Quantity]]:

@@ -47,14 +47,14 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     points   numbers for the symbols of the energy, such that the energy falls in some direction
 
     If gyroscopic forces act, all points are tried with several values of the other symbols; otherwise a few points are
-    enough. The result is also true if `_motion` gives no matrices for some numbers.
+    enough. Numbers for which `_motion` gives no matrices are skipped; the result is also true if none are left.
     """
     tried = 0
     for point in points:
         for size in SIZES:
             motion = _motion(matter, place, point, size)
             if motion is None:
-                return True
+                continue
             if not _grows(*motion):
                 return False
             if not _is_turned(*motion):  # then the displacement grows for any values of the other symbols

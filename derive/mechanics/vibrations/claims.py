@@ -36,7 +36,6 @@ from derive.steps.claims import (
     both,
     has_sign,
     is_a_root_just_where_told,
-    is_negative,
     lasts,
     negated,
     not_negative,
@@ -83,7 +82,11 @@ def free_motion(wanted: str) -> Predicate:
             return wanted == "runs_away"
         if is_zero(b):
             return wanted == "oscillates" and stiffness == 1
+        if not has_sign(b / a, 1):
+            return wanted == "runs_away" and has_sign(b / a, -1) and sign in (0, 1)
         fitting = {-1: "underdamped", 0: "critically_damped", 1: "overdamped"}
+        if wanted == "overdamped" and stiffness != 1:
+            return False
         if sign is not None:
             return wanted == fitting[sign]
         return any(
@@ -136,8 +139,9 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
     return wanted == 0 or condition.operator in (">", "<") and fits
 
 
-def _unless_it_grows(word: str, rate: Expr) -> str:
-    return "runs_away" if is_negative(rate) else word
+def _unless_it_grows(word: str, rate: Expr) -> str | None:
+    """Return the word for a motion with a positive decay rate; None if the sign of the rate is unknown."""
+    return word if has_sign(rate, 1) else "runs_away" if has_sign(rate, -1) else None
 
 
 def loses(wanted: bool) -> Predicate:

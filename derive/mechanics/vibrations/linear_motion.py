@@ -258,14 +258,11 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         message = f"`solution`: there is no case `{case}`"
         raise Rejected(Complaint("wrong-argument", message, help=f"the cases are {', '.join(CASES)}"))
     if linear.order == 1:
-        return ("accumulates" if c == 0 else "runs_away" if sign_known(c / b) == -1 else "relaxes"), None
+        return ("accumulates" if c == 0 else "relaxes" if _is_positive(c / b, key) else "runs_away"), None
     if c == 0:
-        return ("uniform" if b == 0 else "runs_away" if sign_known(b / a) == -1 else "slows"), None
+        return ("uniform" if b == 0 else "slows" if _is_positive(b / a, key) else "runs_away"), None
     if b == 0:
-        sign = sign_known(c / a)
-        if sign is None:
-            raise Rejected(Complaint("open-case", f"{key}: the sign of {tidied(c / a)} is unknown"))
-        return ("oscillates" if sign > 0 else "runs_away"), None
+        return ("oscillates" if _is_positive(c / a, key) else "runs_away"), None
     sign = sign_known(linear.discriminant)
     known = next((name for name, wanted in CASES.items() if wanted == sign), None)
     if known is None and case is None:
@@ -273,7 +270,12 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
     if known is not None and case not in (None, known):
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}, not {str(case).replace('_', ' ')}"))
-    if known == "overdamped" and sign_known(c / a) == -1:
+    if (known or case) == "overdamped" and not _is_positive(c / a, key):
+        return "runs_away", None
+    if not _is_positive(b / a, key):
+        if known in (None, "underdamped"):
+            message = f"{key}: the damping is negative, so the oscillation grows, and no case of `solution` applies"
+            raise Rejected(Complaint("open-case", message, help="check the sign of the damping"))
         return "runs_away", None
     if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only
         message = f"{key} is critically damped only if {linear.discriminant} = 0"
@@ -282,6 +284,17 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         return known, None
     mark = "<" if case == "underdamped" else ">"
     return str(case), compared(tidied(b**2), mark, tidied(4 * a * c))
+
+
+def _is_positive(value: Expr, key: str) -> bool:
+    """Whether a value that does not vanish is positive; reject a value with an unknown sign."""
+    sign = sign_known(value)
+    if not sign:
+        open_value = "the sign of {} is unknown" if sign is None else "{} is 0 for the given numbers"
+        message = f"{key}: {open_value.format(tidied(value))}"
+        help_line = "declare its symbols as positive, or give them ranges or numbers"
+        raise Rejected(Complaint("open-case", message, help=help_line))
+    return sign > 0
 
 
 def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:

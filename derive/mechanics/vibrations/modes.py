@@ -42,6 +42,7 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import have_numbers
 from derive.steps.record import free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
+from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, is_zero, require_kind
 
 __all__ = ["beats", "normal_modes", "period"]
@@ -356,17 +357,19 @@ BEATS = Rule(
 def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
-    slow, fast   the angular frequencies of two modes, 1/s
+    slow, fast   the angular frequencies of two modes, 1/s, in any order
 
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.
     Check: the sum of the two oscillations is this product, at any time.
-    Errors: the first frequency is zero, or is not lower than the second; an input is not an angular frequency.
+    Errors: a frequency is zero, or the two are equal; an input is not an angular frequency.
     Source: Taylor, *Classical Mechanics*, section 11.3; French, *Vibrations and Waves*, chapter 2.
     """
     for role, each in (("slow", slow), ("fast", fast)):
         require_kind("beats", role, each, "angular speed")
-    if slow.value == 0 or is_zero(fast.value - slow.value):
+    if sign_known(explicit(fast.value) ** 2 - explicit(slow.value) ** 2) == -1:
+        slow, fast = fast, slow
+    if 0 in (slow.value, fast.value) or is_zero(fast.value - slow.value):
         raise Rejected(
             Complaint(
                 "no-beats",

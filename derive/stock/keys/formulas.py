@@ -10,7 +10,7 @@ from sympy import Dummy, Expr
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import Relation, explicit
-from derive.course.expression import Declared, names_in, read_expression
+from derive.course.expression import Declared, letters_in, read_expression
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import rejected
 from derive.steps.derivation import with_ancestors
@@ -45,9 +45,10 @@ class Formula:
 
     @property
     def answers(self) -> tuple[Word, ...]:
-        """Return the names in the formula that are not given symbols; they are taken to be names of answers."""
+        """Return the names in the formula that are neither given symbols nor units; they are taken to be names of
+        answers."""
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
-        found = {str(name): name for name in names_in(self.node) if name not in given}
+        found = {str(name): name for name in letters_in(self.node) if name not in given}
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:

@@ -192,3 +192,8 @@ def test_a_force_that_is_found_is_itself_in_a_formula_and_an_acceleration_is_int
     found = solved(tmp_path, ATWOOD)
     assert equal(found["tension"].value, 2 * m * M * g / (m + M))
     assert equal(found["fall"].value, (m - M) * g * TIME**2 / (2 * (m + M)))
+
+
+def test_the_unit_of_an_angle_in_a_formula_is_not_the_name_of_an_answer(tmp_path: Path) -> None:
+    found = solved(tmp_path, edited(BALL, ("value: final/v_0,", "value: final/v_0*cos(60 deg),")))
+    assert equal(explicit(found["made"].value), Rational(5, 14))
