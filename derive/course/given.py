@@ -158,9 +158,9 @@ def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared]
     return _read(node, wanted, symbols)
 
 
-def read_end(node: Tree, kind: str) -> Expr:
+def read_end(node: Tree, kind: str, symbols: Mapping[str, Declared] | None = None) -> Expr:
     """Read an end of the range of a plot, which may be zero or negative."""
-    return _read(node, Wanted("range", kind, is_end_of_scale=True), {})
+    return _read(node, Wanted("range", kind, is_end_of_scale=True), symbols or {})
 
 
 def _read(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr:
@@ -228,7 +228,7 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
         wanted.refuse("missing-unit", f"`{text}` needs a unit: {wanted.must_be_it}", scalar.place, help_line)
     if dimension != dimension_of_kind(wanted.kind):
         declared = symbols.get(text)
-        is_a = kind_with_article(declared.kind) if declared else named(dimension)
+        is_a = kind_with_article(declared.kind) if declared and declared.kind else named(dimension)
         wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place)
     _check_sign(expr, scalar, wanted)
     return expr

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, field
 
@@ -15,7 +14,7 @@ from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
 from derive.course.written import DrawingKeys
-from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
@@ -35,13 +34,23 @@ def case_label(index: int) -> str:
 class Range:
     """The two ends of the range of a plot: numbers whose kind is known only after the script has run."""
 
-    place: Place
-    of_kind: Callable[[str], list[Expr]]
+    ends: tuple[Formula, ...]
+
+    @property
+    def place(self) -> Place:
+        return self.ends[0].place
+
+    def of_kind(self, kind: str) -> list[Expr]:
+        return [read_end(end.scalar, kind) for end in self.ends]
 
 
 @dataclass(frozen=True)
 class Placement:
-    """The settings of one drawing; derive chooses the settings that are left out."""
+    """The settings of one drawing; derive chooses the settings that are left out.
+
+    plot      the answer of which the engine draws a curve, or the two answers or formulas of which it draws a path
+    letters   the letters that formulas of a plot may contain, by name
+    """
 
     key: str
     place: Place = field(repr=False)
@@ -53,9 +62,9 @@ class Placement:
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
-    plot: Word | None = None
+    plot: tuple[Formula, ...] = ()
     against: Word | None = None
-    kind_against: str | None = None
+    letters: Table[str, Declared] = field(default_factory=dict, repr=False)
 
 
 def placements(
@@ -73,11 +82,11 @@ def placements(
             width=_width(written.width, faults),
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
-            range=_range(written.ends) if written.ends else None,
+            range=Range(written.ends) if written.ends else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
-            plot=written.plot,
+            plot=written.plot or (),
             against=written.against,
-            kind_against=letter.kind if (letter := symbols.get(str(written.against))) else None,
+            letters=symbols,
         )
         for name, written in drawings.items()
     )
@@ -123,7 +132,3 @@ def _values(
                 rejected("circular", f"`{name}` cannot be drawn in terms of itself", value.place)
             found.append((declared.symbol, expr))
     return tuple(found)
-
-
-def _range(ends: tuple[Tree, ...]) -> Range:
-    return Range(ends[0].place, lambda kind: [read_end(end, kind) for end in ends])

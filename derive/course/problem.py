@@ -237,7 +237,7 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    plotted = [drawing.plot for drawing in drawings if drawing.plot]
+    plotted = [drawing.plot[0] for drawing in drawings if len(drawing.plot) == 1]
     for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
@@ -277,7 +277,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
                 "`plot` has no effect: the script of the problem draws its plots",
                 "call `plot(...)` there",
             )
-            faults.error("unused-key", message, drawing.plot.place, help=help_line)
+            faults.error("unused-key", message, drawing.plot[0].place, help=help_line)
         elif drawing.plot and (drawing.against is None or drawing.range is None):
             message = f"the plot `{drawing.key}` needs `against`, a letter, and `range`, its two ends"
             faults.error(

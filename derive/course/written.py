@@ -37,8 +37,9 @@ from derive.course.schema import (
     one_of,
     read_record,
     record_of,
+    wrong_type,
 )
-from derive.course.yaml_tree import Formula, Mapping, Scalar, Tree, Word, shape_of
+from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Word, shape_of
 from derive.errors import Faults, did_you_mean
 
 ANY_OUTCOME = ""
@@ -125,6 +126,22 @@ _WORDS = PROSE_OR_NOTHING.schema
 _TEXTS = {"type": "object", "additionalProperties": _WORDS}
 
 
+def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | None:
+    """Read the answer that a plot shows, or the two answers or formulas of a path."""
+    items = node.items if isinstance(node, Sequence) else (node,)
+    shown = tuple(item for item in items if isinstance(item, Scalar) and not item.empty)
+    if len(shown) == len(items) == (2 if isinstance(node, Sequence) else 1):
+        return tuple(map(Formula.of, shown))
+    odd = next((item for item in items if item not in shown), node) if len(items) == 2 else node
+    wrong_type(faults, f"`{name}`", "an answer, or a list of two answers or formulas", odd, _PATH)
+    return None
+
+
+_PATH = "such as `potential_energy`, or `[path_x, path_z]` for a path"
+_PAIR = {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}
+PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
+
+
 @dataclass(frozen=True)
 class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
@@ -138,13 +155,17 @@ class DrawingKeys(Record):
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
-    plot: Word | None = key(
-        "for a script of the engine: the answer whose curve is drawn, such as `potential_energy`", TEXT
+    plot: tuple[Formula, ...] | None = key(
+        "for a script of the engine: the answer whose curve is drawn, such as `potential_energy`; or two answers or "
+        "formulas, such as `[path_x, path_z]`, whose path is drawn",
+        PLOTTED,
     )
-    against: Word | None = key("the coordinate or the letter on the horizontal axis of a plot", TEXT)
-    ends: tuple[Tree, ...] | None = key(
-        "the two ends of a plot, such as `[-60 deg, 60 deg]`",
-        list_of(SCALAR, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),
+    against: Word | None = key(
+        "the coordinate, the letter or `t`: on the horizontal axis of a plot of one answer; along the path of two", TEXT
+    )
+    ends: tuple[Formula, ...] | None = key(
+        "the two ends of a plot, such as `[-60 deg, 60 deg]` or, with an answer, `[0 s, 2*top_time]`",
+        list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(

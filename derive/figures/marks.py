@@ -14,6 +14,7 @@ from typing import Any, ClassVar, TypeAlias
 
 from sympy import MatrixBase, Symbol
 
+from derive.algebra.kinds import unit_of_kind
 from derive.errors import Complaint, Rejected
 from derive.figures.pieces import InNumbers, Paper, Piece
 from derive.figures.space import Vector
@@ -136,12 +137,23 @@ class Drawing:
 
 
 @dataclass(frozen=True)
+class Across:
+    """The quantity on the horizontal axis of a path: its name on the axis, its value and its SI unit."""
+
+    label: Any
+    expr: Any
+    unit: str
+
+
+@dataclass(frozen=True)
 class Plot:
-    """A curve: a quantity as a function of one symbol, over a range of this symbol.
+    """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
     expr, variable   the value of the quantity, and the symbol on the horizontal axis
     lower, upper     the range, used if the problem gives no other range
     kind, of         the kind of the quantity, and the kind of the symbol, for their units
+    unit             the SI unit of a quantity without a kind
+    across           the quantity on the horizontal axis of a path, along which `variable` increases
     """
 
     key: str
@@ -153,10 +165,22 @@ class Plot:
     kind: str
     of: str
     keys: tuple[str, ...] = ()
+    unit: str = ""
+    across: Across | None = None
+
+    @property
+    def shown(self) -> tuple[Any, ...]:
+        """Return the values that the plot shows."""
+        return (self.expr,) if self.across is None else (self.across.expr, self.expr)
 
     @property
     def letters(self) -> set[Symbol]:
-        return letters_in((self.expr, self.lower, self.upper))
+        return letters_in((*self.shown, self.lower, self.upper))
+
+    @property
+    def unit_up(self) -> str:
+        """Return the unit of the vertical axis."""
+        return self.unit or unit_of_kind(self.kind)
 
 
 def components_in(thing: Any) -> set[int]:

@@ -8,7 +8,7 @@ move a drawing to a later part, but never to an earlier one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,7 +20,7 @@ from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
-from derive.page.plots import Curve, Curves, curves_of, panel_letters, told_value, with_unit
+from derive.page.plots import Curve, Curves, curves_of, is_closed, panel_letters, told_value, with_unit
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
@@ -176,7 +176,8 @@ def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     before: list[dict[Symbol, Expr]] = []
     for i, case in enumerate(placement.cases):
         for number in (each for each in case if each.symbol == drawing.variable):
-            message = f"`{number.symbol}` varies along the horizontal axis of `{drawing.key}`, so it has no number"
+            along = "the horizontal axis of" if drawing.across is None else "the path"
+            message = f"`{number.symbol}` varies along {along} `{drawing.key}`, so it has no number"
             found.append(Complaint("unused-key", message, number.place, help="leave it out"))
         numbers = {number.symbol: number.si for number in (*placement.cases[0], *case)}
         if numbers in before:
@@ -379,6 +380,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         "lower": with_unit(first.lower * curves.per_unit, curves.unit),
         "upper": with_unit(first.upper * curves.per_unit, curves.unit),
     }
+    if plot.across is not None:
+        return _spaced([*_paths(plot, curves, words, names), *_shared(curves, words)])
     told = [filled(words.drawings["plot"], names)]
     for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
         last = words.labels["and"]
@@ -386,8 +389,32 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         turns = joined(_turns(plot, curves, curve, words), last)
         own = {"letter": letter, "numbers": joined(numbers, last), "turns": turns, "count": len(curve.extrema)}
         told.append(filled(words.drawings["curve"], own))
-    told += _shared(curves, words)
+    return _spaced([*told, *_shared(curves, words)])
+
+
+def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
+    """Return sentences with a space between them."""
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
+
+
+def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
+    """Yield words for the quantities of a path, and for the ends of the path in each panel."""
+    assert plot.across is not None
+    names |= {"across": _named(plot.across.label), "several": len(curves.curves) > 1}
+    yield filled(words.drawings["path"], names)
+    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
+        ends = [
+            f"({with_unit(x, plot.across.unit)}, {with_unit(y, plot.unit_up)})"
+            for x, y in (curve.path[0], curve.path[-1])
+        ]
+        own = {
+            "letter": letter,
+            "numbers": joined(_put_in(curve.numbers), words.labels["and"]),
+            "start": ends[0],
+            "end": ends[1],
+            "closed": is_closed(curve.path),
+        }
+        yield filled(words.drawings["path_ends"], own)
 
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:

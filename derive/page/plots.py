@@ -6,8 +6,10 @@ problem must have a number for this symbol.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import dist
+from typing import Any, TypeAlias
 
 from sympy import Expr, Symbol, nan, oo, pi, zoo
 
@@ -15,19 +17,26 @@ from derive.algebra.expressions import explicit
 from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
-from derive.errors import Complaint, Rejected
-from derive.figures.extrema import Extremum, extrema
-from derive.figures.marks import Plot
+from derive.course.stock import told_at
+from derive.errors import Complaint, Place, Rejected
+from derive.figures.extrema import NOISE, Extremum, extrema, values_along
+from derive.figures.marks import Plot, letters_in
+
+Path: TypeAlias = tuple[tuple[float, float], ...]
 
 DEGREE, DEGREES = pi / 180, "°"
 
-
+PATH_STEPS = 720  # the points of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
 
 
 @dataclass(frozen=True)
 class Curve:
-    """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted."""
+    """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted.
+
+    across   the quantity on the horizontal axis of a path; a path has no extrema
+    path     points of a path in the order of the motion
+    """
 
     expr: Expr
     variable: Symbol
@@ -35,6 +44,8 @@ class Curve:
     upper: float
     numbers: tuple[Measured, ...]
     extrema: tuple[Extremum, ...]
+    across: Expr | None = None
+    path: Path = field(default=(), repr=False)
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
@@ -58,18 +69,18 @@ class Curves:
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
     """Return every curve of the plot with its extrema; raise `Rejected` if symbols lack a number."""
-    lower, upper = _range(problem, plot, placement)
+    written = _ends(plot, placement)
+    letters = letters_in((*plot.shown, *written))
     given = placement.cases if placement and placement.cases else ((),)
     # A number for a symbol that does not occur in the curve would be shown although it has no effect.
-    cases = [tuple(number for number in case if number.symbol in plot.expr.free_symbols) for case in given]
+    cases = [tuple(number for number in case if number.symbol in letters) for case in given]
     changed = {number.symbol for case in cases[1:] for number in case}
     shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
     own = [tuple(number for number in case if number not in shared) for case in cases]
-    found = tuple(
-        _curve(problem, plot, placement, (*cases[0], *case), told, lower, upper)
-        for case, told in zip(cases, own, strict=True)
-    )
-    in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for end in (lower, upper))
+    numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
+    ends = [_range(problem, plot, placement, written, each) for each in numbers]
+    found = tuple(_curve(problem, plot, placement, *each) for each in zip(numbers, own, ends, strict=True))
+    in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for both in ends for end in both)
     unit = (DEGREES, float(1 / DEGREE)) if in_degrees else (_unit(plot.of), 1.0)
     return Curves(found, *unit, shared)
 
@@ -80,45 +91,87 @@ def _unit(kind: str) -> str:
     return unit_of_kind(kind)
 
 
-def _range(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[Expr, Expr]:
-    ends = [plot.lower, plot.upper]
-    place = placement.place if placement else problem.place_of("solve")
-    if placement and placement.range:
-        ends, place = placement.range.of_kind(plot.of), placement.range.place
-    lower, upper = ends
-    if not (lower.is_number and upper.is_number and lower < upper):
+def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
+    """Return the ends of the range; the engine has read the range of a plot that the problem requests."""
+    if placement and placement.range and not placement.plot:
+        return placement.range.of_kind(plot.of)
+    return [plot.lower, plot.upper]
+
+
+def _numbers(
+    problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
+) -> dict[Any, Expr]:
+    """Return the number of each symbol; the symbol that varies has none. Each of `letters` needs a number."""
+    numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
+    numbers |= {measured.symbol: measured.si for measured in known}
+    missing = sorted(s.name for s in letters - {*numbers, plot.variable})
+    if missing:
+        listed = ", ".join(f"`{name}`" for name in missing)
+        help_line = "write the number under the `values` of the problem, or under the `cases` of the drawing"
         raise Rejected(
-            Complaint("range", f"the range of `{plot.key}` must go from a smaller number to a larger number", place)
-        )
-    return lower, upper
+            Complaint(
+                "drawing", f"the plot `{plot.key}` needs a number for {listed}", _place(problem, placement),
+                help=help_line,
+            )
+        )  # fmt: skip
+    return {letter: number for letter, number in numbers.items() if letter != plot.variable}
+
+
+def _place(problem: Problem, placement: Placement | None) -> Place:
+    return placement.place if placement else problem.place_of("solve")
+
+
+def _range(
+    problem: Problem, plot: Plot, placement: Placement | None, ends: Sequence[Expr], numbers: Mapping[Any, Expr]
+) -> tuple[Expr, Expr]:
+    """Return the ends of the range for these numbers."""
+    lower, upper = (end.xreplace(numbers) for end in ends)
+    if lower.is_number and upper.is_number and lower.is_real and upper.is_real and lower < upper:
+        return lower, upper
+    message = f"the range of `{plot.key}` must go from a smaller number to a larger number"
+    place = placement.range.place if placement and placement.range else _place(problem, placement)
+    has_letters = any(end.free_symbols for end in ends)
+    help_line = f"for these numbers, it goes from {_short(lower)} to {_short(upper)}" if has_letters else None
+    raise Rejected(Complaint("range", message, place, help=help_line))
+
+
+def _short(end: Expr) -> str:
+    return f"{float(end):.4g}" if end.is_real else str(end.evalf(4))
 
 
 def _curve(
     problem: Problem,
     plot: Plot,
     placement: Placement | None,
-    known: tuple[Measured, ...],
+    numbers: Mapping[Any, Expr],
     own: tuple[Measured, ...],
-    lower: Expr,
-    upper: Expr,
+    ends: tuple[Expr, Expr],
 ) -> Curve:
-    numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
-    numbers |= {measured.symbol: measured.si for measured in known}
-    missing = sorted(s.name for s in plot.expr.free_symbols - set(numbers) - {plot.variable})
-    if missing:
-        listed = ", ".join(f"`{name}`" for name in missing)
-        place = placement.place if placement else problem.place_of("solve")
-        help_line = "write the number under the `values` of the problem, or under the `cases` of the drawing"
-        raise Rejected(
-            Complaint("drawing", f"the plot `{plot.key}` needs a number for {listed}", place, help=help_line)
-        )
-    expr = plot.expr.xreplace({letter: value for letter, value in numbers.items() if letter != plot.variable})
-    if expr.has(nan, zoo, oo):
+    *across, expr = (each.xreplace(numbers) for each in plot.shown)
+    if any(each.has(nan, zoo, oo) for each in (*across, expr)):
         message = f"the plot `{plot.key}` has no curve for these numbers, because a denominator vanishes"
-        place = placement.place if placement else problem.place_of("solve")
+        place = _place(problem, placement)
         raise Rejected(Complaint("drawing", message, place, help="change a number, for example at a resonance"))
-    ends = float(lower), float(upper)
-    return Curve(expr, plot.variable, *ends, own, extrema(expr, plot.variable, *ends))
+    lower, upper = (float(end) for end in ends)
+    with told_at(_place(problem, placement)):
+        if across:
+            path = _path((across[0], expr), plot.variable, lower, upper)
+            return Curve(expr, plot.variable, lower, upper, own, (), across[0], path)
+        return Curve(expr, plot.variable, lower, upper, own, extrema(expr, plot.variable, lower, upper))
+
+
+def _path(shown: tuple[Expr, Expr], variable: Symbol, lower: float, upper: float) -> Path:
+    """Return points of a path; a value that is zero within the precision of floating point becomes zero."""
+    values = [[value for _, value in values_along(expr, variable, lower, upper, PATH_STEPS)] for expr in shown]
+    size = [max(map(abs, each)) for each in values]
+    across, up = ([x if abs(x) > NOISE * most else 0.0 for x in each] for each, most in zip(values, size, strict=True))
+    return tuple(zip(across, up, strict=True))
+
+
+def is_closed(path: Path) -> bool:
+    """Whether a path ends where it starts, within a thousandth of its size."""
+    size = max(max(part) - min(part) for part in zip(*path, strict=True))
+    return bool(dist(path[0], path[-1]) < size / 1000)
 
 
 def panel_letters(curves: Curves) -> list[str]:
@@ -130,7 +183,7 @@ def panel_letters(curves: Curves) -> list[str]:
 def told_value(plot: Plot, extremum: Extremum) -> str:
     """Return the value at an extremum with its unit, to four figures, for the plot, its description and its caption."""
     shown = f"{extremum.value:#.4g}".rstrip(".") if extremum.value else "0"
-    return _signed(f"{shown} {_unit(plot.kind)}")
+    return _signed(f"{shown} {plot.unit_up}")
 
 
 def with_unit(value: float, unit: str) -> str:

@@ -67,7 +67,14 @@ def test_every_letter_without_a_number_is_named() -> None:
     assert refusal(a * theta, cases=[{k: 1}]).place == DRAWN
 
 
-@pytest.mark.parametrize("ends", [(pi, -pi), (pi, pi), (-a, a)])
+def test_the_ends_of_a_range_may_have_letters() -> None:
+    first, second = curves(theta, -a, 2 * a, of="length", cases=[{a: 1}, {a: 2}]).curves
+    assert (first.lower, first.upper, second.lower, second.upper) == (-1, 2, -2, 4)
+    assert refusal(theta, -a, 2 * a).message == "the plot `potential` needs a number for `a`"
+    assert refusal(theta, -a, -2 * a, cases=[{a: 1}]).help == "for these numbers, it goes from -1 to -2"
+
+
+@pytest.mark.parametrize("ends", [(pi, -pi), (pi, pi)])
 def test_a_range_goes_from_a_smaller_number_to_a_larger(ends: tuple[Expr, Expr]) -> None:
     complaint = refusal(theta, *ends)
     assert complaint.message == "the range of `potential` must go from a smaller number to a larger number"

@@ -7,14 +7,16 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, pi, symbols
+from sympy import Expr, Integer, Symbol, cos, pi, sin, symbols
 
-from derive.figures.marks import Plot
+from derive.figures.encoding import drawings_from_data, drawings_to_data
+from derive.figures.marks import Across, Plot
+from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
-from derive.render.drawing.plotting import CM, Panel, panel_of, plot_sheet
+from derive.render.drawing.plotting import CM, Frame, Panel, line_of, panel_of, plot_sheet
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
@@ -148,3 +150,51 @@ def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -
         r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$",
     ]
     assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")
+
+
+def path_of(across: Expr, up: Expr, unit: str = "J", upper: Expr = 2 * pi) -> Plot:
+    x, z = Symbol("x"), Symbol("z")
+    return Plot("path", z, up, theta, Integer(0), upper, "energy", "angle", across=Across(x, across, unit))
+
+
+def test_a_path_has_dots_at_its_ends_and_an_arrowhead_in_the_direction_of_the_motion() -> None:
+    (panel,) = panels(path_of(theta, theta - theta**2 / 4, upper=Integer(4)))
+    pieces = list(line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))))
+    curve, head = (piece for piece in pieces if isinstance(piece, Stroke))
+    assert [piece.spot for piece in pieces if isinstance(piece, Bullet)] == [(0, 0), (4, 0)]
+    assert (curve.spots, curve.head, head.head) == (panel.points, False, True)
+    (before, _), (tip, _) = head.spots
+    assert 0 < before < tip < 4
+    assert panel.turns == (), "extrema are not marked"
+    assert panel.names == (r"$x\,/\,\mathrm{J}$", r"$z\,/\,\mathrm{J}$")
+
+
+@pytest.mark.parametrize("size", [Integer(1), Integer(40), Integer(1) / 40])
+def test_both_axes_of_a_path_have_the_same_scale_if_their_units_are_the_same(size: Expr, drawn: list[Shape]) -> None:
+    circle = path_of(cos(theta), size * sin(theta))
+    (panel,) = panels(circle)
+    left, low, right, high = panel.values
+    assert panel.shape == pytest.approx((high - low) / (right - left))
+    assert 0.25 - 1e-9 <= panel.shape <= 1.4 + 1e-9, "no panel is flatter or steeper"
+    assert left < -1 < 1 < right and low < -size < size < high, "all of it is in the panel"
+    sheet(circle)
+    frame = next(s for s in drawn if s.width == canvas.PENS["frame"].width and not s.fill)
+    start, below, end, above = box(frame)
+    assert (above - below) / (high - low) == pytest.approx((end - start) / (right - left))
+
+
+def test_axes_with_different_units_have_scales_of_their_own() -> None:
+    (panel,) = panels(path_of(cos(theta), 40 * sin(theta), unit="m"))
+    assert panel.shape is None
+    assert panel.values == pytest.approx((-1.16, -46.4, 1.16, 46.4), rel=1e-3)
+
+
+def test_panels_of_paths_have_their_own_heights() -> None:
+    found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two")
+    one = sheet(path_of(cos(theta), 2 * sin(theta)))
+    assert found.width == pytest.approx(2 * one.width)
+
+
+def test_a_path_is_stored_with_both_quantities() -> None:
+    path = path_of(cos(theta), sin(theta))
+    assert drawings_from_data(drawings_to_data([path])) == (path,)

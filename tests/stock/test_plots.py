@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Symbol, cos, pi, sin
+from sympy import Symbol, cos, pi, simplify, sin
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
@@ -14,7 +14,7 @@ from derive.errors import DeriveError
 from derive.figures.marks import Plot
 from derive.steps.record import Run
 from tests.courses import ROOT
-from tests.stock.described import course_with, edited, loaded, messages
+from tests.stock.described import complaints, course_with, edited, loaded, messages
 
 HOOP = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
 
@@ -132,3 +132,133 @@ def test_what_has_no_effect_on_a_curve_is_reported(
         found = error.complaints
     told = [(each.place.line if each.place else 0, each.message, each.help or "") for each in found]
     assert any(at == line and said in message and helped in more for at, message, more in told), told
+
+
+THROW = """\
+title: A stone
+solve: system
+symbols: {m: mass, g: acceleration, v_0: speed, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, z: length}
+  places: {stone: [x, z]}
+  particles: {stone: {mass: m, at: stone}}
+  gravity: g
+  results:
+    path_x: {solution: motion_x, for: x, start: 0, start_rate: v_0*cos(alpha)}
+    path_z: {solution: motion_z, for: z, start: 0, start_rate: v_0*sin(alpha)}
+    top: {maximum: path_z, for: t}
+statement: A stone of mass <<m>> is thrown with the speed <<v_0>> at the angle <<alpha>>.
+parts:
+  - ask: Find the coordinates of the stone, and the highest point.
+    answer: [path_x, path_z, top]
+drawings:
+  path:
+    plot: [path_x, path_z]
+    against: t
+    range: [0 s, 2*top_t]
+    caption: The path.
+    cases:
+      - {v_0: 10 m/s, g: 9.8 m/s^2, alpha: 30 deg}
+"""
+
+
+def path_of(tmp_path: Path, *edits: tuple[str, str]) -> Plot:
+    run = Run()
+    run_solve(loaded(tmp_path, edited(THROW, *edits)), run)
+    return next(each for each in run.drawings if isinstance(each, Plot))
+
+
+def test_the_path_of_two_answers_is_drawn_to_an_end_that_is_an_answer(tmp_path: Path) -> None:
+    path = path_of(tmp_path)
+    assert path.across is not None
+    letters = {symbol.name: symbol for symbol in path.letters}
+    t, g, v_0, alpha = (letters[name] for name in ("t", "g", "v_0", "alpha"))
+    assert simplify(path.across.expr - v_0 * t * cos(alpha)) == 0
+    assert simplify(path.expr - v_0 * t * sin(alpha) + g * t**2 / 2) == 0
+    assert (path.variable, path.of, path.lower) == (t, "time", 0)
+    assert simplify(path.upper - 2 * v_0 * sin(alpha) / g) == 0
+    assert (str(path.across.label), path.across.unit, str(path.label), path.unit_up) == ("x", "m", "z", "m")
+    assert path.keys == ("path_x", "path_z", "top_t")
+
+
+def test_a_formula_of_a_path_has_letters_and_answers_and_the_unit_of_its_dimension(tmp_path: Path) -> None:
+    path = path_of(tmp_path, ("[path_x, path_z]", "[m*path_x, alpha]"))
+    assert path.across is not None
+    assert (path.across.unit, str(path.across.label)) == ("kg m", "m*x")
+    assert (path.unit_up, path.kind, path.keys) == ("rad", "angle", ("path_x", "top_t"))
+
+
+def test_a_path_is_described_by_its_ends(tmp_path: Path) -> None:
+    def told(*edits: tuple[str, str]) -> str:
+        return " ".join(
+            rendered(course_with(tmp_path, edited(THROW, *edits)), "trial/one", only=("html",)).html.split()
+        )
+
+    assert "A plot of z against x as t increases from 0 s to 1.02 s." in told()
+    assert "it starts at (0 m, 0 m) and ends at (8.837 m, 0 m)." in told()
+    turns = [
+        ("[path_x, path_z]", "[cos(alpha), sin(alpha)]"),
+        ("against: t", "against: alpha"),
+        (", alpha: 30 deg", ""),
+    ]
+    assert "It starts at (1, 0) and returns to this point." in told(
+        *turns,
+        ("[0 s, 2*top_t]", "[0 deg, 360 deg]"),
+        ("      - {v_0: 10 m/s, g: 9.8 m/s^2}\n", ""),
+        ("    cases:\n", ""),
+    )
+
+
+@pytest.mark.parametrize(
+    ("edits", "said", "helped"),
+    [
+        ([("[path_x, path_z]", "[path_x]")], "`plot` must be an answer, or a list of two answers or formulas", ""),
+        ([("[path_x, path_z]", "[path_x, path_z, top]")], "`plot` must be an answer, or a list of two", "such as"),
+        ([("[path_x, path_z]", "[path_x, [path_z]]")], "`plot` must be an answer, or a list of two", "such as"),
+        ([("[path_x, path_z]", "[path_x, '']")], "but it is empty", ""),
+        ([("[path_x, path_z]", "[path_x, path_y]")], "`path_y` is not the name of an answer", "did you mean `path_"),
+        ([("[path_x, path_z]", "[path_x, path_z + v_0]")], "`path_z` is a length, but `v_0` is a speed", ""),
+        ([("[path_x, path_z]", "[path_x, 'path_z +']")], "something is missing at the end", ""),
+        ([("[path_x, path_z]", "[path_x, equations_of_motion]")], "`equations_of_motion` is several results", ""),
+        ([("[path_x, path_z]", "[x, z]")], "neither `x` nor `z` depends on `t`, so there is no path", ""),
+        ([("against: t", "against: s")], "neither `path_x` nor `path_z` depends on `s`", ""),
+        ([("    against: t\n", "")], "the plot `path` needs `against`", ""),
+        ([("2*top_t", "2*top_s")], "`top_s` is not the name of an answer", "did you mean `top"),
+        ([("2*top_t", "path_x")], "`range` must be a time, but `path_x` is a length", ""),
+        ([("2*top_t", "2 m")], "`range` must be a time, but `2 m` is a length", ""),
+        ([("[0 s, 2*top_t]", "[0 s]")], "`range` must be the two ends", ""),
+    ],
+)
+def test_a_mistake_in_a_path_is_reported(tmp_path: Path, edits: list[tuple[str, str]], said: str, helped: str) -> None:
+    found = complaints(tmp_path, edited(THROW, *edits))
+    assert any(said in each.message and helped in (each.help or "") for each in found), found
+    assert all(each.place for each in found)
+
+
+@pytest.mark.parametrize(
+    ("edits", "line", "said"),
+    [
+        ([(", alpha: 30 deg", "")], 18, "the plot `path` needs a number for `alpha`"),
+        ([("2*top_t", "-top_t")], 21, "the range of `path` must go from a smaller number to a larger number"),
+        (
+            [("against: t", "against: alpha"), ("0 s, 2*top_t", "0 deg, 45 deg")],
+            24,
+            "`alpha` varies along the path `path`, so it has no number",
+        ),
+        ([("[path_x, path_z]", "[path_x, sqrt(-path_z/v_0)]")], 18, "is not real and finite over its whole range"),
+        ([("alpha: 30 deg", "alpha: 30 deg, m: 1 kg")], 24, "`m` does not occur in the drawing `path`"),
+        (
+            [("    cases:\n", "    values: {g: 9.8 m/s^2}\n    cases:\n")],
+            23,
+            "`values` has no effect on the plot `path`",
+        ),
+        ([("    against: t\n", "    against: t\n    at: statement\n")], 21, "would show `path_x` before it is derived"),
+    ],
+)
+def test_a_path_without_numbers_is_reported(tmp_path: Path, edits: list[tuple[str, str]], line: int, said: str) -> None:
+    try:
+        found = rendered(course_with(tmp_path, edited(THROW, *edits)), "trial/one", only=("text",)).warnings
+    except DeriveError as error:
+        found = error.complaints
+    told = [(each.place.line if each.place else 0, each.message) for each in found]
+    assert any(at == line and said in message for at, message in told), told

@@ -60,7 +60,7 @@ PENS = {
     "asked": Pen(INK, 1.3, head=7.0),
     "angle": Pen(INK, 0.7),
     "turn": Pen(INK, 0.8, head=5.0),
-    "curve": Pen(INK, 1.1),
+    "curve": Pen(INK, 1.1, head=7.0),
     "frame": Pen(QUIET, 0.5),
     "tick": Pen(QUIET, 0.4),
 }

@@ -1,17 +1,21 @@
 """A plot as files: one panel for each curve, with quantity and unit at each axis and with marked extrema.
 
+A path has dots at its start and at its end and an arrowhead in the direction of the motion. If both quantities of a
+path have the same unit, both axes have the same scale.
+
 Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import ceil, floor, log10
+from itertools import accumulate, pairwise
+from math import ceil, dist, floor, log10
 from typing import Any, TypeAlias
 
 from derive.algebra.expressions import Amount
-from derive.algebra.kinds import unit_of_kind
 from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
 from derive.figures.pieces import Bullet, Piece, Stroke
@@ -29,11 +33,14 @@ STEPS = 240
 MOST_ACROSS, MOST_UP = 6, 4  # most intervals between the ticks of the two axes
 ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
+MARGIN = 0.08  # margin around a path, in units of its width and height
+FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
 TICK = 3.5  # points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # points: the distance of the name of an axis from its numbers, and of a name from its dot
 EDGE = 3.0  # points: the margin around everything
+HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
 DOT = 2.2  # points: the radius of the dot at an extremum
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
@@ -49,6 +56,8 @@ class Panel:
     values           the ranges of the axes: left, below, right, above
     turns            the extrema: the point, whether it is a minimum, and its name
     numbers          the numbers that were substituted
+    is_path          whether the curve is a path, which has dots at its ends and an arrowhead
+    shape            height divided by width, if both axes have the same scale
     """
 
     points: tuple[Spot, ...]
@@ -58,6 +67,8 @@ class Panel:
     values: Extent
     turns: tuple[tuple[Spot, bool, str], ...]
     numbers: str
+    is_path: bool = False
+    shape: float | None = None
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
@@ -116,7 +127,6 @@ def plot_sheet(
 ) -> Sheet:
     """Return the panels side by side; `width` is the width of one panel."""
     wide = (width or PANEL) * CM
-    tall = wide * TALL / PANEL
     panels = [
         panel_of(plot, curve, curves, notation, words, letter)
         for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
@@ -125,9 +135,12 @@ def plot_sheet(
     room = _room(panels, writing)
     widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
     size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have the same size
+    across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - room[3]
+    heights = [usual if panel.shape is None else across * panel.shape for panel in panels]
+    tall = max(heights) + room[1] + room[3]
     shapes: list[Shape] = []
-    for i, panel in enumerate(panels):
-        paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], tall - room[3]
+    for i, (panel, height) in enumerate(zip(panels, heights, strict=True)):
+        paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], room[1] + height
         shapes += _drawn(panel, Frame(paper, panel.values), writing, (i * wide, (i + 1) * wide), size)
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
 
@@ -137,6 +150,8 @@ def plot_sheet(
 
 def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
     """Return the panel of one curve; the axes leave room for the words below a minimum and above a maximum."""
+    if curve.path:
+        return path_panel(plot, curve, notation, letter)
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
     low, high = min(y for _, y in points), max(y for _, y in points)
     room = ROOM * ((high - low) or abs(high) or 1.0)
@@ -148,7 +163,7 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
         up=_ticks(low, high, MOST_UP, room=room),
         names=(
             _axis_name(plot.variable, curves.unit, notation),
-            _axis_name(plot.label, unit_of_kind(plot.kind), notation),
+            _axis_name(plot.label, plot.unit_up, notation),
         ),
         turns=tuple(
             (
@@ -160,6 +175,43 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
         ),
         numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
     )
+
+
+def path_panel(plot: Plot, curve: Curve, notation: Notation, letter: str = "") -> Panel:
+    """Return the panel of a path."""
+    assert plot.across is not None
+    (left, right), (low, high) = (_with_margin(min(part), max(part)) for part in zip(*curve.path, strict=True))
+    shape = None
+    if plot.across.unit == plot.unit_up:
+        wide, tall = right - left, high - low
+        shape = max(FLATTEST, min(tall / wide, STEEPEST))
+        left, right = _widened(left, right, max(wide, tall / shape))
+        low, high = _widened(low, high, max(tall, wide * shape))
+    return Panel(
+        points=curve.path,
+        values=(left, low, right, high),
+        across=_ticks(left, right, MOST_ACROSS),
+        up=_ticks(low, high, MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1),
+        names=(
+            _axis_name(plot.across.label, plot.across.unit, notation),
+            _axis_name(plot.label, plot.unit_up, notation),
+        ),
+        turns=(),
+        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
+        is_path=True,
+        shape=shape,
+    )
+
+
+def _with_margin(low: float, high: float) -> tuple[float, float]:
+    room = MARGIN * ((high - low) or abs(high) or 1.0)
+    return low - room, high + room
+
+
+def _widened(low: float, high: float, size: float) -> tuple[float, float]:
+    """Return a range of this size with the same middle."""
+    middle = (low + high) / 2
+    return middle - size / 2, middle + size / 2
 
 
 def _title(letter: str, numbers: str) -> str:
@@ -278,9 +330,26 @@ def _overlap(one: Extent, other: Extent) -> bool:
     return all(one[k] < other[k + 2] + PAD and other[k] < one[k + 2] + PAD for k in (0, 1))
 
 
+def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
+    """Yield the curve; a path has an arrowhead, and dots at its start and at its end."""
+    spots = tuple(map(frame.spot, panel.points))
+    yield Stroke(spots, "curve")
+    if panel.is_path:
+        at = _index_of(HEAD, spots)
+        yield Stroke(spots[at - 1 : at + 1], "curve", head=True)
+        yield Bullet(spots[0], DOT, "ink")
+        yield Bullet(spots[-1], DOT, "ink")
+
+
+def _index_of(part: float, spots: Sequence[Spot]) -> int:
+    """Return the index, at least 1, of the point after this part of the length of a line."""
+    lengths = [*accumulate((dist(one, other) for one, other in pairwise(spots)), initial=0.0)]
+    return max(1, bisect_left(lengths, lengths[-1] * part))
+
+
 def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
     left, below, right, above = frame.paper
-    yield Stroke(tuple(map(frame.spot, panel.points)), "curve")
+    yield from line_of(panel, frame)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:
         at = frame.spot((x, 0.0))[0]

@@ -16,15 +16,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, ClassVar, Generic, TypeVar
 
-from derive.algebra.expressions import TIME, explicit
-from derive.course.placement import Placement, Range
-from derive.course.stock import Described, told_at
+from derive.course.placement import Placement
+from derive.course.stock import Described
 from derive.course.yaml_tree import Word
-from derive.errors import DeriveError, did_you_mean, rejected
-from derive.figures import plot
+from derive.errors import DeriveError
 from derive.mechanics import Coordinate
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
+from derive.stock.answering.plots import Plotted
 
 T = TypeVar("T")
 D = TypeVar("D")
@@ -126,23 +125,8 @@ class StockAnswers(Answers[W]):
         found = self.by_name.answers(asked)
         for drawing in drawings:
             if drawing.plot and drawing.against and drawing.range:
-                self._plot(drawing, drawing.plot, drawing.against, drawing.range)
+                Plotted(drawing, self.by_name.named, self.coordinates).draw(drawing.against, drawing.range)
         return found
-
-    def _plot(self, drawing: Placement, answer: Word, against: Word, ends: Range) -> None:
-        """Draw the curve of an answer against a coordinate, the time or a declared letter."""
-        quantities = self.by_name.named(answer)
-        if len(quantities) != 1:
-            rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
-        moving = self.coordinates.get(str(against))
-        kind = moving.kind if moving is not None else "time" if against == TIME.name else drawing.kind_against
-        letters = {symbol.name: symbol for symbol in explicit(quantities[0].value).free_symbols}
-        if kind is None or str(against) not in letters:
-            message = f"`{answer}` does not depend on `{against}`, so there is no curve"
-            rejected("wrong-argument", message, against.place, did_you_mean(against, letters))
-        lower, upper = ends.of_kind(kind)
-        with told_at(answer.place):
-            plot(drawing.key, quantities[0], letters[str(against)], (lower, upper), of=kind)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
         """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""

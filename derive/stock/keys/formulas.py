@@ -56,15 +56,25 @@ class Formula:
 
         The dimensions in the expression must agree.
         """
+        expression, _, found = self.with_dimension(answers)
+        return expression, found
+
+    def with_dimension(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, Dimension, dict[Any, Quantity]]:
+        """Return the same as `with_answers`, and the dimension of the expression."""
+        marks, found = self.marks(answers)
+        expression, dimension = read_expression(self.node, {**self.letters, **marks})
+        return expression, dimension, found
+
+    def marks(self, answers: Callable[[Word], Quantity]) -> tuple[dict[str, Declared], dict[Any, Quantity]]:
+        """Return the placeholder of each answer by name, and the mapping placeholder -> answer."""
         found = {name: answers(name) for name in self.answers}
-        marks = {name: self._mark(name, quantity) for name, quantity in found.items()}
-        expression, _ = read_expression(self.node, {**self.letters, **{str(n): mark for n, mark in marks.items()}})
-        return expression, {marks[name].symbol: found[name] for name in found}
+        marks: dict[str, Declared] = {str(name): self._mark(name, quantity) for name, quantity in found.items()}
+        return marks, {marks[name].symbol: quantity for name, quantity in found.items()}
 
     def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
         """Return a placeholder symbol for an answer, with the dimension of the answer. It is positive if the answer is
         known to be positive."""
-        value = explicit(quantity.value.right if isinstance(quantity.value, Relation) else quantity.value)
+        value = explicit(right_side(quantity.value))
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)
         declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
@@ -72,6 +82,11 @@ class Formula:
         has = dimension_of(value, table)
         mark = Dummy(str(name), real=True, positive=True if value.is_positive else None)
         return OfKnownDimension(str(name), mark, "", has=has if has is not None else Dimension())
+
+
+def right_side(value: Any) -> Any:
+    """Return the right side of a relation; any other value is unchanged."""
+    return value.right if isinstance(value, Relation) else value
 
 
 def formula(node: Tree, letters: Mapping[str, Declared]) -> Formula:

@@ -26,7 +26,7 @@ parts:
   - {ask: Find the frequency of small oscillations., answer: frequency}
   - {ask: Find the period., answer: period}
 """
-SAID = "of a simple pendulum of length"
+SAID = "A simple pendulum of length"
 
 
 def page(folder: Path, text: str, detail: str = "standard") -> str:

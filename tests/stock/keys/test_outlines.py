@@ -106,18 +106,34 @@ def test_a_body_known_by_its_moments_is_drawn_and_its_momentum_where_it_turns_in
     assert (len(of(drawn, Arrow)), len(of(drawn, EllipsoidMark)), drawn.keys) == (2, 1, ())
 
 
-def drawing_of(folder: Path, name: str, *changes: tuple[str, str]) -> Drawing:
+CUBE = """\
+title: A cube
+solve: body
+symbols: {a: length, M: mass}
+given:
+  body: {shape: cuboid, sides: [a, a, a], mass: M}
+  direction: [1, 1, 1]
+statement: A uniform cube has mass <<M>> and edges of length <<a>>.
+parts: [{ask: Find its moment of inertia about a diagonal., answer: moment_about}]
+"""
+
+
+def drawing_of(folder: Path, name: str) -> Drawing:
     (path,) = (Path(__file__).parents[3] / "problems/library").glob(f"*/{name}.yaml")
+    return drawn(folder, path.read_text(encoding="utf-8"))
+
+
+def drawn(folder: Path, text: str) -> Drawing:
     run = Run()
-    run_solve(loaded(folder, edited(path.read_text(encoding="utf-8"), *changes)), run)
-    (drawn,) = run.drawings
-    assert isinstance(drawn, Drawing)
-    return drawn
+    run_solve(loaded(folder, text), run)
+    (found,) = run.drawings
+    assert isinstance(found, Drawing)
+    return found
 
 
 def test_the_axes_of_a_cube_begin_at_its_centre_unless_the_centre_is_asked_for(tmp_path: Path) -> None:
-    assert len([mark for mark in of(drawing_of(tmp_path, "cube"), Line) if mark.pen == "hidden"]) == 3
-    asks = drawing_of(tmp_path, "cube", ("answer: moment_about", "answer: [centre_of_mass, moment_about]"))
+    assert len([mark for mark in of(drawn(tmp_path, CUBE), Line) if mark.pen == "hidden"]) == 3
+    asks = drawn(tmp_path, edited(CUBE, ("answer: moment_about", "answer: [centre_of_mass, moment_about]")))
     assert not [mark for mark in of(asks, Line) if mark.pen == "hidden"]
 
 

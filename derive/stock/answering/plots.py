@@ -1,0 +1,131 @@
+"""`plot` under `drawings:`: the curve of one answer, or the path of two answers or formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Expr, Symbol
+
+from derive.algebra.expressions import TIME, explicit
+from derive.algebra.kinds import unit_of_dimension, unit_of_kind
+from derive.course.expression import Declared
+from derive.course.given import read_end
+from derive.course.placement import Placement, Range
+from derive.course.stock import told_at
+from derive.course.yaml_tree import Scalar, Word
+from derive.errors import did_you_mean, rejected
+from derive.figures import plot
+from derive.figures.marks import Across, Plot, noted
+from derive.mechanics import Coordinate
+from derive.steps.step import Quantity
+from derive.stock.keys.formulas import Formula, right_side
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A quantity of a path: its name on the axis, its value, its kind and unit, and the keys of its answers."""
+
+    label: Any
+    expr: Expr
+    kind: str
+    unit: str
+    keys: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Plotted:
+    """A plot that a problem requests.
+
+    named         returns the steps that a name denotes
+    coordinates   the coordinates of the system, by name
+    """
+
+    drawing: Placement
+    named: Callable[[Word], tuple[Quantity, ...]]
+    coordinates: Mapping[str, Coordinate]
+
+    def draw(self, against: Word, ends: Range) -> None:
+        """Draw the plot against a coordinate, the time or a declared letter."""
+        if len(self.drawing.plot) == 1:
+            self._curve(self.drawing.plot[0], against, ends)
+        else:
+            self._path([self._shown(each.scalar) for each in self.drawing.plot], against, ends)
+
+    def _curve(self, answer: Word, against: Word, ends: Range) -> None:
+        quantity = self._one(answer)
+        message = f"`{answer}` does not depend on `{against}`, so there is no curve"
+        variable, kind = self._variable(against, explicit(quantity.value).free_symbols, message)
+        (lower, upper), keys = self._range(ends, kind)
+        with told_at(answer.place):
+            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys)
+
+    def _path(self, shown: list[Shown], against: Word, ends: Range) -> None:
+        across, up = shown
+        written = " nor ".join(f"`{each}`" for each in self.drawing.plot)
+        message = f"neither {written} depends on `{against}`, so there is no path"
+        variable, kind = self._variable(against, across.expr.free_symbols | up.expr.free_symbols, message)
+        (lower, upper), keys = self._range(ends, kind)
+        horizontal = Across(across.label, across.expr, across.unit)
+        keys = tuple(dict.fromkeys((*across.keys, *up.keys, *keys)))
+        with told_at(self.drawing.plot[0].place):
+            noted(
+                Plot(self.drawing.key, up.label, up.expr, variable, lower, upper, up.kind, kind, keys, up.unit,
+                     horizontal)
+            )  # fmt: skip
+
+    def _one(self, answer: Word) -> Quantity:
+        """Return the one step of an answer."""
+        quantities = self.named(answer)
+        if len(quantities) != 1:
+            rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
+        return quantities[0]
+
+    def _variable(self, against: Word, letters: set[Any], message: str) -> tuple[Symbol, str]:
+        """Return the symbol that varies, and its kind; reject a name that is not one of `letters`."""
+        known = {symbol.name: symbol for symbol in letters}
+        moving, declared = self.coordinates.get(str(against)), self.drawing.letters.get(str(against))
+        kind = moving.kind if moving else "time" if against == TIME.name else declared.kind if declared else None
+        if kind is None or str(against) not in known:
+            rejected("wrong-argument", message, against.place, did_you_mean(against, known))
+        return known[str(against)], kind
+
+    # --- formulas ----------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _letters(self) -> dict[str, Declared]:
+        return {**self.drawing.letters, TIME.name: Declared(TIME.name, TIME, "time")}
+
+    def _shown(self, node: Scalar) -> Shown:
+        """Return an answer or a formula of answers, in the letters of the problem."""
+        formula = Formula(node, self._letters)
+        expression, dimension, found = formula.with_dimension(self._one)
+        label = expression.xreplace({mark: quantity.symbol for mark, quantity in found.items()})
+        expr = expression.xreplace({mark: explicit(right_side(quantity.value)) for mark, quantity in found.items()})
+        kind = self._kind(expression, found)
+        unit = unit_of_kind(kind) if kind else unit_of_dimension(dimension)
+        return Shown(label, explicit(expr), kind or "number", unit, tuple(q.key for q in found.values()))
+
+    def _kind(self, expression: Expr, found: Mapping[Any, Quantity]) -> str | None:
+        """Return the kind of an answer or of a letter; a formula has none."""
+        if expression in found:
+            return found[expression].step.kind
+        return next((letter.kind for letter in self._letters.values() if letter.symbol == expression), None)
+
+    def _range(self, ends: Range, kind: str) -> tuple[list[Expr], tuple[str, ...]]:
+        """Return the two ends, which may contain letters and answers, and the keys of these answers."""
+        found, keys = [], []
+        for node in ends.ends:
+            end, own = self._end(node.scalar, kind)
+            found.append(end)
+            keys += own
+        return found, tuple(keys)
+
+    def _end(self, node: Scalar, kind: str) -> tuple[Expr, list[str]]:
+        formula = Formula(node, self._letters)
+        marks, found = formula.marks(self._one)
+        end = read_end(node, kind, {**self._letters, **marks})
+        end = end.xreplace({mark: explicit(right_side(quantity.value)) for mark, quantity in found.items()})
+        return explicit(end), [quantity.key for quantity in found.values()]
