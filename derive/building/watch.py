@@ -61,7 +61,8 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """The loaded modules, and the states of the files at the last comparison."""
+    """Builds the requested sets and waits for edits. It remembers a digest of the modules that were loaded, and the
+    states of the files at the last comparison."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown

@@ -1,7 +1,7 @@
 """The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
 
-A part is drawn only if it is a connection in the description of the system. No part is guessed from a formula or from
-the name of a symbol.
+A connection is drawn only if the description of the system contains it. No connection is guessed from a formula or
+from the name of a symbol.
 """
 
 from __future__ import annotations

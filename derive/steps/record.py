@@ -54,7 +54,7 @@ class Run:
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
     defined_at    the place in a file where each quantity of `define:` is written, by its name
-    is_natural    whether results may be written in defined and in usual quantities
+    is_natural    whether results may be written with the quantities of `define:` and with common ones such as omega_0
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates, forces and definitions; results must not use them

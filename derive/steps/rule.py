@@ -216,7 +216,8 @@ def _names_its_axis(facts: Judged) -> bool:
 
 def _letter_of_its_axis(facts: Judged) -> bool:
     """Whether a symbol with the index of an axis, such as I_z, has the index of the axis that the sentence names. For a
-    part, the named axis is the axis of the whole that is parallel to the axis of the part."""
+    part of a composite body, the index must be that of the axis of the whole body, which is parallel to the axis of the
+    part."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

@@ -101,7 +101,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
             SWINGS,
             "{from: cart, to: bob}",
             "{from: cart, to: bob, length: 2*l}",
-            "keep the length l of the rod, not 2*l",
+            "the rod has the length l, but its `length` is given as 2*l",
         ),
         (
             SWINGS,

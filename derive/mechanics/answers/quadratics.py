@@ -279,8 +279,7 @@ def _one_of_two(
 ) -> Quantity:
     """One of the two roots of a quadratic equation, with the given sign before the square root.
 
-    Check: the root substituted into the equation; the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)), whose denominator
-    is larger for the smaller root.
+    Check: the root substituted into the equation; the root in the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)).
     Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (roots of opposite signs),
     coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

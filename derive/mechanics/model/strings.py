@@ -346,7 +346,8 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         message = f"the coordinates allow the length of the {what} to change, so a force must keep it constant"
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
     if whole is not None and not is_zero(kept - whole):
-        raise Rejected(Complaint("sizes", f"the coordinates keep the length {kept} of the {what}, not {whole}"))
+        message = f"with these coordinates the {what} has the length {kept}, but its `length` is given as {whole}"
+        raise Rejected(Complaint("sizes", message))
 
 
 def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:

@@ -41,7 +41,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 def _foot(placed: PlacedBody, curve: Curve) -> Location:
     """Return the place where a round body touches a curve: the place whose normal passes through the centre of the
-    body, at the distance of the radius. The horizontal distance of this place must be a coordinate."""
+    body, at the distance of the radius. The horizontal position of this place must be a coordinate of the
+    system."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
         foot = curve.point(q)

@@ -133,7 +133,7 @@ class Departure:
 
     @cached_property
     def scale(self) -> Expr:
-        """The speed divided by the rate of the coordinate."""
+        """The speed divided by the magnitude of the rate of the coordinate."""
         return tidied(sqrt(tidied(Add(*(diff(c, self.q) ** 2 for c in self.curve)))))
 
     @cached_property

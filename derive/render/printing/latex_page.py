@@ -307,7 +307,7 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
-    """Return whether the lines are a single row that does not end in a vector or tensor."""
+    """Return whether the lines are a single row, and no side of this row ends in a vector or tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 
