@@ -56,7 +56,7 @@ INVERSES = {acos: cos, asin: sin, atan: tan}
 class Shortened:
     """A shorter form of a value.
 
-    value    the form
+    value    the shorter form itself
     used     the symbols of the quantities in it
     nonzero  the factors by which an equation was divided
     """

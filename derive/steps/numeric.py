@@ -420,7 +420,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
     answer       a scalar with letters; the result is None if its letters are in a sum, because a sum has no common
                  number in front, if the number in front is rational, or if it is a product of roots and pi, whose size
                  can be seen
-    figures      significant figures
+    figures      the number of significant figures
     of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
                  rational numbers times letters
     Check: the answer divided by its letters, evaluated again as for `value_of`.

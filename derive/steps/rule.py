@@ -32,7 +32,7 @@ class Judged:
     """The data that a predicate judges.
 
     result      the value of the step
-    inputs      role -> value
+    inputs      the values of the inputs, by their roles
     quantities  role -> quantity, for inputs that are quantities and for quantities that the sentence points to
     symbol      the symbol of the result on the page
     subject     the subject of the result
@@ -108,7 +108,7 @@ class Quote:
 class Rule:
     """A law that makes steps.
 
-    name        folder and function
+    name        the folder and the function of the verb: "lagrange.lagrangian"
     source      book and section
     outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so

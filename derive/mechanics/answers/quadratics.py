@@ -91,7 +91,7 @@ def roots_together(
     value first.
 
     equation   a x^2 + b x + c = 0, possibly times a factor without x
-    x          the unknown
+    x          the unknown of the quadratic equation
     values     quantities for letters of the coefficients
     key        the key of the step with both roots
     keys       the keys of the separate roots

@@ -37,7 +37,7 @@ def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> Ov
     """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. The density in
     dm is a step or a formula.
 
-    weight   the function f
+    weight   the function f of the position, by which dm is multiplied
     mean     whether to divide the integral by the mass
     """
     rho = body.density

@@ -176,7 +176,7 @@ def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) ->
     """Return the position map with new real variables. It is an error if a limit contains a variable that is not an
     outer one, or if an interval is known to be empty.
 
-    position   three formulas
+    position   x, y and z as formulas in the variables
     limits     variable -> (lower, upper), outermost first
     """
     fresh = {u: scalar(u.name) for u in limits}

@@ -352,7 +352,7 @@ MOMENTUM_RATE = Rule(
 def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Rate of a generalized momentum, dp/dt, by the chain rule.
 
-    momentum   dL/dq_dot
+    momentum   the generalized momentum dL/dq_dot
     q          the coordinate of the momentum
     Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.

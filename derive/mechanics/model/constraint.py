@@ -28,7 +28,7 @@ ZERO, ONE = Integer(0), Integer(1)
 class StaticLimit:
     """The largest static friction: |F| <= mu_s N.
 
-    coefficient   mu_s
+    coefficient   the coefficient of static friction, mu_s
     normal        the symbol of the normal force of the same contact
     slider        the name of the body that would slip, if the author gave one: "block"
     """
@@ -183,7 +183,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     """A constraint f = c on coordinates or on their rates, enforced by a force.
 
     condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
-    equals      c
+    equals      the constant value c of f
     force       the symbol of the multiplier: a force if f is a length, a torque if f is an angle
     """
     try:

@@ -44,7 +44,7 @@ class Contact(Connection):
 
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
-    surface  the surface
+    surface  the surface that the body touches
     gap      the distance between the body and the surface, or the height of the body above a curve, m
     normal   the unit vector from the surface to the body
     """

@@ -72,7 +72,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
     """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
     of, to   points of bodies, as for `pin`
-    force    as for `pin`
+    force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
     The angle keeps the value that it has where all coordinates are zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
@@ -93,7 +93,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
 class Motor(Connection):
     """A motor, whose torque keeps an angle equal to a prescribed function of time.
 
-    angle    the angle
+    angle    the angle that the motor prescribes
     torque   the symbol of the torque
     """
 
@@ -167,7 +167,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     """A dashpot between two points at the distance d. Its force on each point has the magnitude c |d_dot| and opposes
     the change of d.
 
-    constant     c, kg/s
+    constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 11.3.
     """

@@ -34,8 +34,8 @@ ZERO = Integer(0)
 class Pulley(Connection):
     """A massless frictionless pulley: a circle over which strings run.
 
-    at       its centre
-    radius   its radius, m
+    at       the centre of the pulley
+    radius   the radius of the pulley, m
     """
 
     at: Location
@@ -82,7 +82,7 @@ class WeightOfRope(StoredEnergy):
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force along the rope on the first end that does the work of the weight. If all pieces move by ds along
              the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
-    at       the first end
+    at       the position of the first end
     """
 
     force: tuple[Expr, ...]
@@ -151,7 +151,7 @@ def pulley(at: Location, radius: Any) -> Pulley:
 def wire(of: Any) -> Wire:
     """A smooth wire on which a particle is threaded. The place of the particle must depend on exactly one coordinate.
 
-    of   the particle
+    of   the particle that is threaded on the wire
     """
     place = getattr(of, "at", None)
     moving = coordinates_in(ImmutableDenseMatrix(place.components)) if isinstance(place, Location) else {}
@@ -221,7 +221,7 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
     """A massless rigid rod between two hinges, which pulls or pushes only along its direction.
 
     start, end   particles, points of bodies, or places in space
-    length       the length, m
+    length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.

@@ -242,7 +242,7 @@ SHARE_OF_MASS = Rule(
 def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     """Mass of a part of a uniform body, M times the size of the part divided by the size of the whole.
 
-    body   the whole
+    body   the whole composite body
     part   one of the parts of the whole, or a cavity
     mass   the mass M of the whole
     Second route: the density of the whole integrated over the part.
@@ -285,7 +285,7 @@ TOTAL_MASS = Rule(
 def _total_mass(body: Composite) -> Quantity:
     """Mass of the whole, the sum of the masses of the parts.
 
-    body   the whole, with its parts
+    body   the composite body with its parts
     Second route: the integral of dm over all parts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -315,7 +315,7 @@ CENTRE_OF_PARTS = Rule(
 def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Quantity:
     """Centre of mass relative to a point, r_C = (m_1 r_1 + m_2 r_2 + ...)/M.
 
-    body    the whole, with its parts
+    body    the composite body with its parts
     start   the point from which the centre of mass is measured
     Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
     Outcomes: generic, cut_out (some part is a cavity).
@@ -358,7 +358,7 @@ TENSOR_OF_PARTS = Rule(
 def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
     """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
 
-    body    the whole, with its parts
+    body    the composite body with its parts
     point   the point of the tensor; `point.axes` are the axes of the components
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
@@ -423,7 +423,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d). If R is 1 and d is zero, this
     is the step that derives I, the tensor of the part about its centre of mass.
 
-    body    the whole
+    body    the whole composite body
     part    one of the parts of the whole; R is the rotation of the part, and d is the displacement of its centre of
             mass from the point
     point   the point of the tensor; `point.axes` are the axes of the components
@@ -478,7 +478,7 @@ WAY_TO_PART = Rule(
 def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     """Displacement of the centre of mass of a part from a point of the whole.
 
-    part    the part
+    part    the part of the composite body
     point   the point of the whole
     d       the displacement, computed from the position and the rotation of the part
     Second route: the mean position of the particles of the part.
