@@ -204,7 +204,8 @@ def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -
     for n, file in enumerate(documents.values()):
         others = [*list(documents.values())[:n], *problems, INDEX]
         if file in others:
-            faults.error("document-name", f"`{file}` is the name of another file", file.place, help="choose another")
+            message = f"`{file}` is already the name of another file of this set"
+            faults.error("document-name", message, file.place, help="choose another name")
 
 
 def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:

@@ -295,7 +295,7 @@ def held_rod(**more: Any) -> Any:
         (lambda: RigidBody(m, I_0).held(space.turned(Z, coordinate("phi")), at="centre"), "only move in a plane"),
         (lambda: RigidBody(m, (A, A, C)).held(coordinate("phi"), at="edge", across="z"), "has no point"),
         (lambda: RigidBody(m, (A, C)), "needs three moments"),
-        (lambda: RigidBody(m, (A, A, C), about="corner"), "are about"),
+        (lambda: RigidBody(m, (A, A, C), about="corner"), "must be about"),
         (lambda: System(RigidBody(moments=(A, A, C)).placed(coordinate("p"), point(0, 0), across="z")), "the mass of"),
         (lambda: System(held_rod(), name="No. 1"), "not a name for a system"),
         (lambda: angular_velocity(space), "rotating axes"),

@@ -274,7 +274,7 @@ def two() -> System:
     ("wrong", "said"),
     [
         (lambda: force((1, 2, 3), point(0, 0)), "needs 2 components"),
-        (lambda: force((1, 2), "here"), "acts at a place|needs a `Location`"),
+        (lambda: force((1, 2), "here"), "needs a place|needs a `Location`"),
         (lambda: couple(tau, alpha), "is constant"),
         (lambda: damping(c * t, point(*lengths("x", "y"))), "needs a constant constant"),
         (lambda: damping(c, alpha), "against the rate of a coordinate"),

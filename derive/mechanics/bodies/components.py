@@ -95,7 +95,7 @@ def centre_component(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a component is along "x", "y" or "z", not along "{axis}"'))
+        raise Rejected(Complaint("no-such-axis", f'a component must be along "x", "y" or "z", not along "{axis}"'))
     start, k = body.point(origin or body.reference), AXES.index(axis)
     region = body.within(start, coordinates)
     integral = over_mass(body, region, region.position[k], mean=True)

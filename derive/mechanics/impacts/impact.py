@@ -121,7 +121,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
-            Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
+            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but this is {part}")
         )
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)

@@ -204,5 +204,6 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     if not is_zero(
         made.residual - explicit(as_expr(condition) - equals)
     ):  # the sign of the force depends on the sign of the condition
-        raise Unverified(Complaint("unverified", f"the constraint was changed to {made.residual} = 0"))
+        message = f"`constraint` made {made.residual} = 0, which is not the given condition"
+        raise Unverified(Complaint("unverified", message))
     return made

@@ -80,7 +80,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
     bodies = [end_of(each)[1] if is_end(each) else None for each in (of, to)]
     turned: list[Any] = [each.turned for each in bodies if isinstance(each, PlacedBody) and each.is_plane]
     if len(turned) < 2:
-        raise Rejected(Complaint("wrong-argument", "`weld` joins two bodies that move in a plane"))
+        raise Rejected(Complaint("wrong-argument", "`weld` needs two bodies that move in a plane"))
     angle = explicit(as_expr(turned[0] - turned[1]))
     if not coordinates_in(angle):
         message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
@@ -172,7 +172,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 11.3.
     """
     if not all(map(is_end, (start, end))):
-        raise Rejected(Complaint("wrong-argument", "`dashpot` ends at particles, points of bodies, or places"))
+        raise Rejected(Complaint("wrong-argument", "`dashpot` must end at particles, points of bodies, or places"))
     ends = end_of(start), end_of(end)
     require_bodies("dashpot", ends)
     (one, _), (other, _) = ends

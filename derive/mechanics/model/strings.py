@@ -156,7 +156,7 @@ def wire(of: Any) -> Wire:
     place = getattr(of, "at", None)
     moving = coordinates_in(ImmutableDenseMatrix(place.components)) if isinstance(place, Location) else {}
     if len(moving) != 1:
-        message = f"a particle on a `wire` has one coordinate, but this particle has {len(moving)}"
+        message = f"a particle on a `wire` must have one coordinate, but this particle has {len(moving)}"
         help_line = "leave the wire out, or give the place of the particle as a function of one coordinate"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return Wire((), of)
@@ -239,7 +239,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     if whole is not None:
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
-        message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
+        message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
     for wheel in ends[1:-1]:
         if isinstance(wheel, PlacedBody) and has_radius(wheel):
@@ -362,7 +362,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 6.7.
     """
     if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
-        message = "`wound_string` goes from a particle, a point of a body or a place to a round body in a plane"
+        message = "`wound_string` must go from a particle, a point of a body or a place to a round body in a plane"
         raise Rejected(Complaint("wrong-argument", message))
     place, body = end_of(end)
     require_bodies("wound_string", [(place, body)])

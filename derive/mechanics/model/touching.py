@@ -23,7 +23,7 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     """Return the place where a round body touches a surface, the distance of the body from the surface, and the unit
     normal."""
     if surface.is_two_sided:
-        message = "a round body touches a plane, a curve, a circle or a sphere, but not a rail"
+        message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
     if isinstance(surface, Curve):
         foot = _foot(placed, surface)

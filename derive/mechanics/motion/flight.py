@@ -530,7 +530,8 @@ def _time_back(known: InFlight) -> Expr | None:
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
-        raise Unverified(Complaint("unverified", "the flight does not begin on the circle, along it, with no force"))
+        message = "the flight does not begin on the circle, along the circle, and without a force from the circle"
+        raise Unverified(Complaint("unverified", message))
     outwards, last = (tidied(c) for c in parts[3:])
     sign = sign_known(outwards)
     if orbit.inside and sign == -1:

@@ -41,7 +41,7 @@ def linearised_rotation(
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a body rotates about "x", "y" or "z", not about "{axis}"'))
+        raise Rejected(Complaint("no-such-axis", f'a body can rotate about "x", "y" or "z", not about "{axis}"'))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
     disturbed = Disturbed(AXES.index(axis), speed, of)

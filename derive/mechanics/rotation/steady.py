@@ -55,7 +55,8 @@ CONSTANT_ANGULAR_VELOCITY = Rule(
 
 def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key: str) -> Quantity:
     if len(components) != 3:
-        raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
+        message = f"an angular velocity needs three components, not {len(components)}"
+        raise Rejected(Complaint("wrong-argument", message))
     omega = column(*components)
     if is_zero(omega):
         raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not rotate"))
