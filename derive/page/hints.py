@@ -108,7 +108,7 @@ class _Hints:
         return f"the {name}" if step.symbol is None else name
 
     def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
-        """Return symbols with their name behind them: `I_1, I_2 (principal moment)`."""
+        """Return symbols followed by their common name: `I_1, I_2 (principal moment)`."""
         shown = tuple(node for i, each in enumerate(letters) for node in ((Text(", "),) if i else ()) + (Math(each),))
         if not shown:
             return (Text(name),)

@@ -34,7 +34,7 @@ Leftover = Callable[..., Sequence[Any]]
 
 
 def matter_of(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy, including magnetic forces."""
+    """Return the mass points and forces to which a potential energy belongs, including magnetic forces."""
     if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
         return potential.subject.body.matter
     return matter_behind(potential)
