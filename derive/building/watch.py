@@ -34,11 +34,11 @@ Seen = Mapping[str, tuple[int, int, int]]
 class Shown:
     """The functions that inform an author who edits.
 
-    under_way  shows the work under way
+    under_way  a function that shows the work that is being done
     wrote      reports that a PDF has changed, and after how many seconds
-    built      shows the report of a finished build
-    refused    shows the errors that prevented a build
-    ended      reports a finished piece of work
+    built      a function that shows the report of a finished build
+    refused    a function that shows the errors that prevented a build
+    ended      a function that reports a finished piece of work
     """
 
     under_way: Callable[[str], None]

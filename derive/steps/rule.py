@@ -73,7 +73,7 @@ class Theorem:
     """A theorem in its general form. A page above the level `brief` states it before the first step that uses it.
 
     formula   what the theorem states, as a relation or an expression
-    source    book and section
+    source    the book and the section that state it
     letters   further symbols that the phrase names, with their names in the phrase
     """
 
@@ -109,7 +109,7 @@ class Rule:
     """A law that makes steps.
 
     name        the folder and the function of the verb: "lagrange.lagrangian"
-    source      book and section
+    source      the book and the section that state it
     outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
                 it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an

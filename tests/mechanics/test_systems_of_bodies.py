@@ -284,9 +284,9 @@ def held_rod(**more: Any) -> Any:
         (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "a value of `point` or `place`"),
         (
             lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)),
-            "a body turned by an angle needs a place in the plane",
+            "if it is an angle, two components",
         ),
-        (lambda: Rod(l, m).held("up", at="end"), "by axes, or by an angle"),
+        (lambda: Rod(l, m).held("up", at="end"), "must be a set of axes or an angle"),
         (lambda: Rod(l, m).held(coordinate("theta"), at="corner"), "has no point"),
         (lambda: Rod(l, m).held(coordinate("theta"), at=(1, 2)), "three components along its axes"),
         (lambda: held_rod(across="w"), "a body has no axis"),

@@ -331,7 +331,7 @@ def case_in_letters(
 
     found    the result in a limiting or a special case, any unit
     formula  the same result in letters
-    values   the earlier results that these letters denote
+    values   the results of earlier steps that these letters denote
 
     Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.

@@ -35,7 +35,7 @@ class PlacedBody:
     body     an object with a mass, a centre of mass and an inertia about its points
     turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
-    at       the place of this point
+    at       the place of this point of the body
     across   for a motion in a plane, the index of the body axis perpendicular to the plane
     rim      for a motion in a plane, the centre and the radius of the circle that bounds a body of unknown shape
     """

@@ -243,7 +243,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
 
     of            the Lagrangian, J
-    q             one of its coordinates
+    q             a coordinate of this Lagrangian
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
     If forces without a potential energy act on the system, a step derives their generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.

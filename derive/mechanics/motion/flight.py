@@ -53,7 +53,7 @@ SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 class Departure:
     """The state in which a particle leaves a surface, or its string goes slack.
 
-    lost    the relation for the place, from `leaves`
+    lost    the result of `leaves`: the relation for the place where contact is lost
     speed   the squared rate of the coordinate before the departure, by conservation of energy
     letter  the symbol for the value of the coordinate at the departure; None if the value itself is used
     """

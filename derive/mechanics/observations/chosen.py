@@ -33,7 +33,7 @@ from derive.mechanics.observations.view import Observed, View
 from derive.steps.step import Quantity
 
 Steps = list[Quantity]
-MOST = 2  # observations of a problem, unless the author chooses
+MOST = 2  # greatest number of observations in a problem, if the author does not choose them
 
 
 @dataclass(frozen=True)

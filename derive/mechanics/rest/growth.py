@@ -25,7 +25,7 @@ from derive.steps.step import Quantity
 
 DIGITS = 75
 SMALL = 10  # a growth rate or a gyroscopic force below 10^-SMALL of the largest value counts as zero
-FEW = 3  # sets of numbers that are tried if there are no gyroscopic forces
+FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain
 

@@ -20,11 +20,11 @@ from derive.figures.space import Spot, direction, is_within
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
-CLEAR = 1.5  # points between a label and a line
+CLEAR = 1.5  # distance between a label and a line, in points
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 HEAVY_ENOUGH = 20.0
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
-WIDE = 1.0  # points: a wider line is represented by its two edges
+WIDE = 1.0  # in points: a wider line is represented by its two edges
 OWN = 1.5  # in points; a point of a drawn line that is closer than this to the line of a label is a point of this line
 ROUNDS = 3
 

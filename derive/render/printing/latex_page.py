@@ -43,7 +43,7 @@ from derive.render.rendered import Tex
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 FEW_ROWS = 4  # a display of at most this many steps, each of one low row, is not divided between pages
-NARROW = 26  # characters: two steps of this width fit on one line
+NARROW = 26  # in characters: two steps of this width fit on one line
 
 
 @dataclass(frozen=True)
