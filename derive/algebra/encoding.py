@@ -63,9 +63,10 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Assumptions that give an equal symbol, because SymPy does not record which assumptions were written.
+    """Assumptions that give an equal symbol. SymPy does not record which assumptions were written.
 
-    These are one of the usual sets if it suffices, and otherwise all assumptions that SymPy derived.
+    The result is the first of the usual sets that gives an equal symbol. If there is none, it is the set of all
+    assumptions that SymPy derived.
     """
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:

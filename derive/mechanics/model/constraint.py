@@ -156,9 +156,10 @@ class Constraint(Part):
     def kind_of_force(self) -> str | None:
         """The kind of the multiplier, or None if the kind is unknown.
 
-        The kind is "force" if the forces on material points are known. Otherwise it follows from the first term of f
-        that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque" for an
-        angle. For any other coordinate, it is the kind with the dimension of an energy divided by the coordinate.
+        The kind is "force" if the forces on material points are known. Otherwise the kind follows from the first term
+        of f that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque"
+        for an angle. For any other coordinate, the kind is the one with the dimension of an energy divided by the
+        coordinate.
         """
         if self.forces:
             return "force"
