@@ -101,7 +101,7 @@ class _Hints:
         return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
     def _name(self, step: Step) -> str:
-        """Return what a relation or a letter is; another symbol, such as dL/dt, needs no name."""
+        """Return the name of what a relation or a letter denotes; any other symbol, such as dL/dt, needs no name."""
         if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
             return ""
         name = self.words.rule(step.rule)

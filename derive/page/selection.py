@@ -151,7 +151,7 @@ class Selection:
         return OWN if manner is TOLD and not _is_short(step) else manner
 
     def _only_for_quoted(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps on which only quoted results depend, such as the density behind a standard moment."""
+        """Return the steps on which only quoted results depend, such as the density for a quoted moment of inertia."""
         quoted = {step.key for step in steps if step.display.quoted and step.key not in self.asked}
         found: set[str] = set()
         for step in reversed(steps):

@@ -603,7 +603,7 @@ STAYS_CLEAR = Rule(
 
 
 def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
-    """The particle does not meet the circle again: its distance from the centre stays greater than the radius.
+    """The step for a particle that never meets its circle again: its distance from the centre exceeds the radius.
 
     Outcomes: clear.
     Source: the same as for `landing`.
@@ -640,7 +640,7 @@ def _in_time(value: Expr) -> Expr:
 
 
 def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quantity:
-    """The particle does not reach the plane: its least distance from the plane is positive.
+    """The step for a particle that misses the plane: its least distance from the plane is positive.
 
     Outcomes: misses.
     Source: the same as for `landing`.
@@ -870,7 +870,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
 
 
 def _check_before_circle(known: InFlight, place: Vector) -> None:
-    """If the particle flies inside its circle, require a place inside too, because the flight ends on the circle."""
+    """If the particle flies inside its circle, require that the place is inside too: the flight ends on the circle."""
     if known.orbit is None or not known.orbit.inside:
         return
     if sign_known(tidied(_beyond(place, known.orbit))) != -1:

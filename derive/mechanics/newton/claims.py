@@ -90,7 +90,7 @@ def _acceleration(facts: Judged) -> Vector:
 
 
 def _still(value: Expr, moving: Any) -> Expr:
-    """An expression with all rates and accelerations zero."""
+    """Return the expression with all rates and accelerations set to zero."""
     return explicit(value).xreplace({rate(q, n): Integer(0) for q in moving for n in (1, 2)})
 
 

@@ -440,7 +440,7 @@ def _rest(
     n: int,
     states: Sequence[State],
 ) -> Quantity:
-    """One equilibrium.
+    """The step for one equilibrium.
 
     Outcomes: always, where, only.
     Source: the same as for `equilibria`.

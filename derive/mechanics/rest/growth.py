@@ -157,7 +157,7 @@ def _grows(inertia: Any, damping: Any, stiffness: Any) -> bool:
 
 
 def _is_turned(inertia: Any, damping: Any, stiffness: Any) -> bool:
-    """Whether C is not symmetric."""
+    """Whether the matrix C, the derivatives with respect to the rates, is not symmetric."""
     return bool(_largest(damping - damping.T) > mp.mpf(10) ** -SMALL * (_largest(damping) + mp.mpf(10) ** -SMALL))
 
 
