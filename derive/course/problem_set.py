@@ -154,8 +154,8 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the nearest id. If no whole id is near, only the names after the `/` are compared; if no
-    name is near either, the line points to `derive list`."""
+    """Return a help line with the most similar id. If no whole id is similar, only the names after the `/` are
+    compared. If no name is similar either, the help line mentions `derive list`."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"

@@ -41,7 +41,7 @@ class Observation:
     """A kind of observation.
 
     name    the name by which an author chooses it
-    found   yields the steps of this kind about the answers of a part
+    found   a function that yields the steps of this kind about the answers of a part
     at_end  whether the last part with such a step states it, instead of the first part
     """
 
