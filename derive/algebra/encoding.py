@@ -63,9 +63,10 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Assumptions that give an equal symbol, because SymPy does not record which assumptions were written.
+    """Assumptions that give an equal symbol. SymPy does not record which assumptions were written.
 
-    These are one of the usual sets if it suffices, and otherwise all assumptions that SymPy derived.
+    The result is the first of the usual sets that gives an equal symbol. If there is none, it is the set of all
+    assumptions that SymPy derived.
     """
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
@@ -155,7 +156,7 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """Return the value that `as_data` encoded, with tuples in place of lists; no other records are built."""
+    """Return the value that `as_data` encoded, with tuples in place of lists. Only records of `classes` are built."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

@@ -48,7 +48,7 @@ from derive.algebra.tidy import common_factor, tidied
 MOST_TOGETHER = 3  # greatest number of quantities that one form may use
 SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of signs
 HALF = Rational(1, 2)
-LONGEST = 120  # a longer expression is left as it is
+LONGEST = 120  # an expression that is longer than this (`length`) is not rewritten
 INVERSES = {acos: cos, asin: sin, atan: tan}
 
 
@@ -56,8 +56,8 @@ INVERSES = {acos: cos, asin: sin, atan: tan}
 class Shortened:
     """A shorter form of a value.
 
-    value    the form
-    used     the symbols of the quantities in it
+    value    the shorter form itself
+    used     the symbols of the quantities that the shorter form contains
     nonzero  the factors by which an equation was divided
     """
 

@@ -87,8 +87,8 @@ class Order:
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
         """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amount of a
-        replaced symbol is first the absolute value of its number at the point. While the values that follow do not fit,
-        each amount is replaced by an eighth of it."""
+        replaced symbol is first the absolute value of its number at the point. While the resulting values do not fit,
+        each amount is divided by 8."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]

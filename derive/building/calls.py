@@ -1,8 +1,8 @@
 """Recorded calls of verbs, stored for each problem: many small texts in one value.
 
-Only a build that derives the problem reads this value, and it replaces the value if it made new calls. The value holds
-the calls of that build, and as many earlier calls as there is room for. So the calls from before an edit are still
-there if you undo the edit.
+Only a build that derives the problem reads this value, and the build replaces the value if it made new calls. The
+value contains the calls of the last build, and as many earlier calls as there is room for. So the calls from before an
+edit are still stored if you undo the edit.
 """
 
 from __future__ import annotations

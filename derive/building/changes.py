@@ -20,7 +20,7 @@ Blocks = Sequence[Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Change:
-    """One difference.
+    """One difference between two states of a problem or of a set.
 
     of       the sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
              number, reference, warning

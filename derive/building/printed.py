@@ -80,7 +80,7 @@ def printed(
 ) -> Rendered:
     """Return the page of a derived problem; raise `Rejected` if it has errors.
 
-    cache      stores the files of the drawings
+    cache      the cache that stores the files of the drawings
     failures   the disagreements with the reference, which are reported with the warnings of the page
     """
     return _Printing(problem, solved, wanted, cache, failures).rendered()

@@ -34,11 +34,11 @@ Seen = Mapping[str, tuple[int, int, int]]
 class Shown:
     """The functions that inform an author who edits.
 
-    under_way  shows the work under way
+    under_way  a function that shows the work that is being done
     wrote      reports that a PDF has changed, and after how many seconds
-    built      shows the report of a finished build
-    refused    shows the errors that prevented a build
-    ended      reports a finished piece of work
+    built      a function that shows the report of a finished build
+    refused    a function that shows the errors that prevented a build
+    ended      a function that reports a finished piece of work
     """
 
     under_way: Callable[[str], None]
@@ -61,7 +61,8 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """The loaded modules, and the states of the files at the last comparison."""
+    """Builds the requested sets and waits for edits. It remembers a digest of the modules that were loaded, and the
+    states of the files at the last comparison."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown

@@ -13,8 +13,9 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder that contains `problems`; None if there is no such folder. It is the named folder or
-    DERIVE_ROOT; by default it is the working folder, a folder above it, or the checkout of derive."""
+    """Return the folder that contains `problems`; None if there is no such folder. Only `named` is tried, or else the
+    folder in DERIVE_ROOT; without both, the working folder, the folders above it and the checkout of derive are tried
+    in this order."""
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()

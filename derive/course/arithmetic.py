@@ -46,10 +46,10 @@ class Declared:
 class Term:
     """A value under construction: its expression, its dimension, and its place in the text.
 
-    start, end   where the value begins and ends in the text
-    size         a bound for its digits and degrees
-    terms        a bound for the number of its terms after multiplying out
-    kind         its kind, if it is a single declared letter
+    start, end   the places in the text where the value begins and ends
+    size         a bound for the digits and degrees of the value
+    terms        a bound for the number of terms of the value after multiplying out
+    kind         the kind of the value, if it is a single declared letter
     """
 
     expr: Expr

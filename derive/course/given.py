@@ -44,7 +44,7 @@ class Measured:
 
     number   the number in its unit, 900
     si       the exact number in SI units, 30*pi
-    place    where the number is written
+    place    the place in the file where the number is written
     """
 
     symbol: Symbol

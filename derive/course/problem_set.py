@@ -154,8 +154,8 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the nearest id. If no whole id is near, only the names after the `/` are compared; if no
-    name is near either, the line points to `derive list`."""
+    """Return a help line with the most similar id. If no whole id is similar, only the names after the `/` are
+    compared. If no name is similar either, the help line mentions `derive list`."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"
@@ -204,7 +204,8 @@ def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -
     for n, file in enumerate(documents.values()):
         others = [*list(documents.values())[:n], *problems, INDEX]
         if file in others:
-            faults.error("document-name", f"`{file}` is the name of another file", file.place, help="choose another")
+            message = f"`{file}` is already the name of another file of this set"
+            faults.error("document-name", message, file.place, help="choose another name")
 
 
 def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:

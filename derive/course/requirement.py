@@ -21,7 +21,7 @@ def require(condition: Boolean | bool, given: str, must: str) -> None:
     If it is unknown whether the condition holds, the condition is assumed, and the page states this assumption.
 
     condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
-    given       the parameter that the error names
+    given       the name of the parameter of `solve()`, for the error
     must        the requirement, for the message: "must not lie beyond the end of the rod"
     """
     run = record.current_run.get()

@@ -48,7 +48,7 @@ class Key:
 
 
 def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", formerly: str = "") -> Any:
-    """Declare a field of a record that is a key of a file.
+    """Declare a field of a record; the field is read from a key of a file.
 
     called     the name of the key in the file, if Python does not allow this name for a field
     formerly   the former name of the key: an error for this name says which name to write instead

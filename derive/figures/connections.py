@@ -1,7 +1,7 @@
 """The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
 
-A part is drawn only if it is a connection in the description of the system. No part is guessed from a formula or from
-the name of a symbol.
+A connection is drawn only if the description of the system contains it. No connection is guessed from a formula or
+from the name of a symbol.
 """
 
 from __future__ import annotations
@@ -306,8 +306,8 @@ class Connections:
                 yield from self._corner(touch)
 
     def is_drawn(self, surface: Surface) -> bool:
-        """Whether the drawing shows the surface. If the system moves in space, it shows only fixed horizontal planes
-        with the bodies above them."""
+        """Whether the drawing shows the surface. In space, the drawing shows only fixed horizontal planes with the
+        bodies above them."""
         is_level = isinstance(surface, Plane) and surface.unit_normal.components == (ZERO, ZERO, ONE)
         return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
 
@@ -387,8 +387,8 @@ class Connections:
         )
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
-        """Return the floor under blocks. It ends at fixed ends of springs and strings at its height, if there are any,
-        such as a wall or a pulley."""
+        """Return the floor under blocks. If a spring or a string ends at a fixed place at the height of the floor, such
+        as a wall or a pulley, the floor also ends there."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]

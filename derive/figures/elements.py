@@ -62,8 +62,8 @@ UNDER = {BlockMark: BLOCK[1] / 2, CartMark: CART[1] / 2 + 2 * CASTER}  # distanc
 def particle(at: Any, label: Any = None) -> Mark:
     """A particle, a bob or a bead.
 
-    at      the point
-    label   the mass
+    at      the point where the particle is drawn
+    label   the symbol of the mass, or another label
     """
     place, keys = vector_of(at)
     return ParticleMark(place, label=name_of(at, label), keys=keys)
@@ -212,7 +212,7 @@ def way(
 
     place     the point, a formula in the symbol
     letter    the symbol, a coordinate or another symbol of the formula
-    between   the two values
+    between   the two values between which the symbol varies
     solid     whether the curve is a solid object, such as a hoop or a wire, and not only a path
     """
     formula, keys = vector_of(place)

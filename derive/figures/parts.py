@@ -156,7 +156,7 @@ class DashpotMark(_Stretched):
 class RopeMark(_Piecewise):
     """A taut string through points; at each wheel the bend of the string decides on which side it passes.
 
-    along   the points
+    along   the points through which the string runs, in order
     radii   the radius of the wheel at each point: zero for no wheel, None for a wheel of the usual size
     """
 

@@ -88,7 +88,7 @@ class InNumbers(Protocol):
 class Paper(ABC):
     """The data from which a mark computes its pieces, and methods that return the pieces of solids.
 
-    numbers   the values of expressions
+    numbers   the object that evaluates expressions
     stance    the projection onto the paper
     scale     points on the paper per unit of length
     reach     the size of the bodies: the greatest distance of `fixed` from `middle`

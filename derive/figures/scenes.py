@@ -146,9 +146,9 @@ def arrow(
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
     """The arc from one direction to another, which is not drawn if the directions are parallel.
 
-    a, b     vectors (3)
+    a, b     vectors (3) in the two directions
     label    the name of the angle, or a quantity
-    at       the vertex
+    at       the point where the two directions start
     radius   a length; by default a readable size
     """
     (u, first), (v, second), (vertex, third) = (vector_of(thing) for thing in (a, b, at))
@@ -159,7 +159,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
     """The axis of a rotation, extended beyond the body on both sides; with a rate, also a rotation arrow.
 
-    along     vector (3)
+    along     vector (3) in the direction of the axis
     through   a point on the axis
     rate      angular speed, 1/s, positive for a right-handed rotation about `along`
     """
@@ -171,7 +171,7 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
 def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
     """A right-handed rotation arrow about a direction, for an angle or its rate.
 
-    along   vector (3)
+    along   vector (3) in the direction of the axis
     at      the centre of the arrow
     size    the radius of the arrow relative to the size of the body
     """

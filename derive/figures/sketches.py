@@ -62,7 +62,7 @@ def sketch(
 
     key       the name of the drawing, for `drawings:` in the problem
     system    particles, bodies, springs, connections, forces and weights
-    more      further marks
+    more      marks that are drawn in addition to those of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
     weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity
@@ -196,7 +196,8 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        if self.impact is not None:  # positions are fixed during an impact, so no displacement is shown
+        # the drawing of an impact omits angles and distances that are zero at the impact or change just before it
+        if self.impact is not None:
             found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
             found += impact_marks(self.system, self.impact)
         return list(dict.fromkeys(found))

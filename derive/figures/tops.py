@@ -103,8 +103,8 @@ def following_axes(placed: Any) -> list[ImmutableDenseMatrix]:
 
 
 def seen_upright(mark: Mark) -> Mark:
-    """Replace an `AngleBetween` by an `UprightAngle`, which does not affect the choice of the view. Return any other
-    mark unchanged."""
+    """Return an `UprightAngle`, a mark that does not affect the choice of the view, in place of an `AngleBetween`.
+    Return any other mark unchanged."""
     return UprightAngle(**{f.name: getattr(mark, f.name) for f in fields(mark)}) if type(mark) is AngleBetween else mark
 
 

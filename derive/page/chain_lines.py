@@ -67,7 +67,7 @@ class ChainWriter:
     """Writes the lines of each step of a page.
 
     names    names that prose may mention on this page
-    numbers  numbers of the equations so far
+    numbers  the numbers of the equations that are already on the page
     """
 
     def __init__(

@@ -16,7 +16,7 @@ class References:
 
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
-    faults   collects the errors
+    faults   the object that collects the errors
     """
 
     def __init__(

@@ -1,9 +1,9 @@
 """The position, caption and alternative text of each drawing on a page.
 
-The alternative text is derived from the expressions of the marks, so the text changes with the inputs.
-A drawing appears in the statement if it shows only inputs. If it leads to steps, it appears in the part that derives
-the first of these steps. Otherwise it appears in the first part after which all its steps are derived. A problem may
-move a drawing to a later part, but never to an earlier one.
+The alternative text is derived from the expressions of the marks, so the text changes with the inputs. A drawing
+appears in the statement if it shows only inputs. If the drawing leads to steps, it appears in the part that derives the
+first of these steps. Otherwise it appears in the first part after which all its steps are derived. A problem may move a
+drawing to a later part, but never to an earlier one.
 """
 
 from __future__ import annotations
@@ -279,8 +279,8 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """Return the index of the earliest part for a drawing; None if there is no such part.
 
-    This is the part that derives the first of the steps to which the drawing leads. If the drawing leads to no steps,
-    it is the first part after which all steps of the drawing are derived; -1 means the statement.
+    If the drawing leads to steps, the part is the one that derives the first of these steps. Otherwise the part is the
+    first one after which all steps of the drawing are derived. The index -1 means the statement.
     """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)

@@ -82,7 +82,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _in_order(self, groups: Sequence[Equations]) -> list[Block]:
-        """Return a sentence with what to find: the symbols in their order, each new letter with what it is."""
+        """Return a sentence that says what to find: the symbols in their order, each new letter with its meaning."""
         formulas = [group for group in groups if not any(f.because in NUMBERS for f in self.by_key[group.key].chain)]
         items: list[tuple[str, list[Any]]] = []
         for group in formulas or groups:
@@ -101,14 +101,14 @@ class _Hints:
         return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
     def _name(self, step: Step) -> str:
-        """Return what a relation or a letter is; another symbol, such as dL/dt, needs no name."""
+        """Return the name of what a relation or a letter denotes; any other symbol, such as dL/dt, needs no name."""
         if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
             return ""
         name = self.words.rule(step.rule)
         return f"the {name}" if step.symbol is None else name
 
     def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
-        """Return symbols with their name behind them: `I_1, I_2 (principal moment)`."""
+        """Return symbols followed by their common name: `I_1, I_2 (principal moment)`."""
         shown = tuple(node for i, each in enumerate(letters) for node in ((Text(", "),) if i else ()) + (Math(each),))
         if not shown:
             return (Text(name),)
@@ -166,7 +166,8 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether nothing is left to do in the line, or whether its right side is the result of some step."""
+        """Return whether the line shows a result: it contains no symbol of an earlier step, and no integral or
+        derivative unless the result of the step contains one too; or its right side is the result of some step."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

@@ -18,7 +18,7 @@ from derive.page.chain_lines import ChainLine, Equations
 from derive.page.tree import Display, Document, PartPage
 from derive.steps.step import Step
 
-UNITS = (Fraction(1, 2), Fraction(1, 4))  # points; quarters are used if there are too few halves
+UNITS = (Fraction(1, 2), Fraction(1, 4))  # in points; quarters are used if there are too few halves
 ANSWER, STEP, NUMBER = 2, 1, 0  # numbers of shares; a number that follows its formula has no share
 
 

@@ -5,10 +5,10 @@
     full       every line of every step
 
 Each rule specifies, for all problems, how its steps are shown. Independently of the level, answers and reworded steps
-have lines of their own, unless earlier lines show their result. A step also has lines of its own if the author lists it
-under `show`, unless it is hidden there, or if the page refers to its equation. A step whose symbol the page needs
-(`Needed`) has lines of its own or is defined in a clause. So a page does not use a symbol or an equation number that it
-has not introduced.
+have lines of their own, unless earlier lines show their result. A step also has lines of its own if the page refers to
+its equation, or if the author lists it under `show` with a value other than `hidden`. A step whose symbol the page
+needs (`Needed`) has lines of its own or is defined in a clause. So a page does not use a symbol or an equation number
+that it has not introduced.
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ class Selection:
         return OWN if manner is TOLD and not _is_short(step) else manner
 
     def _only_for_quoted(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps on which only quoted results depend, such as the density behind a standard moment."""
+        """Return the steps on which only quoted results depend, such as the density for a quoted moment of inertia."""
         quoted = {step.key for step in steps if step.display.quoted and step.key not in self.asked}
         found: set[str] = set()
         for step in reversed(steps):

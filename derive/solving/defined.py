@@ -18,7 +18,7 @@ def check_defined(verb: str, called: str, where: str, value: Any, put: Callable[
     verb     the verb that replaces the symbols; `called` is the name of the result
     where    the substitution in words: `alpha = pi/2`
     value    the result before the substitution
-    put      replaces the symbols in an expression
+    put      a function that replaces the symbols in an expression
     """
     sides = value.sides if isinstance(value, Relation) else value if isinstance(value, MatrixBase) else (value,)
     for side in sides:

@@ -28,7 +28,7 @@ class Isolated:
 
     equations   the indices of these equations
     eliminated  the other unknowns of these equations
-    earlier     earlier unknowns in these equations
+    earlier     unknowns in these equations that are solved before this one
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
     """
 
@@ -43,7 +43,7 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     are found.
 
     residuals   the equations, linear in the unknowns: residual = 0
-    unknowns    in the order of preference
+    unknowns    the unknowns, in the order in which they should be found
 
     An unknown is left out if no such set of equations gives it without a division by a value that might vanish.
     An unknown whose value is zero is also left out.

@@ -678,7 +678,8 @@ def size_of(value: Expr) -> float:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """Whether the only root in a product is a sum to a power such as 3/2: m A^2/(l^2 + m c A)^(3/2)."""
+    """Whether the product contains exactly one power with an exponent that is not an integer, and this is a power of a
+    sum with an exponent above 1 or below -1, as in m A^2/(l^2 + m c A)^(3/2)."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 

@@ -54,9 +54,9 @@ from derive.steps.symbols import check_symbol
 class Lines:
     """How the law becomes the lines of a chain, and how the result is written.
 
-    before    forms before the law
+    before    lines of the chain before the law
     between   forms between the substituted law and the result
-    after     forms after the result
+    after     lines of the chain after the result
     law       the level from which the law is shown
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line

@@ -38,9 +38,9 @@ class NamesValue(Fact):
 class Proposal:
     """A quantity of the field that a verb proposes; it becomes a step only if it makes a result shorter.
 
-    symbol  its usual symbol
+    symbol  the symbol that the quantity usually has
     value   its value in the symbols of the problem
-    make    returns the quantity
+    make    the function that derives and returns the quantity
     """
 
     symbol: Symbol

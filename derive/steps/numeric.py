@@ -417,10 +417,10 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    answer       a scalar with letters; the result is None if its letters are in a sum, because a sum has no common
-                 number in front, if the number in front is rational, or if it is a product of roots and pi, whose size
-                 can be seen
-    figures      significant figures
+    answer       a scalar with letters. The result is None if these letters are in a sum, which has no common number in
+                 front; if the number in front is rational; or if this number is a product of roots and pi, whose size
+                 is easy to see
+    figures      the number of significant figures
     of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
                  rational numbers times letters
     Check: the answer divided by its letters, evaluated again as for `value_of`.

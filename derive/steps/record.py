@@ -46,7 +46,7 @@ class Call:
 class Run:
     """The state of a running script, and its record.
 
-    established   every quantity, in order
+    established   all quantities that verbs have established, in order
     cases         for each quantity, the general quantity of which it is a case; None if there is no such quantity
     coordinates   the coordinates that the script has named, with their kinds
     assumed       assumed conditions on the symbols
@@ -54,12 +54,12 @@ class Run:
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
     defined_at    the place in a file where each quantity of `define:` is written, by its name
-    is_natural    whether results may be written in defined and in usual quantities
+    is_natural    whether results may be written with the quantities of `define:` and with common ones such as omega_0
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates, forces and definitions; results must not use them
     memory        earlier calls of verbs
-    call          the call that is running
+    call          the call of a verb that is running
     """
 
     established: list[Quantity] = field(default_factory=list)

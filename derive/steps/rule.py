@@ -32,7 +32,7 @@ class Judged:
     """The data that a predicate judges.
 
     result      the value of the step
-    inputs      role -> value
+    inputs      the values of the inputs, by their roles
     quantities  role -> quantity, for inputs that are quantities and for quantities that the sentence points to
     symbol      the symbol of the result on the page
     subject     the subject of the result
@@ -73,7 +73,7 @@ class Theorem:
     """A theorem in its general form. A page above the level `brief` states it before the first step that uses it.
 
     formula   what the theorem states, as a relation or an expression
-    source    book and section
+    source    the book and the section that state it
     letters   further symbols that the phrase names, with their names in the phrase
     """
 
@@ -108,8 +108,8 @@ class Quote:
 class Rule:
     """A law that makes steps.
 
-    name        folder and function
-    source      book and section
+    name        the folder and the function of the verb: "lagrange.lagrangian"
+    source      the book and the section that state it
     outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
                 it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
@@ -216,7 +216,8 @@ def _names_its_axis(facts: Judged) -> bool:
 
 def _letter_of_its_axis(facts: Judged) -> bool:
     """Whether a symbol with the index of an axis, such as I_z, has the index of the axis that the sentence names. For a
-    part, the named axis is the axis of the whole that is parallel to the axis of the part."""
+    part of a composite body, the index must be that of the axis of the whole body, which is parallel to the axis of the
+    part."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

@@ -157,8 +157,8 @@ def _odd_factors(value: Expr) -> list[Expr]:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason why a sentence is not confirmed. If the order of two terms in the value is unknown, the reason
-    is this order, such as l < r_0; otherwise it is that numbers do not always agree with the sentence."""
+    """Return the reason why a sentence is not confirmed. If the order of two terms in the value is unknown, such
+    as l < r_0, this is the reason. Otherwise the reason is that numbers do not always agree with the sentence."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]

@@ -120,7 +120,7 @@ class Fact:
 
 
 class Witness(Fact, ABC):
-    """A fact with the described system to which a quantity belongs; a step is tested on the motion of this system."""
+    """A fact that contains the described system of a quantity; steps are tested on the motion of this system."""
 
     @abstractmethod
     def testimony(self, quantity: Quantity, judged: Any, outcome: str) -> Verdict | None:

@@ -194,7 +194,7 @@ def _point(written: RotationKeys, body: DescribedBody | None) -> str:
         return CENTRE_OF_MASS
     name = {"centre": CENTRE_OF_MASS}.get(written.about, written.about.replace(" ", "_"))
     if name not in (CENTRE_OF_MASS, FIXED_POINT):
-        message = f"moments are about `centre_of_mass` or `fixed_point`, not about `{written.about}`"
+        message = f"moments must be about `centre_of_mass` or `fixed_point`, not about `{written.about}`"
         rejected("no-such-point", message, written.about.place)
     return name
 

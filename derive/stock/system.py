@@ -338,7 +338,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def period(self) -> Quantity:
         if len(self.normal_modes) != 1:
-            raise Rejected(Complaint("wrong-argument", "`period` is about one frequency, but there are several"))
+            raise Rejected(Complaint("wrong-argument", "`period` needs one frequency, but this system has several"))
         if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so there is no oscillation about it"
             raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))

@@ -25,7 +25,7 @@ class Particle:
 class Body:
     """A rigid body, given by the position of one of its points and by its orientation.
 
-    mass     the mass, kg
+    mass     the mass of the body, kg
     place    the position in space of one known point of the body, m
     arm      the vector from the known point to the centre of mass, in components along the body axes, m
     spread   second moments, the sums of m r_i r_j about the centre of mass along the body axes, kg m^2

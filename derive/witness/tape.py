@@ -230,7 +230,7 @@ class Compiled:
             values[i] = row
         with np.errstate(all="ignore"):
             for i, operation, args in self._varying:
-                if len(args) == 2:  # most operations: the general line below takes twice as long
+                if len(args) == 2:  # true for most operations; the general line below would take twice as long
                     one, other = args
                     values[i] = operation(values[one], values[other])
                 else:

@@ -124,7 +124,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
             SWINGS,
             "{from: cart, to: bob}",
             "{from: cart, to: bob, length: 2*l}",
-            "keep the length l of the rod, not 2*l",
+            "the rod has the length l, but its `length` is given as 2*l",
         ),
         (
             SWINGS,
@@ -133,7 +133,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
             "so the force `S` does not appear",
         ),
         (SWINGS, "side: both", "side: inside", "a plane has no `inside`"),
-        (SWINGS, "  gravity: g", "  wires: [bob]\n  gravity: g", "has one coordinate, but this particle has 2"),
+        (SWINGS, "  gravity: g", "  wires: [bob]\n  gravity: g", "must have one coordinate, but this particle has 2"),
         (SWINGS, "  gravity: g", "  wires: [cart, cart]\n  gravity: g", "`cart` is on a wire twice"),
         (HANGS, "[-R, -x]", "[-R/2, -x]", "no horizontal or vertical string is tangent"),
         (HANGS, ", tension: T}", "}", "allow the length of the string to change"),

@@ -309,7 +309,7 @@ def test_an_end_at_infinity_is_not_closed(tmp_path: Path) -> None:
 def test_a_state_is_within_the_range(tmp_path: Path) -> None:
     text = edited(DUMBBELL, ("  results:\n", "  at: {q: 0}\n  results:\n"))
     (message,) = messages(tmp_path, text)
-    assert message.endswith("`q` lies between 0 and pi/2, so it cannot be 0 in a state")
+    assert message.endswith("`q` must be between 0 and pi/2, so it cannot be 0 in a state")
 
 
 def test_a_length_that_varies_may_be_negative(tmp_path: Path) -> None:

@@ -275,10 +275,10 @@ def two() -> System:
     ("wrong", "said"),
     [
         (lambda: force((1, 2, 3), point(0, 0)), "needs 2 components"),
-        (lambda: force((1, 2), "here"), "acts at a place|needs a `Location`"),
+        (lambda: force((1, 2), "here"), "needs a place|needs a `Location`"),
         (lambda: couple(tau, alpha), "is constant"),
         (lambda: damping(c * t, point(*lengths("x", "y"))), "needs a constant constant"),
-        (lambda: damping(c, alpha), "against the rate of a coordinate"),
+        (lambda: damping(c, alpha), "must act on a place or along a coordinate"),
         (lambda: potential(k * l), "needs an energy in coordinates"),
         (lambda: potential(k * coordinate("x", "length").rate), "depends on the rate of x"),
         (lambda: charge(q, point(0, 0), E=(coordinate("x", "length"), 0)), "needs a uniform electric field"),

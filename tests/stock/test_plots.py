@@ -39,7 +39,7 @@ def test_the_curve_of_an_answer_is_drawn(tmp_path: Path) -> None:
     letters = {symbol.name: symbol for symbol in curve.expr.free_symbols}
     m, g, R, omega, theta = (letters[name] for name in ("m", "g", "R", "omega", "theta"))
     assert (curve.expr + m * g * R * cos(theta) + m * R**2 * omega**2 * sin(theta) ** 2 / 2).expand() == 0
-    assert (curve.variable, curve.lower, curve.upper) == (Symbol("theta", real=True), -2 * pi / 3, 2 * pi / 3)
+    assert (curve.variable, curve.lower, curve.upper) == (Symbol("theta", real=True), -10 * pi / 9, 10 * pi / 9)
     assert (curve.of, curve.kind) == ("angle", "energy")
 
 
@@ -57,7 +57,7 @@ def test_a_plot_that_is_added_after_a_build_is_drawn(tmp_path: Path) -> None:
     ("edits", "said"),
     [
         ([("    against: theta\n", "")], "needs `against`"),
-        ([("    range: [-120 deg, 120 deg]\n", "")], "needs `against`, a letter, and `range`"),
+        ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against`, a letter, and `range`"),
         ([("    against: theta\n", "    against: phi\n")], "does not depend on `phi`"),
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot`"),
         ([("    plot: effective_potential\n", "    plot: equilibria\n")], "is several results"),

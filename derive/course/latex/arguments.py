@@ -107,7 +107,8 @@ class Functions(Grids):
             return self.complaint("latex", message, letter.start, letter.end, None)
         help_line = did_you_mean(name, self.letters.declared) or "declare it under `symbols:`"
         if letter.name in ("d", "e"):
-            help_line = f"declare it under `symbols:`, or write what `{letter.name}` belongs to"
+            rest = "its exponent, `e^{...}`" if letter.name == "e" else "the whole derivative or integral"
+            help_line = f"declare it under `symbols:`, or write {rest}"
         return self.complaint("undeclared-symbol", f"`{name}` is not declared", letter.start, letter.end, help_line)
 
     def check_not_a_function(self, letter: Letter, cursor: Cursor) -> None:

@@ -75,7 +75,7 @@ class Formula(Brackets):
                 alternatives.append(self.sum(cursor, 0))
             assert first is not None
             if len(alternatives) > 2 or (len(alternatives) == 2 and self.branches == 2):
-                self.refuse("latex", "a value has two branches at most", first.start, first.end)
+                self.refuse("latex", "a value can have two branches at most", first.start, first.end)
             sides.append((alternatives, self.branches, first, cursor.before))
             mark = self.relation(cursor)
             if mark is None:

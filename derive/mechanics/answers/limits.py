@@ -83,7 +83,7 @@ def limiting_case(
     of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
              limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
-    to       0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
+    to       the limit: 0 for a small letter, SymPy's `oo` for a large letter, otherwise the value near which it is
     order    the highest power of the small quantity that is kept; by default only the leading term
 
     For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
@@ -331,7 +331,7 @@ def case_in_letters(
 
     found    the result in a limiting or a special case, any unit
     formula  the same result in letters
-    values   the earlier results that these letters denote
+    values   the results of earlier steps that these letters denote
 
     Check: the formula with all letters replaced at once equals the limiting case.
     Outcomes: generic.

@@ -91,7 +91,7 @@ def roots_together(
     value first.
 
     equation   a x^2 + b x + c = 0, possibly times a factor without x
-    x          the unknown
+    x          the unknown of the quadratic equation
     values     quantities for letters of the coefficients
     key        the key of the step with both roots
     keys       the keys of the separate roots
@@ -279,8 +279,7 @@ def _one_of_two(
 ) -> Quantity:
     """One of the two roots of a quadratic equation, with the given sign before the square root.
 
-    Check: the root substituted into the equation; the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)), whose denominator
-    is larger for the smaller root.
+    Check: the root substituted into the equation; the root in the equivalent form 2 c/(-b -+ sqrt(b^2 - 4 a c)).
     Outcomes: smaller, larger, smaller_where_real, larger_where_real, nearer, farther (roots of opposite signs),
     coinciding.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

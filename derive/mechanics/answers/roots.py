@@ -448,8 +448,8 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
             raise _no_choice(which, f"there {'is' if len(found) == 1 else 'are'} {len(found)}", found)
         return found[int(which) - 1]
     if which not in CHOICES:
-        help_line = did_you_mean(which, CHOICES) or f"it is {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
-        message = f"`{which}` is not a choice of a root"
+        help_line = did_you_mean(which, CHOICES) or f"write {', '.join(f'`{way}`' for way in CHOICES)}, or a number"
+        message = f"`{which}` does not say which root is meant"
         raise Rejected(Complaint("wrong-type", message, help=help_line, argument="root"))
     fitting = [root for root in found if CHOICES[which](root, found)]
     if len(fitting) != 1:

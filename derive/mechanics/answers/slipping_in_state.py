@@ -99,7 +99,7 @@ def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:
-            message = f"`slips`: neither force has anything that `{each.key}` could replace"
+            message = f"`slips`: neither force contains what `{each.key}` would replace"
             raise Rejected(Complaint("unused-value", message, help="leave it out", argument="results"))
     letters = {s.name for each in (friction, normal, *results) for s in explicit(each.value).free_symbols}
     check_values_used(friction.key, values, letters)

@@ -333,7 +333,7 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
             told.append((target, at))
         value = after
     if value == before:
-        message = f"`put_in`: `{of.key}` has nothing that `{called}` could replace"
+        message = f"`put_in`: `{of.key}` does not contain what `{called}` would replace"
         raise Rejected(Complaint("nothing-to-put-in", message))
     return value
 

@@ -37,7 +37,7 @@ def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> Ov
     """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. The density in
     dm is a step or a formula.
 
-    weight   the function f
+    weight   the function f of the position, by which dm is multiplied
     mean     whether to divide the integral by the mass
     """
     rho = body.density
@@ -95,7 +95,7 @@ def centre_component(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a component is along "x", "y" or "z", not along "{axis}"'))
+        raise Rejected(Complaint("no-such-axis", f'a component must be along "x", "y" or "z", not along "{axis}"'))
     start, k = body.point(origin or body.reference), AXES.index(axis)
     region = body.within(start, coordinates)
     integral = over_mass(body, region, region.position[k], mean=True)

@@ -57,7 +57,7 @@ class Plate(EdgedBody):
     """A thin uniform rectangular plate in the plane of x and y, with a corner at the origin and edges along the axes.
 
     sides    two lengths, along x and y
-    mass     the mass
+    mass     the mass of the body
     """
 
     sides: tuple[Expr, Expr]
@@ -98,7 +98,7 @@ class Cuboid(EdgedBody):
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
 
     sides   three lengths, along x, y and z
-    mass    the mass
+    mass    the mass of the body
     """
 
     sides: tuple[Expr, Expr, Expr]
@@ -176,7 +176,7 @@ class Triangle(Cornered):
     """A thin uniform triangular plate in the plane of x and y.
 
     corners_at   the positions (x, y) of the three corners, in units of length
-    mass         the mass
+    mass         the mass of the body
     `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h, above the middle of
     the base or, if `foot` is given, above x = foot. `Triangle.equilateral(a, mass)` has three sides of length a.
     Points: first corner, second corner, third corner; centre.
@@ -264,7 +264,7 @@ class Tetrahedron(Cornered):
     """A uniform solid with four corners.
 
     corners_at   the positions (x, y, z) of the four corners, in units of length
-    mass         the mass
+    mass         the mass of the body
     Points: first corner, ..., fourth corner; centre.
     """
 
@@ -323,7 +323,7 @@ class Wedge(Cornered):
 
     face     the triangular base, a `Triangle`
     length   the length along z, from z = 0
-    mass     the mass
+    mass     the mass of the body
     Points: first corner, second corner, third corner (of the face at z = 0); centre.
     """
 

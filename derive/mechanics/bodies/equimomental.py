@@ -57,7 +57,7 @@ class OfParticles:
     ) -> dict[str, Route]:
         """A second route to the integral of f(r) dm, where f is at most quadratic in the position r from a point.
 
-        integrand   f
+        integrand   the function f of the position
         of          a function that extracts this integral from a result
         """
 

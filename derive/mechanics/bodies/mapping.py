@@ -76,9 +76,10 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    A variable may itself be a coordinate along a body axis. Such a variable is measured from the point as well, if its
-    limits are constant and an axis of the point is parallel to this body axis. This is not done if another coordinate,
-    the weight, or a limit of another such variable depends on it.
+    A variable may itself be a coordinate along a body axis. Such a variable is also measured from the point if three
+    conditions hold: the limits of the variable are constant; an axis of the point is parallel to this body axis;
+    the other coordinates, the weight, and the limits of other such variables do not depend on the variable.
+
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)
@@ -176,7 +177,7 @@ def checked_limits(position: Any, limits: Mapping[Any, Any], taken: set[str]) ->
     """Return the position map with new real variables. It is an error if a limit contains a variable that is not an
     outer one, or if an interval is known to be empty.
 
-    position   three formulas
+    position   x, y and z as formulas in the variables
     limits     variable -> (lower, upper), outermost first
     """
     fresh = {u: scalar(u.name) for u in limits}

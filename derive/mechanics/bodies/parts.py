@@ -21,7 +21,7 @@ NO_TURN = ImmutableDenseMatrix(eye(3))
 class PlacedPart:
     """A body as a part of a larger body.
 
-    body       the part
+    body       the body that is a part
     of         the point of the part that stays fixed when the part is rotated
     position   the place of this point, in the axes of the larger body
     turn       rotation matrix; its columns are the axes of the part, by components along the axes of the larger body
@@ -95,7 +95,7 @@ def place_of(*place: Any) -> ImmutableMatrix:
         inside = getattr(place[0], "components", place[0])
         place = tuple(inside) if isinstance(inside, tuple | list) else place
     if len(place) not in (2, 3):
-        message = f"a place has two components or three, not {len(place)}"
+        message = f"a place must have two components or three, not {len(place)}"
         raise Rejected(Complaint("wrong-argument", message, help="write .at(x, y, z)"))
     return column(*(as_expr(x) for x in (*place, 0)[:3]))
 
@@ -104,7 +104,7 @@ def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
     """The matrix of a right-handed rotation about an axis."""
     named = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}.get(tuple(getattr(axis, "components", ())), axis)
     if named not in ("x", "y", "z"):
-        raise Rejected(Complaint("no-such-axis", 'a rotation is about "x", "y" or "z"'))
+        raise Rejected(Complaint("no-such-axis", 'a rotation must be about "x", "y" or "z"'))
     i = "xyz".index(named)
     j, k = (i + 1) % 3, (i + 2) % 3
     turn = eye(3).as_mutable()

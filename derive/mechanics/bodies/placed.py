@@ -35,7 +35,7 @@ class PlacedBody:
     body     an object with a mass, a centre of mass and an inertia about its points
     turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
-    at       the place of this point
+    at       the place of this point of the body
     across   for a motion in a plane, the index of the body axis perpendicular to the plane
     rim      for a motion in a plane, the centre and the radius of the circle that bounds a body of unknown shape
     """
@@ -50,7 +50,7 @@ class PlacedBody:
     def with_rim(self, centre: Location, radius: Expr) -> PlacedBody:
         """Return the body with the circle that bounds it; the centre of the circle must be fixed in the body."""
         if not self.is_plane:
-            raise Rejected(Complaint("wrong-argument", "a body has a `rim` only in a plane of motion"))
+            raise Rejected(Complaint("wrong-argument", "a body can have a `rim` only in a plane of motion"))
         x, y = (centre - self.at).components
         c, s = cos(self.turned), sin(self.turned)
         own = ImmutableDenseMatrix([tidied(x * c + y * s), tidied(y * c - x * s)])
@@ -206,7 +206,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
     try:
         angle = explicit(as_expr(turned))
     except TypeError:
-        raise Rejected(Complaint("wrong-argument", "a body is turned by axes, or by an angle")) from None
+        raise Rejected(Complaint("wrong-argument", "`turned` must be a set of axes or an angle")) from None
     number = _across(body, across)
     _check_turns(body, number, angle)
     if across is None:

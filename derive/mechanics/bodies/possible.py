@@ -22,7 +22,8 @@ from derive.mechanics.bodies.charts import CLOSE, Chart, Place, draws
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
-POINTS, TWINS = 40, 6  # sampled points of a part; sampled places at which other values of the variables are sought
+POINTS = 40  # number of points of a part that are sampled
+TWINS = 6  # number of sampled points at which other values of the variables with the same position are sought
 SHARP = 1e-6  # length added to the bounds of a part, which may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
 

@@ -109,7 +109,7 @@ class Cone(Conical, RoundSolid):
 
     radius   the radius of the base, a length
     height   the height, a length
-    mass     the mass
+    mass     the mass of the body
     Points: apex, base (the centre of the base, from which z is positive towards the apex), centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -149,7 +149,7 @@ class Cylinder(Cylindrical, RoundSolid):
 
     radius   the radius, a length
     height   the height, a length
-    mass     the mass
+    mass     the mass of the body
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -168,7 +168,7 @@ class Ball(Spherical, RoundSolid):
     """A uniform ball about the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     """
 
     id = "ball"
@@ -192,7 +192,7 @@ class Hemisphere(Ball):
     """Half of a uniform ball, with z > 0; the centre of its base is at the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     Points: base (the centre of the base), centre.
     """
 
@@ -218,7 +218,7 @@ class Tube(Hollow):
 
     inner, outer   the radius of the cavity and the outer radius, both lengths
     height         the height, a length
-    mass           the mass
+    mass           the mass of the body
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -244,7 +244,7 @@ class ThickShell(Hollow):
     """A uniform ball about the origin with a concentric spherical cavity.
 
     inner, outer   the radius of the cavity and the outer radius, both lengths
-    mass           the mass
+    mass           the mass of the body
     """
 
     inner: Expr
@@ -268,7 +268,7 @@ class HalfCylinder(OfHeight):
 
     radius   the radius, a length
     height   the height, a length
-    mass     the mass
+    mass     the mass of the body
     Points: circle_centre (the centre of the circle at z = 0, the origin), centre.
     """
 
@@ -296,7 +296,7 @@ class Ellipsoid(Body):
     """A uniform ellipsoid about the origin, with its axes along x, y and z.
 
     semi_axes   three lengths, along x, y and z
-    mass        the mass
+    mass        the mass of the body
     """
 
     semi_axes: tuple[Expr, Expr, Expr]
@@ -326,7 +326,7 @@ class Torus(Body):
 
     radius    the distance of the middle of the cross-section from the axis, a length
     section   the radius of the cross-section, a length
-    mass      the mass
+    mass      the mass of the body
     """
 
     radius: Expr

@@ -56,7 +56,7 @@ class Rod(RoundBody):
     """A thin uniform rod along z, with one end at the origin.
 
     length   the length of the rod
-    mass     the mass
+    mass     the mass of the body
     Points: end (at the origin), far_end, centre. All of the mass is on the axis of the rod, so the moment of inertia
     about this axis is zero.
     """
@@ -103,7 +103,7 @@ class Hoop(_Flat):
     """A thin uniform ring perpendicular to the z axis, with its centre at the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     """
 
     id, filling = "hoop", "length"
@@ -122,7 +122,7 @@ class Arc(Body):
 
     radius       the radius, a length
     half_angle   the angle from the x axis to either end, between 0 and pi; pi/2 for half a circle
-    mass         the mass
+    mass         the mass of the body
     Points: circle_centre (the origin), centre.
     """
 
@@ -164,7 +164,7 @@ class Disc(_Flat):
     """A thin uniform circular disc perpendicular to the z axis, with its centre at the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     """
 
     id, filling = "disc", "area"
@@ -182,7 +182,7 @@ class Annulus(Hollow):
     """A thin uniform disc with a round hole, perpendicular to the z axis, with its centre at the origin.
 
     inner, outer   the radius of the hole and the outer radius, both lengths
-    mass           the mass
+    mass           the mass of the body
     Points: centre, rim (a point of the outer circle).
     """
 
@@ -209,7 +209,7 @@ class HalfDisc(OfRadius):
     """Half of a thin uniform disc in the plane of x and y, with y > 0; its diameter is along x.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     Points: circle_centre (the middle of the diameter, the origin), centre.
     """
 
@@ -245,7 +245,7 @@ class SphericalShell(Spherical):
     """A thin uniform spherical shell about the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     """
 
     id, filling = "spherical_shell", "area"
@@ -266,7 +266,7 @@ class HemisphericalShell(SphericalShell):
     """Half of a thin uniform spherical shell, with z > 0; the centre of its rim is at the origin.
 
     radius   the radius, a length
-    mass     the mass
+    mass     the mass of the body
     Points: circle_centre (the centre of the rim), centre.
     """
 
@@ -294,7 +294,7 @@ class CylindricalShell(Cylindrical):
 
     radius   the radius, a length
     height   the height, a length
-    mass     the mass
+    mass     the mass of the body
     Points: circle_centre (the centre of the rim at z = 0), centre.
     """
 
@@ -315,7 +315,7 @@ class ConicalShell(Conical):
 
     radius   the radius of the rim, a length
     height   the height, a length
-    mass     the mass
+    mass     the mass of the body
     Points: tip (the apex), centre.
     """
 

@@ -121,7 +121,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
-            Complaint("wrong-argument", f"a coefficient of restitution is between 0 and 1, but this is {part}")
+            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but this is {part}")
         )
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)
@@ -346,7 +346,7 @@ class Impact:
 
     def _check_approach(self, speed: Expr) -> None:
         """Require that the two places approach each other along the normal, because surfaces can push but not pull. If
-        the sign of their speed is unknown, it is assumed."""
+        the sign of their relative speed is unknown, the page assumes this sign."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"

@@ -241,7 +241,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no single symbol, so its rate has none"))
+        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no single symbol, so its rate has no symbol"))
     moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself
 
     def by_time() -> Expr:

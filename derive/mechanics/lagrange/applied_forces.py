@@ -243,7 +243,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
 
     of            the Lagrangian, J
-    q             one of its coordinates
+    q             a coordinate of this Lagrangian
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
     If forces without a potential energy act on the system, a step derives their generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
@@ -354,8 +354,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
     """Return the multipliers of the first four constraints, because a sentence names at most four. The key
-    `multiplier_2` belongs to `function_2`. A multiplier is omitted if it is not a force, because the gradient is not of
-    length 1."""
+    `multiplier_2` belongs to `function_2`. If the gradient does not have length 1, the multiplier is not a force and is
+    omitted."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 

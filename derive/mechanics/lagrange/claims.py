@@ -280,8 +280,8 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
-    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
-    If the function contains rates, it is the derivative with respect to the rate of this coordinate. If the sentence
+    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation
+    or, if the function contains rates, with respect to the rate of this coordinate. If the sentence
     also states a multiplier in terms of a force, the factor of this force is that derivative times the ratio of the
     multiplier to the force. Friction terms in the generalized force, which are proportional to a constraint force, are
     not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions

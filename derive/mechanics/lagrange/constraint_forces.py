@@ -300,7 +300,7 @@ def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
 
 @dataclass(frozen=True)
 class _Isolation:
-    """The steps behind `Isolated`: the equations, and the earlier unknowns by name."""
+    """An `Isolated` unknown with its equations, and the unknowns that were found before it, by name."""
 
     found: Isolated
     equations: Sequence[Quantity]

@@ -255,7 +255,7 @@ KINETIC_ENERGY = Rule(
 def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kinetic_energy") -> Quantity:
     """Kinetic energy of a system, T = sum of (1/2) M v^2 + (1/2) omega . I omega over its particles and bodies.
 
-    system   particles and bodies
+    system   the particles and bodies that move
 
     Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
     point about which its inertia is known, the body has no term with v, and I is about this point. Steps derive the

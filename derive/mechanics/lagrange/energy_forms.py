@@ -34,7 +34,7 @@ def beside_potential(
 ) -> Expr:
     """Write an energy as a sum of a kinetic part, collected by rates and momenta, and the unchanged potential energy.
 
-    of        the Lagrangian
+    of        the step that derives the Lagrangian
     letters   symbols of momenta, which may be constant or vary
     moving    coordinates whose rates are in the energy
     sign      the sign of the potential energy: -1 in a Lagrangian

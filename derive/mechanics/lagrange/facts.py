@@ -79,7 +79,7 @@ def energies_of(lagrangian: Quantity) -> Energies | None:
 class Varied(Matter):
     """The first variations of a given Lagrangian; second routes use them in place of mass points and forces.
 
-    function   the Lagrangian
+    function   the expression of the Lagrangian, J
     """
 
     function: Expr = ZERO

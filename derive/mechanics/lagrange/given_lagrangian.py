@@ -98,7 +98,7 @@ def given_lagrangian(
         raise Rejected(Complaint("wrong-argument", message, help="write the rate of x as `x_dot`"))
     for q in moving:
         if whole.has(rate(q, 2), rate(q, 3)):
-            message = f"a given Lagrangian contains coordinates and their rates, but not {rate(q, 2).name}"
+            message = f"a given Lagrangian may contain coordinates and their rates, but not {rate(q, 2).name}"
             raise Rejected(Complaint("wrong-argument", message))
     strange = [q for each in acting for c in each.at for q in coordinates_in(ImmutableDenseMatrix([c]))]
     for q in (q for q in strange if q not in moving):

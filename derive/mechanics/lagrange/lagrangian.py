@@ -132,7 +132,7 @@ def equation_of_motion(
     """Lagrange's equation, d/dt dL/dq_dot - dL/dq = 0; with constraints or forces outside L, see `forced_equation`.
 
     of            the Lagrangian, J
-    q             one of its coordinates
+    q             a coordinate of this Lagrangian
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
@@ -282,7 +282,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
     """Generalized force of the Lagrangian, dL/dq.
 
     of   the Lagrangian, J
-    q    one of its coordinates
+    q    a coordinate of this Lagrangian
     Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
     e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
     Outcomes: generic, zero (L does not contain q).
@@ -324,7 +324,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     """Generalized momentum, p = dL/dq_dot.
 
     of   the Lagrangian, J
-    q    one of its coordinates
+    q    a coordinate of this Lagrangian
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
@@ -352,7 +352,7 @@ MOMENTUM_RATE = Rule(
 def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Rate of a generalized momentum, dp/dt, by the chain rule.
 
-    momentum   dL/dq_dot
+    momentum   the generalized momentum dL/dq_dot
     q          the coordinate of the momentum
     Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.

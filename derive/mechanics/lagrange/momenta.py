@@ -66,7 +66,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     """Conjugate momentum of a coordinate, p_q = dL/dq_dot.
 
     of   the Lagrangian, J
-    q    one of its coordinates
+    q    a coordinate of this Lagrangian
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Outcomes: generic, zero.
     Errors: L contains neither q nor its rate.

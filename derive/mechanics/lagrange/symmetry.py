@@ -130,7 +130,8 @@ CHANGE_UNDER_SHIFT = Rule(
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
-    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt, which must be dF/dt, or zero."""
+    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt. It must equal the time derivative of
+    `gain`."""
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)
@@ -198,7 +199,7 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
-    """Return the product, with brackets that remain if a factor is a sum."""
+    """Return the product. If a factor is a sum, its brackets are kept and not multiplied out."""
     both = factor != 1 and (factor.is_Add or derivative.is_Add)
     return Factors(factor, derivative) if both else factor * derivative
 

@@ -28,7 +28,7 @@ ZERO, ONE = Integer(0), Integer(1)
 class StaticLimit:
     """The largest static friction: |F| <= mu_s N.
 
-    coefficient   mu_s
+    coefficient   the coefficient of static friction, mu_s
     normal        the symbol of the normal force of the same contact
     slider        the name of the body that would slip, if the author gave one: "block"
     """
@@ -156,9 +156,10 @@ class Constraint(Part):
     def kind_of_force(self) -> str | None:
         """The kind of the multiplier, or None if the kind is unknown.
 
-        The kind is "force" if the forces on material points are known. Otherwise it follows from the first term of f
-        that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque" for an
-        angle. For any other coordinate, it is the kind with the dimension of an energy divided by the coordinate.
+        The kind is "force" if the forces on material points are known. Otherwise the kind follows from the first term
+        of f that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque"
+        for an angle. For any other coordinate, the kind is the one with the dimension of an energy divided by the
+        coordinate.
         """
         if self.forces:
             return "force"
@@ -183,7 +184,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     """A constraint f = c on coordinates or on their rates, enforced by a force.
 
     condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
-    equals      c
+    equals      the constant value c of f
     force       the symbol of the multiplier: a force if f is a length, a torque if f is an angle
     """
     try:
@@ -204,5 +205,6 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     if not is_zero(
         made.residual - explicit(as_expr(condition) - equals)
     ):  # the sign of the force depends on the sign of the condition
-        raise Unverified(Complaint("unverified", f"the constraint was changed to {made.residual} = 0"))
+        message = f"`constraint` made {made.residual} = 0, which is not the given condition"
+        raise Unverified(Complaint("unverified", message))
     return made

@@ -44,7 +44,7 @@ class Contact(Connection):
 
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
-    surface  the surface
+    surface  the surface that the body touches
     gap      the distance between the body and the surface, or the height of the body above a curve, m
     normal   the unit vector from the surface to the body
     """
@@ -313,7 +313,7 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
 
     If two axes are in the surface, the vectors are along these axes. Otherwise one vector is along a horizontal axis in
     the surface, and the other vector is perpendicular to this axis. The other vector has the name of the other
-    horizontal axis; if the surface faces upwards, it points to the positive side of this axis.
+    horizontal axis; if the surface faces upwards, this vector points to the positive side of the axis.
     """
     n = touch.normal.components
     flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}

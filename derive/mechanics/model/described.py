@@ -75,7 +75,7 @@ def described(
 ) -> plain.Description:
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
-    bodies   the bodies among the parts
+    bodies   those parts of the system that are bodies
     known    coordinate -> its formula in other coordinates; the description contains the condition that the coordinate
              is equal to this formula
     """

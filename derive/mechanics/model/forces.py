@@ -221,7 +221,7 @@ def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
 
 def _place(verb: str, at: Any) -> Location:
     if not isinstance(at, Location):
-        raise Rejected(Complaint("wrong-argument", f"`{verb}` acts at a place that `point` or `place` gives"))
+        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs a place that `point` or `place` gives"))
     return at
 
 
@@ -260,7 +260,7 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
         found.load(())  # raises an error if `of` is not a body or particle
         return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
-        message = "`damping` acts against the velocity of a place or against the rate of a coordinate"
+        message = "`damping` must act on a place or along a coordinate"
         raise Rejected(Complaint("wrong-argument", message))
     return Damper(constant, (as_expr(at),))
 

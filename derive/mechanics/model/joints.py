@@ -72,7 +72,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
     """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
     of, to   points of bodies, as for `pin`
-    force    as for `pin`
+    force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
     The angle keeps the value that it has where all coordinates are zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
@@ -80,7 +80,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
     bodies = [end_of(each)[1] if is_end(each) else None for each in (of, to)]
     turned: list[Any] = [each.turned for each in bodies if isinstance(each, PlacedBody) and each.is_plane]
     if len(turned) < 2:
-        raise Rejected(Complaint("wrong-argument", "`weld` joins two bodies that move in a plane"))
+        raise Rejected(Complaint("wrong-argument", "`weld` needs two bodies that move in a plane"))
     angle = explicit(as_expr(turned[0] - turned[1]))
     if not coordinates_in(angle):
         message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
@@ -93,7 +93,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
 class Motor(Connection):
     """A motor, whose torque keeps an angle equal to a prescribed function of time.
 
-    angle    the angle
+    angle    the angle that the motor prescribes
     torque   the symbol of the torque
     """
 
@@ -167,12 +167,12 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     """A dashpot between two points at the distance d. Its force on each point has the magnitude c |d_dot| and opposes
     the change of d.
 
-    constant     c, kg/s
+    constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 11.3.
     """
     if not all(map(is_end, (start, end))):
-        raise Rejected(Complaint("wrong-argument", "`dashpot` ends at particles, points of bodies, or places"))
+        raise Rejected(Complaint("wrong-argument", "`dashpot` must end at particles, points of bodies, or places"))
     ends = end_of(start), end_of(end)
     require_bodies("dashpot", ends)
     (one, _), (other, _) = ends

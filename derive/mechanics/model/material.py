@@ -67,6 +67,6 @@ def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
         return particle_of(of, at)
     if hasattr(of, "mass") and isinstance(getattr(of, "at", None), Location):
         return MaterialPoint(of.at.components)
-    message = f"`{verb}` acts on a particle or on a body that is placed or held"
+    message = f"`{verb}` must act on a particle or on a body that is placed or held"
     help_line = 'give the particle or the body as `of=`, or give "massless"'
     raise Rejected(Complaint("wrong-argument", message, help=help_line))

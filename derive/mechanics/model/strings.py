@@ -34,8 +34,8 @@ ZERO = Integer(0)
 class Pulley(Connection):
     """A massless frictionless pulley: a circle over which strings run.
 
-    at       its centre
-    radius   its radius, m
+    at       the centre of the pulley
+    radius   the radius of the pulley, m
     """
 
     at: Location
@@ -82,7 +82,7 @@ class WeightOfRope(StoredEnergy):
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force along the rope on the first end that does the work of the weight. If all pieces move by ds along
              the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
-    at       the first end
+    at       the position of the first end
     """
 
     force: tuple[Expr, ...]
@@ -151,12 +151,12 @@ def pulley(at: Location, radius: Any) -> Pulley:
 def wire(of: Any) -> Wire:
     """A smooth wire on which a particle is threaded. The place of the particle must depend on exactly one coordinate.
 
-    of   the particle
+    of   the particle that is threaded on the wire
     """
     place = getattr(of, "at", None)
     moving = coordinates_in(ImmutableDenseMatrix(place.components)) if isinstance(place, Location) else {}
     if len(moving) != 1:
-        message = f"a particle on a `wire` has one coordinate, but this particle has {len(moving)}"
+        message = f"a particle on a `wire` must have one coordinate, but this particle has {len(moving)}"
         help_line = "leave the wire out, or give the place of the particle as a function of one coordinate"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return Wire((), of)
@@ -221,7 +221,7 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
     """A massless rigid rod between two hinges, which pulls or pushes only along its direction.
 
     start, end   particles, points of bodies, or places in space
-    length       the length, m
+    length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
@@ -239,7 +239,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     if whole is not None:
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
-        message = f"`{verb}` ends at a particle, at a body or a point of it, or at a place"
+        message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
         raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
     for wheel in ends[1:-1]:
         if isinstance(wheel, PlacedBody) and has_radius(wheel):
@@ -350,7 +350,8 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         help_line = f"give this `length`, for a {what} that is pulled in or paid out"
         raise Rejected(Complaint("missing-key", message, help=help_line))
     if whole is not None and not is_zero(kept - whole):
-        raise Rejected(Complaint("sizes", f"the coordinates keep the length {kept} of the {what}, not {whole}"))
+        message = f"with these coordinates the {what} has the length {kept}, but its `length` is given as {whole}"
+        raise Rejected(Complaint("sizes", message))
 
 
 def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:
@@ -365,7 +366,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 6.7.
     """
     if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
-        message = "`wound_string` goes from a particle, a point of a body or a place to a round body in a plane"
+        message = "`wound_string` must go from a particle, a point of a body or a place to a round body in a plane"
         raise Rejected(Complaint("wrong-argument", message))
     place, body = end_of(end)
     require_bodies("wound_string", [(place, body)])

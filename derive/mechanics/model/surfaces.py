@@ -155,8 +155,8 @@ class Curve(Surface):
     """A curve y = f(x) in a plane of motion; x and y are measured from a place. The free side is above or below.
 
     through   the place where x = 0 and y = 0
-    letter    x
-    formula   f(x)
+    letter    the symbol of x
+    formula   the formula f(x) of the height y
     """
 
     through: Location

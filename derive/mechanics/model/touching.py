@@ -23,7 +23,7 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     """Return the place where a round body touches a surface, the distance of the body from the surface, and the unit
     normal."""
     if surface.is_two_sided:
-        message = "a round body touches a plane, a curve, a circle or a sphere, but not a rail"
+        message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
     if isinstance(surface, Curve):
         foot = _foot(placed, surface)
@@ -41,7 +41,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 def _foot(placed: PlacedBody, curve: Curve) -> Location:
     """Return the place where a round body touches a curve: the place whose normal passes through the centre of the
-    body, at the distance of the radius. The horizontal distance of this place must be a coordinate."""
+    body, at the distance of the radius. The horizontal position of this place must be a coordinate of the
+    system."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
         foot = curve.point(q)

@@ -67,7 +67,7 @@ def speed_from_energy(
     """Square of the rate of a coordinate by conservation of energy, q_dot^2 = 2 (E - V(q))/m(q).
 
     energy       a conserved energy, J, of the form E = m(q) q_dot^2/2 + V(q)
-    q            the coordinate
+    q            the coordinate of the motion
     start        value of q at the start
     start_rate   value of q_dot at the start, by default 0, for a release from rest
     motion       the equation of motion, or q_ddot from it; needed if the energy does not determine the forces on q
@@ -221,7 +221,7 @@ RATE_BY_ENERGY = Rule(
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
     """Rate of a coordinate, the root of its square, with the sign that the rate has just after the start.
 
-    squared   q_dot^2 from `speed_from_energy`
+    squared   the squared rate q_dot^2, a result of `speed_from_energy`
     The sign is that of the initial rate or, at a start from rest, that of the acceleration.
     Check: the square of the result is q_dot^2.
     Outcomes: grows (the coordinate increases from the start), falls (the coordinate decreases from the start), size

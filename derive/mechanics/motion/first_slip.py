@@ -168,7 +168,8 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if it is known to be always true, as a > b sqrt(c) is if a > 0 and a^2 > b^2 c."""
+    """Return the condition; None if the condition is known to be always true. For example, a > b sqrt(c) is true if
+    a > 0 and a^2 > b^2 c."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

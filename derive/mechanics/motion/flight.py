@@ -53,7 +53,7 @@ SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 class Departure:
     """The state in which a particle leaves a surface, or its string goes slack.
 
-    lost    the relation for the place, from `leaves`
+    lost    the result of `leaves`: the relation for the place where contact is lost
     speed   the squared rate of the coordinate before the departure, by conservation of energy
     letter  the symbol for the value of the coordinate at the departure; None if the value itself is used
     """
@@ -133,7 +133,7 @@ class Departure:
 
     @cached_property
     def scale(self) -> Expr:
-        """The speed divided by the rate of the coordinate."""
+        """The speed divided by the magnitude of the rate of the coordinate."""
         return tidied(sqrt(tidied(Add(*(diff(c, self.q) ** 2 for c in self.curve)))))
 
     @cached_property
@@ -530,7 +530,8 @@ def _time_back(known: InFlight) -> Expr | None:
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
-        raise Unverified(Complaint("unverified", "the flight does not begin on the circle, along it, with no force"))
+        message = "the flight does not begin on the circle, along the circle, and without a force from the circle"
+        raise Unverified(Complaint("unverified", message))
     outwards, last = (tidied(c) for c in parts[3:])
     sign = sign_known(outwards)
     if orbit.inside and sign == -1:
@@ -602,7 +603,7 @@ STAYS_CLEAR = Rule(
 
 
 def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
-    """The particle does not meet the circle again: its distance from the centre stays greater than the radius.
+    """The step for a particle that never meets its circle again: its distance from the centre exceeds the radius.
 
     Outcomes: clear.
     Source: the same as for `landing`.
@@ -639,7 +640,7 @@ def _in_time(value: Expr) -> Expr:
 
 
 def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quantity:
-    """The particle does not reach the plane: its least distance from the plane is positive.
+    """The step for a particle that misses the plane: its least distance from the plane is positive.
 
     Outcomes: misses.
     Source: the same as for `landing`.
@@ -869,7 +870,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
 
 
 def _check_before_circle(known: InFlight, place: Vector) -> None:
-    """If the particle flies inside its circle, require a place inside too, because the flight ends on the circle."""
+    """If the particle flies inside its circle, require that the place is inside too: the flight ends on the circle."""
     if known.orbit is None or not known.orbit.inside:
         return
     if sign_known(tidied(_beyond(place, known.orbit))) != -1:

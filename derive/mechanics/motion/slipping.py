@@ -246,7 +246,7 @@ def _data(motion: Motion, side: int = 0) -> dict[str, Expr]:
 
 
 def _at_once(motion: Motion, side: int, key: str) -> Quantity:
-    """The friction would exceed its largest value at the start."""
+    """The step for a body that slips at once: at the start, friction without slipping would exceed mu_s N."""
     contact, start = motion.contact, {motion.q: motion.start}
     F, N = (tidied(each.xreplace(start)) for each in (contact.F, contact.N))
     return establish(
@@ -268,7 +268,7 @@ def _at_once(motion: Motion, side: int, key: str) -> Quantity:
 
 
 def _stays(motion: Motion, starts: Relation | None, key: str) -> Quantity:
-    """The motion reaches no place where the friction has its largest value."""
+    """The step for a body that never slips: nowhere in the motion does the friction reach its largest value mu_s N."""
     contact = motion.contact
     return establish(
         SLIPS,

@@ -73,8 +73,8 @@ def arrivals(
     """Return how motions come to the places at which a result is evaluated.
 
     of, others   the result, and other results that are substituted in it
-    places       the coordinate or a function of it, and its constant value at the place
-    limit        returns the limit of f at the place, as for `condition_to_reach`
+    places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression there
+    limit        a function that returns the limit of f at the place, as for `condition_to_reach`
     A place that one of the others finds from this motion needs no condition: the step of this place states it.
     Errors: the motion does not reach the place; or the result contains a rate with its sign at the start, and this sign
     is wrong or unknown at the place.

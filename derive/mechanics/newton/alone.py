@@ -64,7 +64,7 @@ class Alone:
     """A particle or a body of a system.
 
     part     the particle or the placed body
-    system   the system to which it belongs
+    system   the system to which this particle or body belongs
     """
 
     part: Any

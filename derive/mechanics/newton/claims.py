@@ -90,7 +90,7 @@ def _acceleration(facts: Judged) -> Vector:
 
 
 def _still(value: Expr, moving: Any) -> Expr:
-    """An expression with all rates and accelerations zero."""
+    """Return the expression with all rates and accelerations set to zero."""
     return explicit(value).xreplace({rate(q, n): Integer(0) for q in moving for n in (1, 2)})
 
 
@@ -174,8 +174,8 @@ def no_constraint_force(facts: Judged) -> bool:
 
 
 def constraint_forces_do_no_work(facts: Judged) -> bool:
-    """Whether constraint forces act, and no constraint depends on the time: for velocities that a constraint allows,
-    its force then has no power."""
+    """Whether constraint forces act, and no constraint depends on the time. The force of a constraint then has no
+    power for any velocities that this constraint allows."""
     return bool(facts.inputs["letters"]) and not any(map(depends_on_time, facts.inputs["velocities"]))
 
 
@@ -188,7 +188,7 @@ def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
 def same_equation(facts: Judged) -> bool:
     """Whether the law of the one body and the result are the same equation, up to a factor without rates.
 
-    Both are linear in the same symbol, an acceleration if there is one, and give it the same value.
+    Both are linear in the same symbol, an acceleration if there is one, and give this symbol the same value.
     """
     law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
     rates = {rate(q, n) for each in facts.quantities.values() for q in each.coordinates for n in (1, 2)}

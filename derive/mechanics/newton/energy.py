@@ -94,7 +94,7 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
 
     energy   the energy from `total_energy`
     system   the system to which this energy belongs
-    q        the only coordinate
+    q        the only coordinate of the system
     Second route: Lagrange's equation. Check: q_dot times the left side is the rate of change of E.
     Errors: the system has several coordinates, or a constraint force has a symbol.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.4 and 11.2.

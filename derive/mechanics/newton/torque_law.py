@@ -46,7 +46,7 @@ class About:
 
     word   "axis" (a fixed point), "centre_of_mass", "contact", or "point" (for a body at rest: a point where unknown
            forces act)
-    place  the components of its position, m
+    place  the components of the position of this point, m
     """
 
     word: str

@@ -33,7 +33,7 @@ from derive.mechanics.observations.view import Observed, View
 from derive.steps.step import Quantity
 
 Steps = list[Quantity]
-MOST = 2  # observations of a problem, unless the author chooses
+MOST = 2  # greatest number of observations in a problem, if the author does not choose them
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Observation:
     """A kind of observation.
 
     name    the name by which an author chooses it
-    found   yields the steps of this kind about the answers of a part
+    found   a function that yields the steps of this kind about the answers of a part
     at_end  whether the last part with such a step states it, instead of the first part
     """
 

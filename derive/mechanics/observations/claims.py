@@ -455,7 +455,7 @@ def first_to_arrive(facts: Judged) -> bool:
     """Whether the accelerations are in order and constant, so that of two bodies released together from rest the one
     with the greater acceleration arrives first.
 
-    The cases differ in the value of one symbol, a mass or a moment of inertia, so that the paths are the same.
+    The cases differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
     """
     cases = [q for role, q in facts.quantities.items() if role.startswith("case_")]
     told = [[value for role, value in q.step.roles if role.startswith("value_")] for q in cases]

@@ -67,7 +67,7 @@ INDEPENDENT = Rule(
 
 
 def independent(view: View) -> Observed:
-    """Given symbols that occur in the equations behind an answer, but not in the answer."""
+    """Given symbols that occur in the equations from which an answer follows, but not in the answer."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
         value = of.value.right if solved else of.value

@@ -237,8 +237,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is not negative for a few sets of trial numbers; a minimum of U is stable only if it
-    is never negative.
+    """Whether the kinetic energy is not negative for a few sets of trial numbers. A minimum of U is stable only if the
+    kinetic energy is never negative.
 
     Trial numbers that do not satisfy the assumptions of positivity are skipped. If the mass points and forces are
     unknown, the result is true.

@@ -134,7 +134,7 @@ STABILITY_ON_CONSTRAINTS = Rule(
 
 @dataclass(frozen=True)
 class OnConstraints:
-    """An equilibrium on constraints.
+    """An equilibrium of a system whose coordinates satisfy constraints.
 
     potential     the potential energy, J
     constraints   the constraints between the coordinates, with their forces
@@ -146,7 +146,7 @@ class OnConstraints:
     place: Mapping[Symbol, Expr]
 
     def stability(self, key: str) -> Quantity:
-        """Stability of an equilibrium on constraints, from the second order of U along the allowed displacements.
+        """Stability of an equilibrium under constraints, from the second order of U along the allowed displacements.
 
         Second route: the energy along curves that stay on the constraints, to second order.
         Outcomes: stable, unstable, level, depends.

@@ -16,8 +16,8 @@ from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
-STEPS, TRIALS = 1500, 3  # parts of a range; sets of numbers for the symbols
-HALVINGS, SHRUNK = 40, 1e-6  # halvings of an interval; at a zero, the force must decrease below this fraction
+STEPS, TRIALS = 1500, 3  # number of parts of a range; number of sets of numbers for the symbols
+HALVINGS, SHRUNK = 40, 1e-6  # number of halvings of an interval; at a zero the force must then be below this fraction
 LITTLE = 1e-9
 
 

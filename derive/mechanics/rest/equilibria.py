@@ -354,7 +354,8 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 
 def all_matter(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy, including magnetic forces, which are not in U."""
+    """Return the mass points and forces to which a potential energy belongs, including magnetic forces, which are not
+    in U."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -366,7 +367,8 @@ def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Rout
 
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
-    """Return dU/dq from the virtual work of the forces behind U, or from the first order of U in a displacement."""
+    """Return dU/dq from the virtual work of the forces with the potential energy U, or from the first order of U in a
+    displacement."""
     matter = matter_behind(potential)
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
@@ -438,7 +440,7 @@ def _rest(
     n: int,
     states: Sequence[State],
 ) -> Quantity:
-    """One equilibrium.
+    """The step for one equilibrium.
 
     Outcomes: always, where, only.
     Source: the same as for `equilibria`.

@@ -33,7 +33,7 @@ class RestOf(Fact):
 
 
 def matter_behind(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy; None if they are unknown.
+    """Return the mass points and forces to which a potential energy belongs; None if they are unknown.
 
     For an effective potential energy, the mass points and forces do not contain the coordinates that were eliminated
     with constant momenta.

@@ -25,7 +25,7 @@ from derive.steps.step import Quantity
 
 DIGITS = 75
 SMALL = 10  # a growth rate or a gyroscopic force below 10^-SMALL of the largest value counts as zero
-FEW = 3  # sets of numbers that are tried if there are no gyroscopic forces
+FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain
 
@@ -34,7 +34,7 @@ Leftover = Callable[..., Sequence[Any]]
 
 
 def matter_of(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces behind a potential energy, including magnetic forces."""
+    """Return the mass points and forces to which a potential energy belongs, including magnetic forces."""
     if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
         return potential.subject.body.matter
     return matter_behind(potential)
@@ -157,7 +157,7 @@ def _grows(inertia: Any, damping: Any, stiffness: Any) -> bool:
 
 
 def _is_turned(inertia: Any, damping: Any, stiffness: Any) -> bool:
-    """Whether C is not symmetric."""
+    """Whether the matrix C, the derivatives with respect to the rates, is not symmetric."""
     return bool(_largest(damping - damping.T) > mp.mpf(10) ** -SMALL * (_largest(damping) + mp.mpf(10) ** -SMALL))
 
 

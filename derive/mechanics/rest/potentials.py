@@ -109,7 +109,7 @@ def extreme_value(
 
     potential   a function of one coordinate, J
     by          the coordinate, if the potential energy depends on several
-    at          q_0; 0 by default
+    at          the value q_0 of the coordinate; 0 by default
     Check: the term of order zero in the expansion of U about q_0.
     Outcomes: minimum, maximum, level (U'' vanishes too), conditional (the sign of U'' is unknown).
     Errors: U' does not vanish at q_0.
@@ -167,7 +167,7 @@ def leading_order(
     of         a potential energy of one coordinate, J; or the curvature at an equilibrium, as `stability` yields it,
                which determines q_0 and the boundary
     where      an equation, symbol = value, for which the curvature of this potential energy vanishes at q_0
-    at         q_0; 0 by default
+    at         the value q_0 of the coordinate; 0 by default
     Check: of the derivatives of U at q_0 up to the n-th, only the n-th does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.

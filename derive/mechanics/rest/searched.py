@@ -22,7 +22,8 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 
-TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25  # sets of numbers; random starts; all starts; steps of one search
+# numbers of: sets of numbers for the symbols; random starts; all starts; steps of one search
+TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25
 CLOSE, DIGITS = 1e-6, 50
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, TypeError)
 

@@ -1,8 +1,8 @@
 """The mass, the centre of mass and the inertia tensor of composite bodies, which have parts in any position and
 orientation, and cavities.
 
-The tensor of each part about its centre of mass is rotated to the axes of the whole and shifted by the parallel-axis
-theorem. The shifted tensors of the parts are added; those of cavities are subtracted.
+The tensor of each part about its centre of mass is rotated to the axes of the whole body and shifted by the
+parallel-axis theorem. The shifted tensors of the parts are added; those of cavities are subtracted.
 """
 
 from __future__ import annotations
@@ -100,12 +100,12 @@ class Composite(Body):
     parts    bodies. `.at(x, y, z)` moves the centre of mass of a body to this position; `.at(x, y, z, of="end")` moves
              the point "end" of the body to this position. `.turned("x", angle)` rotates the body about the point that
              `.at` moved. `minus(part)` is a cavity
-    mass     the mass of a uniform whole, whose parts have masses in proportion to their sizes
-    points   names for positions in the whole, such as a pivot
+    mass     the mass of a uniform composite body; the masses of the parts are proportional to their sizes
+    points   names for positions in the whole body, such as a pivot
     Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
     Errors: there is no part; the names of two parts have the same first word; the parts cannot form a body, for example
-    because two of them overlap; the mass of the whole is not positive; one mass is given for parts of different
-    dimensions, or for particles.
+    because two of them overlap; the mass of the whole body is not positive; one mass is given for parts of which some
+    are volumes and others areas or lengths, or for particles.
     """
 
     id: ClassVar[str] = "body_of_several_parts"
@@ -169,14 +169,14 @@ class Composite(Body):
 
     @cached_property
     def whole_mass(self) -> Quantity:
-        """The step that derives the mass of the whole, the sum of the masses of the parts."""
+        """The step that derives the mass of the whole body, the sum of the masses of the parts."""
         return _total_mass(self)
 
     @property
     def density(self) -> Quantity:
         """A step for a mass, because a composite body has no single density.
 
-        If one mass is given for the whole, the step derives the mass of the first part, otherwise the total mass.
+        If one mass is given for the whole body, the step derives the mass of the first part, otherwise the total mass.
         """
         return self.shares[0] if self.shares else self.whole_mass
 
@@ -240,12 +240,12 @@ SHARE_OF_MASS = Rule(
 
 
 def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
-    """Mass of a part of a uniform body, M times the size of the part divided by the size of the whole.
+    """Mass of a part of a uniform body, M times the size of the part divided by the size of the whole body.
 
-    body   the whole
-    part   one of the parts of the whole, or a cavity
-    mass   the mass M of the whole
-    Second route: the density of the whole integrated over the part.
+    body   the whole composite body
+    part   one of the parts of the whole body, or a cavity
+    mass   the mass M of the whole body
+    Second route: the density of the whole body integrated over the part.
     Outcomes: part, hole.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -283,9 +283,9 @@ TOTAL_MASS = Rule(
 
 
 def _total_mass(body: Composite) -> Quantity:
-    """Mass of the whole, the sum of the masses of the parts.
+    """Mass of the whole body, the sum of the masses of the parts.
 
-    body   the whole, with its parts
+    body   the composite body with its parts
     Second route: the integral of dm over all parts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """
@@ -315,7 +315,7 @@ CENTRE_OF_PARTS = Rule(
 def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Quantity:
     """Centre of mass relative to a point, r_C = (m_1 r_1 + m_2 r_2 + ...)/M.
 
-    body    the whole, with its parts
+    body    the composite body with its parts
     start   the point from which the centre of mass is measured
     Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
     Outcomes: generic, cut_out (some part is a cavity).
@@ -356,9 +356,9 @@ TENSOR_OF_PARTS = Rule(
 
 
 def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Quantity:
-    """Inertia tensor of the whole about a point, the sum of the tensors of the parts.
+    """Inertia tensor of the whole body about a point, the sum of the tensors of the parts.
 
-    body    the whole, with its parts
+    body    the composite body with its parts
     point   the point of the tensor; `point.axes` are the axes of the components
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
@@ -392,12 +392,13 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 
 
 def _told(point: Point) -> str:
-    """Return the word for a point. The centre of the whole is "centre_of_mass", since each part also has a centre."""
+    """Return the word for a point. The centre of the whole body is "centre_of_mass", since each part also has a
+    centre."""
     return "centre_of_mass" if point.name == "centre" else point.name
 
 
 def _for_the_whole(part: Quantity) -> Quantity:
-    """Return a quantity of a part without its subject, since the sum belongs to the whole."""
+    """Return a quantity of a part without its subject, since the sum belongs to the whole body."""
     return replace(part, subject=NOTHING)
 
 
@@ -420,12 +421,12 @@ TENSOR_OF_PART = Rule(
 
 
 def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str, key: str) -> Quantity:
-    """Inertia tensor of one part about a point of the whole, R I R^T + m (d.d 1 - d d). If R is 1 and d is zero, this
-    is the step that derives I, the tensor of the part about its centre of mass.
+    """Inertia tensor of one part about a point of the whole body, R I R^T + m (d.d 1 - d d). If R is 1 and d is zero,
+    this is the step that derives I, the tensor of the part about its centre of mass.
 
-    body    the whole
-    part    one of the parts of the whole; R is the rotation of the part, and d is the displacement of its centre of
-            mass from the point
+    body    the whole composite body
+    part    one of the parts of the whole body; R is the rotation of the part, and d is the displacement of its centre
+            of mass from the point
     point   the point of the tensor; `point.axes` are the axes of the components
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part.
     Outcomes: turned_there (the centre of the part is at the point), moved, turned_moved.
@@ -476,10 +477,10 @@ WAY_TO_PART = Rule(
 
 
 def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
-    """Displacement of the centre of mass of a part from a point of the whole.
+    """Displacement of the centre of mass of a part from a point of the whole body.
 
-    part    the part
-    point   the point of the whole
+    part    the part of the composite body
+    point   the point of the whole body
     d       the displacement, computed from the position and the rotation of the part
     Second route: the mean position of the particles of the part.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.

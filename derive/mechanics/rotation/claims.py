@@ -314,8 +314,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced exactly if `moved`, and its axes differ from the axes of the whole exactly if
-    `turned`."""
+    """Judge whether the part is displaced exactly if `moved`, and its axes differ from the axes of the whole body
+    exactly if `turned`."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -460,8 +460,8 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
-    """Whether the axis of the whole that the sentence names is the index of the symbol, as in I_z, and is parallel to
-    the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis."""
+    """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
+    to the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

@@ -105,7 +105,7 @@ class RigidBody(Placeable, OfParticles):
             raise Rejected(Complaint("wrong-argument", "`RigidBody` needs three moments, or one for plane motion"))
         if self.about not in _POINTS:
             known = " or ".join(f'"{point}"' for point in _POINTS)
-            raise Rejected(Complaint("wrong-argument", f"the moments of a `RigidBody` are about {known}"))
+            raise Rejected(Complaint("wrong-argument", f"the moments of a `RigidBody` must be about {known}"))
         for moment in self.moments:
             require_constant("RigidBody", "moment of inertia", moment)
         if self.mass is not None:

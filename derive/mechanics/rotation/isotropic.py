@@ -104,7 +104,8 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """Return the first symbol of `letter` with exactly one positive root, this root, and the power of the symbol."""
+    """Return the first symbol in `letter` for which the equation difference = 0 has exactly one positive root, this
+    root, and the power that `_root` returns."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:

@@ -41,7 +41,7 @@ def linearised_rotation(
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a body rotates about "x", "y" or "z", not about "{axis}"'))
+        raise Rejected(Complaint("no-such-axis", f'a body can rotate about "x", "y" or "z", not about "{axis}"'))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
     disturbed = Disturbed(AXES.index(axis), speed, of)
@@ -103,7 +103,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # now a symbol for the small change of this component, which is of second order
+        beside = moving[disturbed.axis]  # now a symbol for the change of this component; the change is of second order
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(

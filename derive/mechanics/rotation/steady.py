@@ -25,7 +25,7 @@ def constant_angular_velocity(
 ) -> Quantity:
     """A constant angular velocity by its components along the body axes, in 1/s: a definition.
 
-    components   three components, 1/s
+    components   the three components of the angular velocity, 1/s
     through      the point of the body that stays at rest
     Errors: there are not three components; all components vanish; a component changes in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
@@ -38,7 +38,7 @@ def momentary_angular_velocity(
 ) -> Quantity:
     """The angular velocity at one instant by its components along the body axes, in 1/s: a definition.
 
-    components   three components, 1/s
+    components   the three components of the angular velocity, 1/s
     through      the point of the body that is at rest at this instant
     Errors: there are not three components; all components vanish; a component is not a constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
@@ -55,7 +55,8 @@ CONSTANT_ANGULAR_VELOCITY = Rule(
 
 def _given(verb: str, components: Sequence[Expr], through: str, symbol: str, key: str) -> Quantity:
     if len(components) != 3:
-        raise Rejected(Complaint("wrong-argument", f"an angular velocity has three components, not {len(components)}"))
+        message = f"an angular velocity needs three components, not {len(components)}"
+        raise Rejected(Complaint("wrong-argument", message))
     omega = column(*components)
     if is_zero(omega):
         raise Rejected(Complaint("zero-vector", "a body whose angular velocity vanishes does not rotate"))

@@ -254,7 +254,10 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
     for letter in sorted(given.free_symbols - known, key=str):
         if (found := solved_for_letter(given - value, letter)) is not None:
             return {letter: presented(found)}
-    message = f"`frequency_squared_about`: `{of.key}` has the momentum {given}, which is {value} in the steady motion"
+    message = (
+        f"`frequency_squared_about`: in `{of.key}` the momentum is given as {given}; in the steady motion it is "
+        f"{value}, and {given} = {value} cannot be solved for a symbol of {given}"
+    )
     help_line = "give this momentum as a separate symbol, or omit its value"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 

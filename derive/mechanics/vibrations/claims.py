@@ -468,8 +468,8 @@ def _displaced(facts: Judged) -> bool:
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
     """Judge three statements separately; each must be true if its argument is true, and false if it is false.
 
-    displaced   an equilibrium value is not zero
-    lossy       there is drag; not judged if None
+    displaced   whether an equilibrium value of some coordinate is not zero
+    lossy       whether there is drag; None if this is not judged
     driven      the right side of the equation is not zero
     """
 

@@ -98,7 +98,7 @@ DAMPED_FREE = Rule(
 
 
 def _free(equations: DampedModes, characteristic: Quantity) -> Quantity:
-    """Exponent zero: a displacement without a restoring force.
+    """The step for the exponent zero, which belongs to a displacement without a restoring force.
 
     Source: the same as for `normal_modes`.
     """

@@ -67,7 +67,7 @@ def steady_amplitude(
     if the sign of c - a omega^2 is unknown, it is assumed to be positive.
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
-    q          the coordinate
+    q          the coordinate of the equation of motion
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
     Outcomes: damped, undamped (the lag is 0), opposite (only for the lag: without damping, above resonance, it is pi).
     Errors: the equation is not linear with constant coefficients, or is not driven by a single force F cos(omega t)
@@ -191,7 +191,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     """Quality factor of a damped oscillator, Q = omega_0/(2 beta) = sqrt(a c)/b.
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
-    q          the coordinate
+    q          the coordinate of the equation of motion
     Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
     q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
     the energy that the damping takes in one period.

@@ -120,7 +120,7 @@ def solution(
 
     equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
     equation may be of first order, a = 0, or solved for q_ddot or q_dot
-    q            the coordinate
+    q            the coordinate of the equation of motion
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open

@@ -40,7 +40,7 @@ def oscillator_constants(equation: Quantity, q: Symbol, a: Expr, b: Expr, c: Exp
     Nothing is proposed unless a and c are known to be positive, and b is known to be positive or zero.
 
     equation   the equation of motion whose coefficients are a, b and c
-    q          the coordinate
+    q          the coordinate of the equation of motion
     """
     if sign_known(a) != 1 or sign_known(c) != 1 or sign_known(b) not in (0, 1):
         return

@@ -42,7 +42,7 @@ ZERO = Integer(0)
 class ExcitedMode:
     """One mode in a motion: the shape, the initial values of the oscillator along the shape, and the frequency.
 
-    column      the shape
+    column      the shape of the mode: one amplitude for each coordinate
     first       the initial value of the oscillator
     initial     the initial rate of the oscillator
     frequency   the step that derives the frequency; None with drag

@@ -13,8 +13,8 @@ from derive.render.drawing.hidden_lines import OnPaper
 
 POINTS_PER_CM = 72 / 2.54
 TRIES = 12  # iterations to find the scale
-LABEL = 8.0  # points: approximate width of a letter
-SMALLEST = 15.0  # points: the size of the drawing if its parts of fixed size leave no room
+LABEL = 8.0  # in points: approximate width of a letter
+SMALLEST = 15.0  # in points: the size of the drawing if its parts of fixed size leave no room
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:

@@ -30,18 +30,18 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 STEPS = 240
-MOST_ACROSS, MOST_UP = 6, 4  # most intervals between the ticks of the two axes
+MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
 ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 MARGIN = 0.08  # margin around a path, in units of its width and height
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
-TICK = 3.5  # points: the length of a tick, and the distance from a tick to its number
-PAD = 4.0  # points: the distance of the name of an axis from its numbers, and of a name from its dot
-EDGE = 3.0  # points: the margin around everything
+TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
+PAD = 4.0  # in points: the distance of the name of an axis from its numbers, and of a name from its dot
+EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
-DOT = 2.2  # points: the radius of the dot at an extremum
+DOT = 2.2  # in points: the radius of the dot at an extremum
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 

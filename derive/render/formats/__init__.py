@@ -1,8 +1,9 @@
 """The formats of a single page: each module of this package defines one format, and is imported only here.
 
-A module defines `FORMAT = Format(...)`. This definition adds a value of `--format`, a text in `Rendered` and, if the
-format is `built`, a file of each build. Listing the formats, even in `--help`, imports all these modules. So a module
-imports the code that renders a page only when it renders a page.
+A module defines `FORMAT = Format(...)`. With this definition, `--format` accepts the name of the format, and
+`Rendered.texts` can contain a text in it. If the format is `built`, each build writes a file in it for each problem.
+Listing the formats, even in `--help`, imports all these modules. So a module imports the code that renders a page only
+when it renders a page.
 """
 
 from __future__ import annotations

@@ -28,8 +28,8 @@ def letter_clashes(
 ) -> list[Complaint]:
     """Return at most one error for each symbol of the problem: its printed form must not also mean something else.
 
-    `coordinates` are the coordinates that the script names. A body that the script creates earlier may use the same
-    symbols as variables of integration.
+    `coordinates` are the coordinates that the script names. If the script creates a body before it names the
+    coordinates, a variable of integration of this body can have the symbol of a coordinate; this is an error.
     """
     used, defined = letters_in_use(problem), {each.name: each.symbol for each in problem.defined}
     looks = {as_printed(letter): letter for letter in used}

@@ -32,7 +32,7 @@ def document_fragments(
 ) -> dict[str, str]:
     """Return each document in TeX by its name and in HTML by `name.html`, but the sheet only in HTML.
 
-    pages   returns the page for a document
+    pages   a function that returns the page for a document
     """
     found: dict[str, str] = {}
     for kind in wanted:

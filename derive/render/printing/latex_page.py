@@ -43,7 +43,7 @@ from derive.render.rendered import Tex
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 FEW_ROWS = 4  # a display of at most this many steps, each of one low row, is not divided between pages
-NARROW = 26  # characters: two steps of this width fit on one line
+NARROW = 26  # in characters: two steps of this width fit on one line
 
 
 @dataclass(frozen=True)
@@ -307,7 +307,7 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
-    """Return whether the lines are a single row that does not end in a vector or tensor."""
+    """Return whether the lines are a single row, and no side of this row ends in a vector or tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 

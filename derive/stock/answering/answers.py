@@ -38,7 +38,7 @@ class ForEach(Generic[T]):
     """Answers with one name for each coordinate, axis or symbol.
 
     pattern   the names, with `{}` in place of the coordinate, axis or symbol
-    each      returns the coordinates, axes or symbols
+    each      a function that returns the coordinates, axes or symbols
     method    derives the answer for one coordinate, axis or symbol
     """
 

@@ -154,7 +154,7 @@ class DescribedBody:
     """A body of a description.
 
     parts    one body, or several bodies in their positions
-    mass     the mass of the whole, if it is given; it is then divided among the parts
+    mass     the mass of the whole body, if it is given; it is then divided among the parts
     points   name of a point of the body -> its position
     is_integrated   whether a standard moment of inertia is integrated in place of quoting it
     """
@@ -258,8 +258,8 @@ class Bodies:
         written.check_integrated(faults)
         faults.stop()
         if whole_mass is not None and written.mass is not None:
-            message = f"the mass of the whole is given and divided among its parts, so `{name}` has no `mass`"
-            rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole")
+            message = f"the mass of the whole body is given and divided among its parts, so `{name}` has no `mass`"
+            rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole body")
         body = self._alone(written, whole_mass)
         with told_at(name.place):
             part: Any = body if isinstance(body, PointMass) else body.named(str(name))

@@ -26,10 +26,10 @@ class Deferred(Generic[N]):
 
     make    the class or the verb that makes the object
     of      the positional arguments of `make`
-    named   the arguments of `make` by name
+    named   the keyword arguments of `make`
     bodies  argument of `make` -> names of bodies or particles; any other name, such as `ground`, is passed on as text
     forces  the symbols of the constraint forces that the object introduces
-    place   where the object was described
+    place   the place in the file where the object is described
     """
 
     make: Callable[..., N]

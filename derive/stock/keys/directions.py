@@ -88,5 +88,5 @@ class Directions:
 
     def _turn(self, axis: Word, node: Tree) -> tuple[str, Expr]:
         if axis not in ("x", "y", "z"):
-            rejected("no-such-axis", f"axes rotate about x, y or z, not about `{axis}`", axis.place)
+            rejected("no-such-axis", f"axes can rotate about x, y or z, not about `{axis}`", axis.place)
         return str(axis), self.letters.of_kind(node, f"the angle about {axis}", "angle")

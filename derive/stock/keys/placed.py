@@ -136,7 +136,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         if not given:
             rejected("missing-key", f"a body needs {listed}, which specifies its {what}", self.places[""])
         if len(given) > 1:
-            message = f"a body has only one of {listed}: each specifies its {what}"
+            message = f"a body can have only one of {listed}: each specifies its {what}"
             rejected("twice", message, self.places[given[1]], "leave one of them out")
 
     def _turned(self, places: Places, letters: InLetters) -> Axes | Expr:

@@ -240,7 +240,7 @@ class Places:
         axes = space
         for about, node in (pair for turn in turns for pair in turn.items()):
             if about not in AXIS_OF:
-                rejected("no-such-axis", f"axes rotate about x, y or z, not about `{about}`", about.place)
+                rejected("no-such-axis", f"axes can rotate about x, y or z, not about `{about}`", about.place)
             angle = self.letters.of_kind(node, f"an angle of {name}", "angle")
             with told_at(about.place):
                 axes = axes.turned(AXIS_OF[about], angle)

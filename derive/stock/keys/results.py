@@ -100,7 +100,7 @@ class Surroundings:
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
-            rejected("wrong-argument", f"`{name}` denotes {len(found)} answers", name.place)
+            rejected("wrong-argument", f"`{name}` denotes {len(found)} answers, not one", name.place)
         return found[0]
 
     def momenta_named(self, names: Iterable[str]) -> None:

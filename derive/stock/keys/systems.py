@@ -480,5 +480,5 @@ def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
     """Reject a value at an end of the range of its coordinate, or beyond: small displacements need room on both
     sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
-        message = f"`{q}` lies between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
+        message = f"`{q}` must be between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
         rejected("range", message, q.place, help=f"give `{q}` a wider range, or none")

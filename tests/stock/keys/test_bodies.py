@@ -170,10 +170,13 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{parts: {rod: {shape: rod, length: h, mass: M, of: end}}}",
             "5: `rod` needs `at`, the position of its point `of`",
         ),
-        ("{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}", '5: a rotation is about "x", "y" or "z"'),
+        (
+            "{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}",
+            '5: a rotation must be about "x", "y" or "z"',
+        ),
         (
             "{mass: M, parts: {rod: {shape: rod, length: h, mass: M}}}",
-            "5: the mass of the whole is given and divided among its parts, so `rod` has no `mass`",
+            "5: the mass of the whole body is given and divided among its parts, so `rod` has no `mass`",
         ),
         ("{parts: {Rod: {shape: rod, length: h, mass: M}}}", "5: `Rod` is not a name for a body"),
         (

@@ -69,7 +69,7 @@ def test_the_other_root_is_chosen(choice: str, tmp_path: Path) -> None:
     [
         ("3", "`root: 3` does not determine one root: there are 2"),
         ("0", "`root: 0` does not determine one root: there are 2"),
-        ("latest", "`latest` is not a choice of a root"),
+        ("latest", "`latest` does not say which root is meant"),
     ],
 )
 def test_a_choice_that_fits_no_root_is_told_at_its_place(choice: str, said: str, tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_turns_follow_each_other(tmp_path: Path) -> None:
         ),
         ("direction: [1, 0]", "6: `direction` must be a direction or three components"),
         ("direction: [1, q, 0]", "6: `q` is not declared"),
-        ("turned: {w: alpha}", "6: axes rotate about x, y or z, not about `w`"),
+        ("turned: {w: alpha}", "6: axes can rotate about x, y or z, not about `w`"),
         ("turned: {z: R}", "6: `the angle about z` must be an angle, but `R` is a length"),
     ],
 )

@@ -94,7 +94,7 @@ def test_a_formula_may_hold_letters_and_powers_and_another_formula(made: str, va
         ("turnig/about", "`turnig` is not the name of an answer"),
         ("orbit/2", "`orbit` is not a number"),
         ("made/2", "`made` is computed from itself"),
-        ("equations_of_motion/2", "`equations_of_motion` denotes 2 answers"),
+        ("equations_of_motion/2", "`equations_of_motion` denotes 2 answers, not one"),
         ("turning^2", "`^` is not part of an expression"),
         ("sin(turning)", "`sin` takes an angle or a number"),
     ],
@@ -155,7 +155,7 @@ def test_brackets_of_formulas_in_coordinates_and_momenta(tmp_path: Path) -> None
     ("old", "new", "said"),
     [
         ("[x**2, p_x]", "[x**2]", "`bracket` needs two functions, not 1"),
-        ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` denotes 3 answers"),
+        ("[x**2, p_x]", "[x**2, equations_of_motion]", "`equations_of_motion` denotes 3 answers, not one"),
         ("[x**2, p_x]", "[x**2, p_w]", "`p_w` is not the name of an answer"),
         ("[x**2, p_x]", "[x_dot, p_x]", "but x_dot contains x_dot"),
         ("{x: -y, y: x}", "{x: -y, m: x}", "`noether` shifts coordinates, but `m` is not a coordinate"),

@@ -68,7 +68,7 @@ def test_a_hoop_that_rolls_has_one_coordinate(tmp_path: Path) -> None:
         ("{shape: rod, length: l, mass: m, turned: theta}", "a body needs `centre`, `held` or `from`"),
         (
             "{shape: rod, length: l, mass: m, turned: theta, centre: [0, 0], held: end}",
-            "a body has only one of `centre`, `held` or `from`",
+            "a body can have only one of `centre`, `held` or `from`",
         ),
         ("{shape: rod, length: l, mass: m, held: end}", "a body needs `turned`"),
         ("{shape: rood, length: l, mass: m, held: end, turned: theta}", "rood"),

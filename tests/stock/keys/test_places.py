@@ -53,7 +53,7 @@ def test_axes_turn_about_one_of_three(tmp_path: Path) -> None:
     text = edited(
         PENDULUM, (f"  places: {PLACES}", "  axes: {arm: [{w: theta}]}"), ("at: A", "at: {in: arm, by: [l, 0, 0]}")
     )
-    assert messages(tmp_path, text) == ["6: axes rotate about x, y or z, not about `w`"]
+    assert messages(tmp_path, text) == ["6: axes can rotate about x, y or z, not about `w`"]
 
 
 def test_a_coordinate_is_a_letter(tmp_path: Path) -> None:
