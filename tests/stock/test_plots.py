@@ -8,6 +8,7 @@ import pytest
 from sympy import Symbol, cos, pi, simplify, sin
 
 from derive.building.solution import rendered
+from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Plot
@@ -301,3 +302,12 @@ def test_a_mistake_in_a_phase_portrait_is_reported(
         rendered(course_with(tmp_path, edited(SWING, *edits)), "trial/one", only=("text",))
     told = [(each.place.line if each.place else 0, each.message, each.help or "") for each in refused.value.complaints]
     assert any(at == line and said in message and helped in more for at, message, more in told), told
+
+
+def test_the_stored_steps_depend_on_what_is_plotted(tmp_path: Path) -> None:
+    edits = [("[path_x, path_z]", "[path_z, path_x]"), ("2*top_t", "top_t"), ("against: t", "against: alpha")]
+    keys = {steps_key(loaded(tmp_path, edited(THROW, edit))) for edit in edits} | {steps_key(loaded(tmp_path, THROW))}
+    assert len(keys) == 4
+    portraits = [("15 J", "16 J"), ("-180 deg", "-90 deg")]
+    assert len({steps_key(loaded(tmp_path, edited(SWING, edit))) for edit in portraits}) == 2
+    assert steps_key(loaded(tmp_path, THROW.replace("The path.", "A path."))) in keys, "but not on its caption"
