@@ -15,6 +15,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected
 
 STEPS = 240  # of the grid, in each direction
+EDGE = 0.1  # part of the horizontal axis at either end where a curve has no arrowhead if it also goes elsewhere
 
 
 @dataclass(frozen=True)
@@ -52,10 +53,13 @@ def portrait_of(
     grid = np.meshgrid(across, up)
     heights = _on(expr, plane, *grid)
     rate = diff(expr, plane[1]), -diff(expr, plane[0])
+    inner = box[0] + EDGE * (box[1] - box[0]), box[1] - EDGE * (box[1] - box[0])
     found: list[LevelLine] = []
     for value, is_thick in values:
         own = [
-            line for points in _contours(across, up, heights, value) for line in _along(points, rate, plane, is_thick)
+            line
+            for points in _contours(across, up, heights, value)
+            for line in _along(points, rate, plane, inner, is_thick)
         ]
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
@@ -82,17 +86,29 @@ def _contours(across: Any, up: Any, heights: Any, value: float) -> Sequence[Any]
     return lines
 
 
-def _along(points: Any, rate: tuple[Expr, Expr], plane: tuple[Symbol, Symbol], is_thick: bool) -> Iterator[LevelLine]:
-    """Yield the line in the order of the motion; the arrowhead is where the coordinate changes fastest. A line that is
-    only a point is left out."""
+def _along(
+    points: Any, rate: tuple[Expr, Expr], plane: tuple[Symbol, Symbol], inner: tuple[float, float], is_thick: bool
+) -> Iterator[LevelLine]:
+    """Yield the line in the order of the motion, with the place of its arrowhead. A line that is only a point is left
+    out."""
     flow = _on(rate[0], plane, *points.T), _on(rate[1], plane, *points.T)
     size = np.ptp(points, axis=0)
     if len(points) < 3 or not np.any(size):
         return
-    at = int(np.argmax(flow[0])) if np.max(flow[0]) > -np.min(flow[0]) * 0.99 else int(np.argmin(flow[0]))
-    at = min(max(at, 1), len(points) - 2)
+    at = _head(points[:, 0], flow[0], inner)
     along = points[at + 1] - points[at - 1]
     scale = np.where(size > 0, size, 1.0) ** 2
     is_forward = along[0] * flow[0][at] / scale[0] + along[1] * flow[1][at] / scale[1] >= 0
     ordered, head = (points, at) if is_forward else (points[::-1], len(points) - 1 - at)
     yield LevelLine(tuple((float(x), float(y)) for x, y in ordered), head, is_thick)
+
+
+def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:
+    """Return the index of the arrowhead: where the coordinate changes fastest, away from the ends of the axis. A curve
+    that is close to an end has it in its middle."""
+    away = (across > inner[0]) & (across < inner[1])
+    if not np.any(away):
+        return len(across) // 2
+    forward = np.where(away, rate, 0.0)
+    at = np.argmax(forward) if np.max(forward) > -0.99 * np.min(forward) else np.argmin(forward)
+    return min(max(int(at), 1), len(across) - 2)

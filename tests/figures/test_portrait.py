@@ -39,3 +39,12 @@ def test_a_function_must_be_real_and_finite() -> None:
     for expr in (p**2 + log(q), p**2 + 1 / q):
         with pytest.raises(Rejected, match="not real and finite"):
             portrait_of(expr, PLANE, BOX, ((1.0, False),))
+
+
+def test_arrowheads_are_away_from_the_ends_of_the_axis() -> None:
+    box = (-6.28318, 6.28318, -3.0, 3.0)
+    lines = portrait_of(p**2 / 2 - cos(q), PLANE, box, ((2.0, False), (-0.9, False))).lines
+    rotating = [line for line in lines if len({x > 0 for x, _ in line.points}) == 2 and abs(line.points[0][1]) > 2]
+    assert [abs(line.points[line.head][0]) < 0.1 for line in rotating] == [True, True]
+    half = [line for line in lines if min(abs(x) for x, _ in line.points) > 5]
+    assert [abs(line.points[line.head][1]) < 0.1 for line in half] == [True, True], "where the motion turns round"

@@ -216,3 +216,8 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
     ]  # fmt: skip
     assert drawings_from_data(drawings_to_data([portrait])) == (portrait,)
     assert sheet(portrait).height > sheet(plot_of(cos(theta))).height
+
+
+def test_a_range_of_two_turns_has_a_few_ticks() -> None:
+    (panel,) = panels(plot_of(cos(theta), -2 * pi, 2 * pi))
+    assert [at for at, _ in panel.across] == [-360, -180, 0, 180, 360]

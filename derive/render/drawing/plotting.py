@@ -251,7 +251,7 @@ def _title(letter: str, numbers: str) -> str:
 
 
 def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
-    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
+    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
 
     They have at most `most` intervals between the ends of the range. If there is room, the numbers continue beyond both
     ends of the range, so that each end lies between two numbers.
@@ -259,7 +259,7 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: f
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
     steps = (
-        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0)
+        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
         if in_degrees and span >= 20
         else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
     )
