@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.building.cache import digest, engine_digest
-from derive.course.placement import Placement
 from derive.course.problem import Problem
 from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
@@ -73,12 +72,6 @@ def steps_key(problem: Problem) -> str:
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     observed = (problem.observations, [part.observations for part in problem.parts])
-    plots = [_plotted(each) for each in problem.drawings if each.plot]
+    plots = [(d.key, d.plot, d.against, d.range, d.levels, d.over) for d in problem.drawings if d.plot]
     read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))
-
-
-def _plotted(drawing: Placement) -> tuple[Any, ...]:
-    """Return what a plot shows: its formulas, the symbol on the horizontal axis, and the ends of its range."""
-    ends = [end.scalar.text for end in drawing.range.ends] if drawing.range else []
-    return drawing.key, [*map(str, drawing.plot)], drawing.against, ends

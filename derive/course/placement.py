@@ -49,6 +49,7 @@ class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
     plot      the answer of which the engine draws a curve, or the two answers or formulas of which it draws a path
+    levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes
     letters   the letters that formulas of a plot may contain, by name
     """
 
@@ -64,7 +65,14 @@ class Placement:
     cases: tuple[tuple[Measured, ...], ...] = ()
     plot: tuple[Formula, ...] = ()
     against: Word | None = None
+    levels: tuple[Formula, ...] = ()
+    over: Table[Word, Range] = field(default_factory=dict, repr=False)
     letters: Table[str, Declared] = field(default_factory=dict, repr=False)
+
+    @property
+    def is_portrait(self) -> bool:
+        """Whether the drawing has all that a phase portrait needs."""
+        return len(self.plot) == 1 and bool(self.levels) and len(self.over) == 2
 
 
 def placements(
@@ -86,6 +94,8 @@ def placements(
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             plot=written.plot or (),
             against=written.against,
+            levels=written.levels,
+            over={name: Range(ends) for name, ends in written.over.items()},
             letters=symbols,
         )
         for name, written in drawings.items()

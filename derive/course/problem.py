@@ -278,6 +278,8 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
                 "call `plot(...)` there",
             )
             faults.error("unused-key", message, drawing.plot[0].place, help=help_line)
+        elif drawing.levels or drawing.over:
+            _check_portrait(drawing, faults)
         elif drawing.plot and (drawing.against is None or drawing.range is None):
             message = f"the plot `{drawing.key}` needs `against`, a letter, and `range`, its two ends"
             faults.error(
@@ -285,6 +287,19 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             )
         elif drawing.against and not drawing.plot:
             faults.error("unused-key", "`against` has no effect without `plot`", drawing.against.place)
+
+
+def _check_portrait(drawing: Placement, faults: Faults) -> None:
+    """Check that a phase portrait has one answer, values and two ranges, and no key of another plot."""
+    extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
+    if not drawing.is_portrait:
+        message = f"the phase portrait `{drawing.key}` needs `plot`, one answer, `levels`, its values, and `over`"
+        help_line = "such as `plot: hamiltonian, levels: [m*g*l], over: {theta: [-180 deg, 180 deg], p_theta: [...]}`"
+        faults.error("missing-key", message, drawing.place, help=help_line)
+    elif extra:
+        name = "against" if drawing.against else "range"
+        message = f"`{name}` has no effect on the phase portrait `{drawing.key}`: `over` states its ranges"
+        faults.error("unused-key", message, extra.place, help="leave it out")
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:

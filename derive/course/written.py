@@ -139,6 +139,7 @@ def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | Non
 
 _PATH = "such as `potential_energy`, or `[path_x, path_z]` for a path"
 _PAIR = {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}
+ENDS = list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2)
 PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
 
 
@@ -163,9 +164,17 @@ class DrawingKeys(Record):
     against: Word | None = key(
         "the coordinate, the letter or `t`: on the horizontal axis of a plot of one answer; along the path of two", TEXT
     )
+    levels: tuple[Formula, ...] = key(
+        "for a phase portrait: the values of the answer on its curves, such as `[-5 J, m*g*l]`; the curve of a value "
+        "in letters is thick",
+        list_of(FORMULA, "a list of values such as `[-5 J, m*g*l]`"),
+    )
+    over: dict[Word, tuple[Formula, ...]] = key(
+        "for a phase portrait: a coordinate and its momentum, each with its two ends", mapping_of(ENDS)
+    )
     ends: tuple[Formula, ...] | None = key(
         "the two ends of a plot, such as `[-60 deg, 60 deg]` or, with an answer, `[0 s, 2*top_time]`",
-        list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2),
+        ENDS,
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(

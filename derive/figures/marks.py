@@ -146,6 +146,23 @@ class Across:
 
 
 @dataclass(frozen=True)
+class Levels:
+    """The curves of a phase portrait, on which a function of a coordinate and its momentum is constant.
+
+    up          the momentum, on the vertical axis
+    low, high   the range of the vertical axis
+    values      the value of the function on each curve, and whether this curve is thick
+    unit        the SI unit of the values
+    """
+
+    up: Any
+    low: Any
+    high: Any
+    values: tuple[tuple[Any, bool], ...]
+    unit: str = ""
+
+
+@dataclass(frozen=True)
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
@@ -154,6 +171,7 @@ class Plot:
     kind, of         the kind of the quantity, and the kind of the symbol, for their units
     unit             the SI unit of a quantity without a kind
     across           the quantity on the horizontal axis of a path, along which `variable` increases
+    levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
     """
 
     key: str
@@ -167,6 +185,7 @@ class Plot:
     keys: tuple[str, ...] = ()
     unit: str = ""
     across: Across | None = None
+    levels: Levels | None = None
 
     @property
     def shown(self) -> tuple[Any, ...]:
@@ -175,7 +194,22 @@ class Plot:
 
     @property
     def letters(self) -> set[Symbol]:
-        return letters_in((*self.shown, self.lower, self.upper))
+        return letters_in((*self.shown, *self.ends, *self.values))
+
+    @property
+    def ends(self) -> tuple[Any, ...]:
+        """Return the ends of the range; for a phase portrait, also those of the vertical axis."""
+        return (self.lower, self.upper, *((self.levels.low, self.levels.high) if self.levels else ()))
+
+    @property
+    def values(self) -> tuple[Any, ...]:
+        """Return the values on the curves of a phase portrait."""
+        return tuple(value for value, _ in self.levels.values) if self.levels else ()
+
+    @property
+    def varies(self) -> set[Symbol]:
+        """Return the symbols that vary in the plot, which have no number."""
+        return {self.variable, *((self.levels.up,) if self.levels else ())}
 
     @property
     def unit_up(self) -> str:

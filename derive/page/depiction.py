@@ -380,6 +380,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         "lower": with_unit(first.lower * curves.per_unit, curves.unit),
         "upper": with_unit(first.upper * curves.per_unit, curves.unit),
     }
+    if plot.levels is not None:
+        return _spaced([*_portraits(plot, curves, words, names), *_shared(curves, words)])
     if plot.across is not None:
         return _spaced([*_paths(plot, curves, words, names), *_shared(curves, words)])
     told = [filled(words.drawings["plot"], names)]
@@ -395,6 +397,25 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
     """Return sentences with a space between them."""
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
+
+
+def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
+    """Yield words for the plane of a phase portrait, and for the values on the curves of each panel."""
+    assert plot.levels is not None
+    yield filled(words.drawings["portrait"], names)
+    last = words.labels["and"]
+    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
+        assert curve.portrait is not None
+        own = {
+            "letter": letter,
+            "numbers": joined(_put_in(curve.numbers), last),
+            "low": with_unit(curve.portrait.low, plot.unit_up),
+            "high": with_unit(curve.portrait.high, plot.unit_up),
+            "up": _named(plot.label),
+            "values": joined([(Text(with_unit(value, plot.levels.unit)),) for value, _ in curve.portrait.values], last),
+            "thick": joined([(Math(value),) for value, is_thick in plot.levels.values if is_thick], last),
+        }
+        yield filled(words.drawings["portrait_values"], own)
 
 
 def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import dist
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from sympy import Expr, Symbol, nan, oo, pi, zoo
 
@@ -18,9 +18,13 @@ from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
 from derive.course.stock import told_at
+from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
 from derive.figures.extrema import NOISE, Extremum, extrema, values_along
 from derive.figures.marks import Plot, letters_in
+
+if TYPE_CHECKING:
+    from derive.figures.portrait import Portrait
 
 Path: TypeAlias = tuple[tuple[float, float], ...]
 
@@ -36,6 +40,7 @@ class Curve:
 
     across   the quantity on the horizontal axis of a path; a path has no extrema
     path     points of a path in the order of the motion
+    portrait the curves of a phase portrait
     """
 
     expr: Expr
@@ -46,6 +51,7 @@ class Curve:
     extrema: tuple[Extremum, ...]
     across: Expr | None = None
     path: Path = field(default=(), repr=False)
+    portrait: Portrait | None = None
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
@@ -70,7 +76,7 @@ class Curves:
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
     """Return every curve of the plot with its extrema; raise `Rejected` if symbols lack a number."""
     written = _ends(plot, placement)
-    letters = letters_in((*plot.shown, *written))
+    letters = letters_in((*plot.shown, *written, *plot.values))
     given = placement.cases if placement and placement.cases else ((),)
     # A number for a symbol that does not occur in the curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for case in given]
@@ -78,7 +84,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
     own = [tuple(number for number in case if number not in shared) for case in cases]
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
-    ends = [_range(problem, plot, placement, written, each) for each in numbers]
+    ends = [_range(problem, plot, placement, plot.variable, written[:2], each) for each in numbers]
     found = tuple(_curve(problem, plot, placement, *each) for each in zip(numbers, own, ends, strict=True))
     in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for both in ends for end in both)
     unit = (DEGREES, float(1 / DEGREE)) if in_degrees else (_unit(plot.of), 1.0)
@@ -95,7 +101,7 @@ def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
     """Return the ends of the range; the engine has read the range of a plot that the problem requests."""
     if placement and placement.range and not placement.plot:
         return placement.range.of_kind(plot.of)
-    return [plot.lower, plot.upper]
+    return list(plot.ends)
 
 
 def _numbers(
@@ -104,7 +110,7 @@ def _numbers(
     """Return the number of each symbol; the symbol that varies has none. Each of `letters` needs a number."""
     numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     numbers |= {measured.symbol: measured.si for measured in known}
-    missing = sorted(s.name for s in letters - {*numbers, plot.variable})
+    missing = sorted(s.name for s in letters - {*numbers, *plot.varies})
     if missing:
         listed = ", ".join(f"`{name}`" for name in missing)
         help_line = "write the number under the `values` of the problem, or under the `cases` of the drawing"
@@ -114,7 +120,7 @@ def _numbers(
                 help=help_line,
             )
         )  # fmt: skip
-    return {letter: number for letter, number in numbers.items() if letter != plot.variable}
+    return {letter: number for letter, number in numbers.items() if letter not in plot.varies}
 
 
 def _place(problem: Problem, placement: Placement | None) -> Place:
@@ -122,17 +128,28 @@ def _place(problem: Problem, placement: Placement | None) -> Place:
 
 
 def _range(
-    problem: Problem, plot: Plot, placement: Placement | None, ends: Sequence[Expr], numbers: Mapping[Any, Expr]
+    problem: Problem,
+    plot: Plot,
+    placement: Placement | None,
+    variable: Symbol,
+    ends: Sequence[Expr],
+    numbers: Mapping[Any, Expr],
 ) -> tuple[Expr, Expr]:
-    """Return the ends of the range for these numbers."""
+    """Return the ends of the range of a variable for these numbers."""
     lower, upper = (end.xreplace(numbers) for end in ends)
     if lower.is_number and upper.is_number and lower.is_real and upper.is_real and lower < upper:
         return lower, upper
     message = f"the range of `{plot.key}` must go from a smaller number to a larger number"
-    place = placement.range.place if placement and placement.range else _place(problem, placement)
     has_letters = any(end.free_symbols for end in ends)
     help_line = f"for these numbers, it goes from {_short(lower)} to {_short(upper)}" if has_letters else None
-    raise Rejected(Complaint("range", message, place, help=help_line))
+    raise Rejected(Complaint("range", message, _place_of_range(problem, plot, placement, variable), help=help_line))
+
+
+def _place_of_range(problem: Problem, plot: Plot, placement: Placement | None, variable: Symbol) -> Place:
+    if placement is None:
+        return _place(problem, placement)
+    written = placement.over.get(Word(variable.name)) if plot.levels else placement.range
+    return written.place if written else placement.place
 
 
 def _short(end: Expr) -> str:
@@ -154,6 +171,13 @@ def _curve(
         raise Rejected(Complaint("drawing", message, place, help="change a number, for example at a resonance"))
     lower, upper = (float(end) for end in ends)
     with told_at(_place(problem, placement)):
+        if plot.levels is not None:
+            low, high = _range(problem, plot, placement, plot.levels.up, plot.ends[2:], numbers)
+            values = tuple((float(value.xreplace(numbers)), thick) for value, thick in plot.levels.values)
+            plane = (plot.variable, plot.levels.up), (lower, upper, float(low), float(high))
+            from derive.figures.portrait import portrait_of  # imports NumPy
+
+            return Curve(expr, plot.variable, lower, upper, own, (), portrait=portrait_of(expr, *plane, values))
         if across:
             path = _path((across[0], expr), plot.variable, lower, upper)
             return Curve(expr, plot.variable, lower, upper, own, (), across[0], path)

@@ -10,7 +10,7 @@ import pytest
 from sympy import Expr, Integer, Symbol, cos, pi, sin, symbols
 
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.marks import Across, Plot
+from derive.figures.marks import Across, Levels, Plot
 from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
@@ -198,3 +198,26 @@ def test_panels_of_paths_have_their_own_heights() -> None:
 def test_a_path_is_stored_with_both_quantities() -> None:
     path = path_of(cos(theta), sin(theta))
     assert drawings_from_data(drawings_to_data([path])) == (path,)
+
+
+def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
+    momentum = Symbol("p", real=True)
+    levels = Levels(momentum, Integer(-2), Integer(2), ((Integer(1) / 2, False), (Integer(1), True)), "J")
+    portrait = Plot(
+        "portrait", momentum, (momentum**2 + theta**2) / 2, theta, -pi / 2, pi / 2, "number", "angle", (), "kg m^2/s",
+        levels=levels,
+    )  # fmt: skip
+    (panel,) = panels(portrait)
+    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,\mathrm{kg\,m^{2}/s}$")
+    assert panel.values == (-90, -2, 90, 2)
+    strokes = [each for each in line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))) if isinstance(each, Stroke)]
+    assert [(stroke.pen, stroke.head) for stroke in strokes] == [
+        ("level", False), ("level", True), ("separatrix", False), ("separatrix", True)
+    ]  # fmt: skip
+    assert drawings_from_data(drawings_to_data([portrait])) == (portrait,)
+    assert sheet(portrait).height > sheet(plot_of(cos(theta))).height
+
+
+def test_a_range_of_two_turns_has_a_few_ticks() -> None:
+    (panel,) = panels(plot_of(cos(theta), -2 * pi, 2 * pi))
+    assert [at for at, _ in panel.across] == [-360, -180, 0, 180, 360]

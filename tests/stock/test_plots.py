@@ -9,6 +9,7 @@ from sympy import Symbol, cos, pi, simplify, sin
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
+from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Plot
@@ -82,8 +83,10 @@ DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.ya
 def test_numbers_outside_the_case_of_a_result_are_not_drawn(tmp_path: Path, numbers: str, said: str) -> None:
     """An underdamped motion needs b^2 < 4 k m."""
     curve = f"drawings:\n  curve: {{plot: weak, against: t, range: [0 s, 9 s], at: b, cases: {numbers}}}\n"
+    before, _, after = DAMPED.partition("drawings:\n")
+    text = before + curve + after[after.index("note: >\n") :]
     try:
-        rendered(course_with(tmp_path, edited(DAMPED, ("note: >\n", f"{curve}note: >\n"))), "trial/one", only=("text",))
+        rendered(course_with(tmp_path, text), "trial/one", only=("text",))
         found = ""
     except DeriveError as error:
         (found,) = [each.message for each in error.complaints]
@@ -262,3 +265,98 @@ def test_a_path_without_numbers_is_reported(tmp_path: Path, edits: list[tuple[st
         found = error.complaints
     told = [(each.place.line if each.place else 0, each.message) for each in found]
     assert any(at == line and said in message for at, message in told), told
+
+
+SWING = """\
+title: A pendulum
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  places: {bob: [l*sin(theta), -l*cos(theta)]}
+  particles: {bob: {mass: m, at: bob}}
+  gravity: g
+statement: A bob of mass <<m>> hangs on a light rod of length <<l>>. Its angle is <<theta>>.
+parts:
+  - ask: Find the Hamiltonian.
+    answer: [hamiltonian, momenta]
+drawings:
+  portrait:
+    plot: hamiltonian
+    levels: [-5 J, m*g*l, 15 J]
+    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s]}
+    caption: The phase portrait.
+    cases:
+      - {m: 1 kg, l: 1 m, g: 9.8 m/s^2}
+"""
+
+
+def test_a_phase_portrait_has_a_coordinate_its_momentum_and_values(tmp_path: Path) -> None:
+    run = Run()
+    run_solve(loaded(tmp_path, SWING), run)
+    portrait = next(each for each in run.drawings if isinstance(each, Plot))
+    levels = portrait.levels
+    assert levels is not None
+    letters = {symbol.name: symbol for symbol in portrait.letters}
+    m, g, l_, theta, p = (letters[name] for name in ("m", "g", "l", "theta", "p_theta"))
+    assert simplify(portrait.expr - p**2 / (2 * m * l_**2) + m * g * l_ * cos(theta)) == 0
+    assert (portrait.variable, portrait.lower, portrait.upper, portrait.of) == (theta, -pi, pi, "angle")
+    assert (levels.up, levels.low, levels.high, portrait.label, portrait.unit_up) == (p, -9, 9, p, "kg m^2/s")
+    assert levels.values == ((-5, False), (m * g * l_, True), (15, False))
+    assert portrait.keys == ("hamiltonian",)
+
+
+def test_a_phase_portrait_is_described(tmp_path: Path) -> None:
+    page = " ".join(rendered(course_with(tmp_path, SWING), "trial/one", only=("html",)).html.split())
+    assert "A phase portrait, with θ from −180° to 180° on the horizontal axis." in page
+    assert "from −9 kg m^2/s to 9 kg m^2/s, and the curves have the values −5 J, 9.8 J and 15 J" in page
+    assert "the thick curve has the value m g l" in page
+
+
+OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s]}\n"
+
+
+@pytest.mark.parametrize(
+    ("edits", "line", "said", "helped"),
+    [
+        ([(OVER, "")], 14, "the phase portrait `portrait` needs `plot`, one answer, `levels`", "such as `plot: ham"),
+        ([("    levels: [-5 J, m*g*l, 15 J]\n", "")], 14, "the phase portrait `portrait` needs", ""),
+        ([("    plot: hamiltonian\n", "")], 14, "the phase portrait `portrait` needs `plot`, one answer", ""),
+        ([("theta: [-180 deg, 180 deg], ", "")], 14, "the phase portrait `portrait` needs", ""),
+        ([(OVER, OVER + "    against: theta\n")], 18, "`against` has no effect on the phase portrait", "leave it out"),
+        ([(OVER, OVER + "    range: [0 deg, 1 deg]\n")], 18, "`range` has no effect on the phase portrait", ""),
+        ([("levels: [-5 J, m*g*l, 15 J]", "levels: []")], 16, "`levels` must be a list of values", ""),
+        ([("-5 J", "-5 m")], 16, "`-5 m` is a length", ""),
+        ([("-5 J", "-5 m*g*h")], 16, "", ""),
+        ([("-5 J", "top")], 16, "`top` is not the name of an answer", ""),
+        ([("plot: hamiltonian", "plot: hamiltonia")], 15, "hamiltonia", "did you mean `hamiltonian`?"),
+        ([("plot: hamiltonian", "plot: p_theta")], 15, "`p_theta` is not an energy, so it has no phase portrait", ""),
+        ([("plot: hamiltonian", "plot: lagrangian")], 17, "`lagrangian` does not depend on `p_theta`", ""),
+        ([("p_theta: [", "p_thet: [")], 17, "`hamiltonian` does not depend on `p_thet`", "did you mean `p_theta`?"),
+        ([("{theta: [-180 deg, 180 deg]", "{m: [1 kg, 2 kg]")], 17, "are not a coordinate and its momentum",
+         "such as `theta` and `p_theta`"),
+        ([("[-180 deg, 180 deg]", "[-180 deg]")], 17, "`theta` must be the two ends of a range", ""),
+        ([("-180 deg, 180 deg", "180 deg, -180 deg")], 17, "must go from a smaller number to a larger number", ""),
+        ([("-9 kg*m^2/s, 9", "9 kg*m^2/s, -9")], 17, "must go from a smaller number to a larger number", ""),
+        ([("-9 kg*m^2/s", "-9 kg*m/s")], 17, "`range` must be an angular momentum", ""),
+        ([(", g: 9.8 m/s^2", "")], 14, "the plot `portrait` needs a number for `g`", ""),
+        ([("15 J", "200 J")], 14, "no point of the phase portrait has the value 200",
+         "in these ranges, the values go from -9.8 to 50.3"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_a_phase_portrait_is_reported(
+    tmp_path: Path, edits: list[tuple[str, str]], line: int, said: str, helped: str
+) -> None:
+    with pytest.raises(DeriveError) as refused:
+        rendered(course_with(tmp_path, edited(SWING, *edits)), "trial/one", only=("text",))
+    told = [(each.place.line if each.place else 0, each.message, each.help or "") for each in refused.value.complaints]
+    assert any(at == line and said in message and helped in more for at, message, more in told), told
+
+
+def test_the_stored_steps_depend_on_what_is_plotted(tmp_path: Path) -> None:
+    edits = [("[path_x, path_z]", "[path_z, path_x]"), ("2*top_t", "top_t"), ("against: t", "against: alpha")]
+    keys = {steps_key(loaded(tmp_path, edited(THROW, edit))) for edit in edits} | {steps_key(loaded(tmp_path, THROW))}
+    assert len(keys) == 4
+    portraits = [("15 J", "16 J"), ("-180 deg", "-90 deg")]
+    assert len({steps_key(loaded(tmp_path, edited(SWING, edit))) for edit in portraits}) == 2
+    assert steps_key(loaded(tmp_path, THROW.replace("The path.", "A path."))) in keys, "but not on its caption"

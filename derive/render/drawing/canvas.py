@@ -61,6 +61,8 @@ PENS = {
     "angle": Pen(INK, 0.7),
     "turn": Pen(INK, 0.8, head=5.0),
     "curve": Pen(INK, 1.1, head=7.0),
+    "level": Pen(INK, 0.8, head=6.0),
+    "separatrix": Pen(INK, 1.6, head=8.0),
     "frame": Pen(QUIET, 0.5),
     "tick": Pen(QUIET, 0.4),
 }

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from math import ceil, dist, floor, log10
 from typing import Any, TypeAlias
@@ -19,6 +19,7 @@ from derive.algebra.expressions import Amount
 from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
 from derive.figures.pieces import Bullet, Piece, Stroke
+from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
 from derive.page.plots import DEGREES, Curve, Curves, panel_letters, told_value
 from derive.page.wording import Phrases
@@ -34,6 +35,7 @@ MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks o
 ROOM = 0.36  # margin above and below a curve, in units of its height
 PANEL, TALL = 6.0, 4.2  # centimetres
 MARGIN = 0.08  # margin around a path, in units of its width and height
+PORTRAIT = 0.85  # height divided by width of a phase portrait
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
@@ -57,7 +59,8 @@ class Panel:
     turns            the extrema: the point, whether it is a minimum, and its name
     numbers          the numbers that were substituted
     is_path          whether the curve is a path, which has dots at its ends and an arrowhead
-    shape            height divided by width, if both axes have the same scale
+    lines            the curves of a phase portrait
+    shape            height divided by width, if it is not that of the paper
     """
 
     points: tuple[Spot, ...]
@@ -69,6 +72,7 @@ class Panel:
     numbers: str
     is_path: bool = False
     shape: float | None = None
+    lines: tuple[LevelLine, ...] = ()
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
@@ -152,6 +156,8 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
     """Return the panel of one curve; the axes leave room for the words below a minimum and above a maximum."""
     if curve.path:
         return path_panel(plot, curve, notation, letter)
+    if curve.portrait:
+        return portrait_panel(plot, curve, curve.portrait, curves, notation, letter)
     points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
     low, high = min(y for _, y in points), max(y for _, y in points)
     room = ROOM * ((high - low) or abs(high) or 1.0)
@@ -203,6 +209,29 @@ def path_panel(plot: Plot, curve: Curve, notation: Notation, letter: str = "") -
     )
 
 
+def portrait_panel(
+    plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
+) -> Panel:
+    """Return the panel of a phase portrait, whose axes end with the ranges."""
+    start, end = curve.lower * curves.per_unit, curve.upper * curves.per_unit
+    return Panel(
+        points=(),
+        values=(start, portrait.low, end, portrait.high),
+        across=_ticks(start, end, MOST_ACROSS, curves.unit == DEGREES),
+        up=_ticks(portrait.low, portrait.high, MOST_UP),
+        names=(
+            _axis_name(plot.variable, curves.unit, notation),
+            _axis_name(plot.label, plot.unit_up, notation),
+        ),
+        turns=(),
+        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
+        shape=PORTRAIT,
+        lines=tuple(
+            replace(line, points=tuple((x * curves.per_unit, y) for x, y in line.points)) for line in portrait.lines
+        ),
+    )
+
+
 def _with_margin(low: float, high: float) -> tuple[float, float]:
     room = MARGIN * ((high - low) or abs(high) or 1.0)
     return low - room, high + room
@@ -222,7 +251,7 @@ def _title(letter: str, numbers: str) -> str:
 
 
 def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
-    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45 or 90.
+    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
 
     They have at most `most` intervals between the ends of the range. If there is room, the numbers continue beyond both
     ends of the range, so that each end lies between two numbers.
@@ -230,7 +259,7 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: f
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
     steps = (
-        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0)
+        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
         if in_degrees and span >= 20
         else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
     )
@@ -332,6 +361,12 @@ def _overlap(one: Extent, other: Extent) -> bool:
 
 def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
     """Yield the curve; a path has an arrowhead, and dots at its start and at its end."""
+    for line in panel.lines:
+        spots, pen = tuple(map(frame.spot, line.points)), "separatrix" if line.is_thick else "level"
+        yield Stroke(spots, pen)
+        yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
+    if not panel.points:
+        return
     spots = tuple(map(frame.spot, panel.points))
     yield Stroke(spots, "curve")
     if panel.is_path:

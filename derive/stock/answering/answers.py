@@ -124,8 +124,11 @@ class StockAnswers(Answers[W]):
         objects."""
         found = self.by_name.answers(asked)
         for drawing in drawings:
-            if drawing.plot and drawing.against and drawing.range:
-                Plotted(drawing, self.by_name.named, self.coordinates).draw(drawing.against, drawing.range)
+            plotted = Plotted(drawing, self.by_name.named, self.coordinates)
+            if drawing.is_portrait:
+                plotted.draw_levels()
+            elif drawing.plot and drawing.against and drawing.range:
+                plotted.draw(drawing.against, drawing.range)
         return found
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from sympy import Expr, Symbol
 
 from derive.algebra.expressions import TIME, explicit
-from derive.algebra.kinds import unit_of_dimension, unit_of_kind
+from derive.algebra.kinds import dimension_of_kind, kind_of_dimension, unit_of_dimension, unit_of_kind
 from derive.course.expression import Declared
 from derive.course.given import read_end
 from derive.course.placement import Placement, Range
@@ -18,8 +18,9 @@ from derive.course.stock import told_at
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import did_you_mean, rejected
 from derive.figures import plot
-from derive.figures.marks import Across, Plot, noted
+from derive.figures.marks import Across, Levels, Plot, noted
 from derive.mechanics import Coordinate
+from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, right_side
 
@@ -75,6 +76,42 @@ class Plotted:
                 Plot(self.drawing.key, up.label, up.expr, variable, lower, upper, up.kind, kind, keys, up.unit,
                      horizontal)
             )  # fmt: skip
+
+    def draw_levels(self) -> None:
+        """Draw a phase portrait: curves in the plane of a coordinate and its momentum."""
+        answer, over = self.drawing.plot[0], self.drawing.over
+        function = self._one(answer)
+        if function.step.kind != "energy":
+            message = f"`{answer}` is not an energy, so it has no phase portrait"
+            rejected("wrong-argument", message, answer.place, "plot a Hamiltonian: `plot: hamiltonian`")
+        q, p = self._plane(answer, {symbol.name: symbol for symbol in explicit(function.value).free_symbols})
+        moving = self.coordinates[q.name]
+        dimension = dimension_of_kind("energy") * dimension_of_kind("time") / dimension_of_kind(moving.kind)
+        (lower, upper), keys = self._range(over[Word(q.name)], moving.kind)
+        (low, high), keys_up = self._range(over[Word(p.name)], kind_of_dimension(dimension) or "number")
+        found = [self._end(value.scalar, "energy") for value in self.drawing.levels]
+        values = tuple((value, bool(value.free_symbols)) for value, _ in found)
+        levels = Levels(p, low, high, values, unit_of_kind("energy"))
+        used = (function.key, *keys, *keys_up, *(key for _, own in found for key in own))
+        unit, shown = unit_of_dimension(dimension), explicit(function.value)
+        portrait = Plot(self.drawing.key, p, shown, q, lower, upper, "number", moving.kind, unit=unit, levels=levels)
+        with told_at(answer.place):
+            noted(replace(portrait, keys=tuple(dict.fromkeys(used))))
+
+    def _plane(self, answer: Word, letters: Mapping[str, Symbol]) -> tuple[Symbol, Symbol]:
+        """Return the coordinate and the momentum of a phase portrait."""
+        names = list(self.drawing.over)
+        momenta = {name: letter_of_momentum(q).name for name, q in self.coordinates.items()}
+        for name in names:
+            if name not in letters:
+                message = f"`{answer}` does not depend on `{name}`, so it has no phase portrait over `{name}`"
+                rejected("wrong-argument", message, name.place, did_you_mean(name, letters))
+        for one, other in (names, names[::-1]):
+            if momenta.get(str(one)) == other:
+                return letters[one], letters[other]
+        help_line = f"such as {' and '.join(f'`{name}`' for name in next(iter(momenta.items())))}" if momenta else None
+        message = f"`{names[0]}` and `{names[1]}` are not a coordinate and its momentum"
+        rejected("wrong-argument", message, names[0].place, help_line)
 
     def _one(self, answer: Word) -> Quantity:
         """Return the one step of an answer."""
