@@ -157,7 +157,9 @@ class Connections:
             others = [q for q in slopes if q not in angles and q in known]
             steady = not any(moving_in(self.system, slope) for slope in slopes.values())
             if len(slopes) == 2 and len(angles) == 1 and others and steady:
-                found[angles[0]] = tidied(-slopes[others[0]] * known[others[0]] / slopes[angles[0]])
+                value = tidied(-slopes[others[0]] * known[others[0]] / slopes[angles[0]])
+                if angles[0] not in found or numeric(value) > 0:  # a positive angle shows the positive sense
+                    found[angles[0]] = value
         return found
 
     def _arms(self) -> dict[Symbol, Expr]:

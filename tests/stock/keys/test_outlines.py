@@ -117,7 +117,8 @@ def drawing_of(folder: Path, name: str, *changes: tuple[str, str]) -> Drawing:
 
 def test_the_axes_of_a_cube_begin_at_its_centre_unless_the_centre_is_asked_for(tmp_path: Path) -> None:
     assert len([mark for mark in of(drawing_of(tmp_path, "cube"), Line) if mark.pen == "hidden"]) == 3
-    asks = drawing_of(tmp_path, "cube", ("answer: moment_about\n    points", "answer: [centre_of_mass, moment_about]\n    points"))
+    change = "answer: moment_about\n    points", "answer: [centre_of_mass, moment_about]\n    points"
+    asks = drawing_of(tmp_path, "cube", change)
     assert not [mark for mark in of(asks, Line) if mark.pen == "hidden"]
 
 
