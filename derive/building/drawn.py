@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-WIDE, LOW = 7.0, 0.35  # a drawing without a given width is made WIDE if its height is at most LOW times its width
+WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
 
 
 def drawing_files(

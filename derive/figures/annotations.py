@@ -319,29 +319,42 @@ class AngleMark(Mark):
 
 @dataclass(frozen=True)
 class Turn(Mark):
-    """A right-handed rotation arrow about a direction; `size` is its radius relative to the size of the body."""
+    """A right-handed rotation arrow about a direction.
+
+    size    its radius relative to the size of the body
+    middle  the direction from the centre to the middle of the arrow, by default towards the viewer
+    """
 
     centre: Position
     along: Position
     size: Any
+    middle: Position = None
 
     def pieces(self, paper: Paper) -> list[Piece]:
         centre, along = paper.numbers.vector(self.centre), unit(paper.numbers.vector(self.along))
         if not size_of(along):
             return []
         radius = max(paper.numbers.of(self.size) * paper.reach, ROUND / paper.scale)
-        return _circling(centre, along, radius, self.label, paper)
+        front = None if self.middle is None else paper.numbers.vector(self.middle)
+        return _circling(centre, along, radius, self.label, paper, front)
 
     def in_words(self) -> InWords | None:
         return self._if_named("turn")
 
 
-def _circling(centre: Vector, along: Vector, radius: float, label: Any, paper: Paper) -> list[Piece]:
-    """Return most of a circle, open on the side away from the viewer, with an arrowhead at its right-handed end."""
+def _circling(
+    centre: Vector, along: Vector, radius: float, label: Any, paper: Paper, middle: Vector | None = None
+) -> list[Piece]:
+    """Return most of a circle, open on the side away from the viewer or from `middle`, with an arrowhead at its
+    right-handed end."""
     u, v = across(along)
-    front = max(range(360), key=lambda degree: dot(_round(u, v, degree), paper.stance.eye))
+    towards = paper.stance.eye if middle is None else middle
+    front = max(range(360), key=lambda degree: dot(_round(u, v, degree), towards))
     places = [plus(centre, _round(u, v, front + degree), radius) for degree in range(-125, 126, 5)]
     spots = paper.spots(*places)
+    if middle is not None:
+        outer = spots[len(spots) // 2]
+        return [Stroke(spots, "turn", head=True), Tag(label, outer, direction(paper.spot(centre), outer))]
     outer = max(spots, key=lambda spot: (round(spot[0], 6), spot[1]))
     return [Stroke(spots, "turn", head=True), Tag(label, outer, (1.0, 0.0))]
 

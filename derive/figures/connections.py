@@ -66,6 +66,7 @@ BOWL = 4  # the radius of a bowl, relative to the largest body in it
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to its radius
 TABLE = 3  # the radius of a table in space, relative to the largest body on it
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the distance of the contacts from its middle
+AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
@@ -140,7 +141,7 @@ class Connections:
         known = [letter for letter in rests if letter is not None and letter != self.size]
         if known:
             falls = all(diff(place.components[0], q) == 0 for place in self.system.places) and self.system.weights
-            return (Rational(2, 5) if falls or len(known) < len(rests) else Rational(1, 4 + before)) * known[0]
+            return (Rational(2, 5) if falls or len(known) < len(rests) else Rational(4, 13 + 2 * before)) * known[0]
         others = {
             letter for c in components for letter in c.xreplace(zero).free_symbols if c.has(*self.system.coordinates)
         }
@@ -156,7 +157,9 @@ class Connections:
             others = [q for q in slopes if q not in angles and q in known]
             steady = not any(moving_in(self.system, slope) for slope in slopes.values())
             if len(slopes) == 2 and len(angles) == 1 and others and steady:
-                found[angles[0]] = tidied(-slopes[others[0]] * known[others[0]] / slopes[angles[0]])
+                value = tidied(-slopes[others[0]] * known[others[0]] / slopes[angles[0]])
+                if angles[0] not in found or numeric(value) > 0:  # a positive angle shows the positive sense
+                    found[angles[0]] = value
         return found
 
     def _arms(self) -> dict[Symbol, Expr]:
@@ -656,11 +659,15 @@ class Connections:
         yield WayMark(column_of(at), q, low, high, "wire")
 
     def _motor(self, motor: Motor) -> Iterable[Mark]:
-        """Yield the arrow of the torque about the axis of the body that the motor turns."""
+        """Yield the arrow of the torque about the axis of the body that the motor turns, on the side away from the
+        body."""
         for placed in self.system.bodies if self.in_a_plane else ():
             sense = diff(placed.turned, motor.angle) if motor.angle.is_Symbol else ZERO
             if sense in (1, -1) and is_fixed(self.system, placed.at):
-                yield Turn(column_of(placed.at), sense * ACROSS, Rational(1, 8), label=motor.torque)
+                away = column_of(placed.at - placed.centre)
+                yield Turn(
+                    column_of(placed.at), sense * ACROSS, AROUND, away if any(away) else None, label=motor.torque
+                )
 
     @property
     def _dashpots(self) -> list[DashpotMark]:

@@ -121,8 +121,9 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     for the same trial numbers."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
-    # If a force is small, all forces are drawn longer, so that the mark of a particle does not cover it.
-    least = min((share for own in shares for share in own), default=1)
+    # If a force on a particle is small, all forces are drawn longer, so that the particle does not cover it.
+    on_particles = [own for each, own in zip(bodies, shares, strict=True) if not isinstance(each.of, PlacedBody)]
+    least = min((share for own in on_particles for share in own), default=1)
     longer = min(max(VISIBLE / least, 1), LONGER) if scene.in_a_plane else 1
     return [
         _diagram(system, each, [longer * share for share in own], scene)

@@ -26,6 +26,7 @@ CART = (38.0, 13.0)  # width and height of a cart
 CASTER = 3.6  # radius of the wheels of a cart
 COIL = 4.6  # half the width of a spring
 PITCH = 5.0  # distance between two turns of a spring
+FEWEST = 4  # least number of half turns of a spring
 LEAD = 7.0  # length of each straight end of a spring
 
 CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
@@ -97,25 +98,32 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends, which is not drawn if both ends coincide."""
+    """A spring: a zigzag with straight ends, which is not drawn if both ends coincide.
+
+    covered   the lengths at its two ends that blocks cover, in points
+    """
+
+    covered: tuple[float, float] = (0.0, 0.0)
 
     def pieces(self, paper: Paper) -> list[Piece]:
         (x, y), (u, v) = spots = paper.spots(*self.places(paper.numbers))
         far = hypot(u - x, v - y)
         if far < 1e-6:
             return []
-        lead = min(LEAD, 0.2 * far)
-        turns = max(5, min(26, round((far - 2 * lead) / PITCH)))
+        first, last = self.covered if far > sum(self.covered) + 2 * COIL else (0.0, 0.0)
+        lead = min(LEAD, 0.2 * (far - first - last))
+        step = far - first - last - 2 * lead
+        turns = max(FEWEST, min(26, round(step / PITCH)))
         along = direction(*spots)
         aside = -along[1], along[0]
 
         def spot(way: float, off: float) -> Spot:
             return x + along[0] * way + aside[0] * off, y + along[1] * way + aside[1] * off
 
-        step = (far - 2 * lead) / turns
-        peaks = [spot(lead + (i + 0.5) * step, COIL if i % 2 else -COIL) for i in range(turns)]
-        line = ((x, y), spot(lead, 0), *peaks, spot(far - lead, 0), (u, v))
-        return [Stroke(line, "spring"), self._beside(spots, COIL + 3.0)]
+        begin, step = first + lead, step / turns
+        peaks = [spot(begin + (i + 0.5) * step, COIL if i % 2 else -COIL) for i in range(turns)]
+        line = ((x, y), spot(begin, 0), *peaks, spot(far - last - lead, 0), (u, v))
+        return [Stroke(line, "spring"), self._beside((spot(first, 0), spot(far - last, 0)), COIL + 3.0)]
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.space import Spot, Vector, hull, numeric
 from derive.figures.surfaces import Cavity, Circle, Hole, Revolved, ThinRod
-from derive.figures.surroundings import DistanceMark, FixedEnd
+from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd
 from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, stance_values, turns_about_axes
 from derive.figures.turning import angle_marks, downwards
 from derive.mechanics.bodies.boundary import Boundary, Extruded, Faces, Hollowed, Rim, Round, Segment
@@ -331,7 +331,8 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
 
 
 def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark]:
-    """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre."""
+    """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre with an arrowhead in its
+    positive sense."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
@@ -341,7 +342,11 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
         else:
             continue
         square = tidied(Add(*(c**2 for c in (end - start).components)))
-        yield from angle_marks(system, Link(start, end, sqrt(square), True))
+        for angle in angle_marks(system, Link(start, end, sqrt(square), True)):
+            if isinstance(mark, WheelMark) and isinstance(angle, AngleBetween) and angle.label.is_Symbol:
+                yield replace(angle, growing=diff(angle.b, angle.label))
+            else:
+                yield angle
 
 
 def placed_outline(placed: Any) -> list[Mark]:

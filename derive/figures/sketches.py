@@ -20,7 +20,7 @@ from derive.figures.contacts import contact_marks
 from derive.figures.elements import CLEAR
 from derive.figures.links import Link, angle_of_link, is_fixed, is_spring, link_to, moving_in, same
 from derive.figures.marks import Drawing, Mark, Marks
-from derive.figures.parts import BLOCK, ConnectionMark, ParticleMark, SpringMark, WheelMark
+from derive.figures.parts import BLOCK, BlockMark, ConnectionMark, ParticleMark, SpringMark, WheelMark
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
@@ -244,14 +244,26 @@ class _Scene:
         yield ParticleMark(column_of(particle.at), label=particle.mass)
         link = self.links.get(i)
         if link is not None and not self._is_drawn(particle, link):
-            is_on_wire = self.connections.is_on_wire(particle.at)
             marks = link_marks(self.system, link)
-            yield from (mark for mark in marks if not (is_on_wire and isinstance(mark, WayMark)))
+            yield from self._along_wire(link, marks) if self.connections.is_on_wire(particle.at) else marks
             if self.rows == 3:
                 yield from self._round(link)
         elif not self._is_held(particle, link):
             plain = [c for c in particle.at.components if c in self.system.coordinates]
             yield from self._cartesian(particle.at) if len(plain) == self.rows else self._ways(particle.at)
+
+    def _along_wire(self, link: Link, marks: Iterable[Mark]) -> Iterable[Mark]:
+        """Yield the marks of the link to a bead on a wire: without its path, which is the wire, and with a dimension
+        line for the distance along a straight wire, on the side away from the angle of the wire."""
+        moving = moving_in(self.system, *link.way.components) - {TIME}
+        is_straight = not link.is_constant and not any(diff(c, q, 2) for c in link.way.components for q in moving)
+        turned = angle_of_link(self.system, link)
+        side = None if turned is None else -column_of(turned[1])
+        for mark in marks:
+            if isinstance(mark, ConnectionMark) and is_straight and mark.label == link.length:
+                yield DistanceMark(mark.start, mark.end, side, label=mark.label)
+            elif not isinstance(mark, WayMark):
+                yield mark
 
     def _is_held(self, particle: Particle, link: Link | None) -> bool:
         """Whether a connection holds the particle or is drawn along its link."""
@@ -447,12 +459,19 @@ class _Scene:
         """Return False for a fixed end: for a point that does not move and is not the position of a particle."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
+    def _covered(self, end: Location) -> float:
+        """Return the length of the end of a spring that a block covers, in points."""
+        there = [particle for particle in self.system.particles if same(particle.at, end)]
+        blocks = [mark for particle in there for mark in self.connections.block(particle) or ()]
+        return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
+
     def _between(self, each: Central) -> Iterable[Mark]:
         """Yield a spring with its fixed ends, or the source of a central force with the orbit about it."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
-            yield SpringMark(a, b, label=tidied(diff(explicit(each.energy), each.distance, 2)))
+            constant = tidied(diff(explicit(each.energy), each.distance, 2))
+            yield SpringMark(a, b, (self._covered(each.start), self._covered(each.end)), label=constant)
         for end, way in ((each.start, b - a), (each.end, a - b)):
             if self._moves(end):
                 continue

@@ -11,7 +11,7 @@ from derive.figures.annotations import ASIDE, measured
 from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
-from derive.figures.space import Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
+from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and length of a hatch
@@ -217,14 +217,16 @@ class CurvedGround(WayMark):
 class AngleBetween(Mark):
     """The arc from one line to another at a vertex; its radius is usually less than the lengths of the lines.
 
-    a, b     vectors from the vertex along the lines
-    dashed   whether the first line is drawn, as a dashed line
+    a, b       vectors from the vertex along the lines
+    dashed     whether the first line is drawn, as a dashed line
+    growing    the direction in which the end of b moves if the angle grows; then an arrowhead shows the positive sense
     """
 
     vertex: Position
     a: Position
     b: Position
     dashed: bool = False
+    growing: Position = None
     layer: ClassVar[int] = 5
 
     @property
@@ -254,9 +256,11 @@ class AngleBetween(Mark):
         if size < 0.02:
             return pieces
         spots = paper.spots(*places)
+        onwards = plus(plus(NOUGHT, along, -sin(size)), across, cos(size))
+        grows = 0.0 if self.growing is None else dot(paper.numbers.vector(self.growing), onwards)
         return [
             *pieces,
-            Stroke(spots, "angle"),
+            Stroke(spots, "angle", head=grows > 0, tail=grows < 0),
             Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.0),
         ]
 

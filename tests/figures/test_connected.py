@@ -440,3 +440,13 @@ def test_a_rod_on_a_rotating_shaft_hangs_from_the_shaft(tmp_path: Path) -> None:
     (hinge,) = of_class(drawn, FixedEnd)
     assert hinge.joint and list(hinge.at) == list(shaft.start)
     assert [str(c) for c in shaft.end - shaft.start] == ["0", "0", "3*l/8"]
+
+
+def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("atwood_disc"))["system"]
+    (angle,) = of_class(drawn, AngleBetween)
+    (value,) = (value for letter, value in drawn.values if letter == angle.label)
+    assert numeric(value) > 0
+    for number, pointed in ((2.0, (True, False)), (-1.0, (False, True))):
+        arc = angle.pieces(OnPaper(Numbers({angle.label: number}), FLAT, 60.0))[1]
+        assert isinstance(arc, Stroke) and (arc.head, arc.tail) == pointed

@@ -7,7 +7,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+<<<<<<< HEAD
 from sympy import Expr, Integer, Symbol, cos, pi, sin, symbols
+=======
+from sympy import Expr, Integer, Rational, Symbol, cos, pi, symbols
+>>>>>>> f1
 
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Across, Levels, Plot
@@ -16,7 +20,12 @@ from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
+<<<<<<< HEAD
 from derive.render.drawing.plotting import CM, Frame, Panel, line_of, panel_of, plot_sheet
+=======
+from derive.render.drawing.lettering import letters_of
+from derive.render.drawing.plotting import CM, Frame, Panel, Writing, _names_with_room, panel_of, plot_sheet
+>>>>>>> f1
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
@@ -55,9 +64,19 @@ def test_every_curve_has_a_panel_of_the_same_width() -> None:
 
 
 def test_ticks_are_a_few_round_numbers_within_the_range() -> None:
-    (angle,), (length,) = panels(plot_of(cos(theta))), panels(plot_of(theta**2, Integer(0), Integer(1) / 250, "length"))
+    (angle,), (length,) = panels(plot_of(cos(theta))), panels(plot_of(theta**2, Integer(0), Integer(1) / 25, "length"))
     assert [at for at, _ in angle.across] == [-90, -60, -30, 0, 30, 60, 90]
-    assert [text for _, text in length.across] == ["$0.000$", "$0.001$", "$0.002$", "$0.003$", "$0.004$"]
+    assert [text for _, text in length.across] == ["$0.00$", "$0.01$", "$0.02$", "$0.03$", "$0.04$"]
+
+
+@pytest.mark.parametrize(("size", "power"), [(10**33, 33), (Rational(1, 10**9), -9), (2000, None)])
+def test_an_axis_with_very_large_or_small_numbers_has_a_power_of_ten_in_its_name(size: Any, power: int | None) -> None:
+    (panel,) = panels(plot_of(size * cos(theta)))
+    assert panel.up[0][0] == 0.0 and panel.up[-1][0] == pytest.approx(float(size))
+    if power is None:
+        assert panel.up[-1][1] == "$2000$" and panel.names[1] == r"$V\,/\,\mathrm{J}$"
+    else:
+        assert panel.up[-1][1] == "$1.0$" and panel.names[1] == rf"$V\,/\,(10^{{{power}}}\,\mathrm{{J}})$"
 
 
 def test_axes_are_named_with_their_units() -> None:
@@ -145,13 +164,14 @@ def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -
         panel_of(plot_of(a * cos(theta)), curve, found, Notation(), WORDS, letter)
         for letter, curve in zip("ab", found.curves, strict=True)
     )
-    assert [name for panel in (one, two) for _, _, name in panel.turns] == [
-        r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$",
-        r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$",
+    assert [names for panel in (one, two) for _, _, names in panel.turns] == [
+        (r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$", r"$1.000\,\mathrm{J}$"),
+        (r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$", r"$2.000\,\mathrm{J}$"),
     ]
     assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")
 
 
+<<<<<<< HEAD
 def path_of(across: Expr, up: Expr, unit: str = "J", upper: Expr = 2 * pi) -> Plot:
     x, z = Symbol("x"), Symbol("z")
     return Plot("path", z, up, theta, Integer(0), upper, "energy", "angle", across=Across(x, across, unit))
@@ -221,3 +241,20 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
 def test_a_range_of_two_turns_has_a_few_ticks() -> None:
     (panel,) = panels(plot_of(cos(theta), -2 * pi, 2 * pi))
     assert [at for at, _ in panel.across] == [-360, -180, 0, 180, 360]
+=======
+@pytest.mark.parametrize(("wide", "form"), [(400, 0), (140, 1), (30, None)])
+def test_all_extrema_are_named_in_the_same_form_or_none(wide: int, form: int | None) -> None:
+    """If there is little room, the names are without the kind; if there is less, there are none."""
+    (panel,) = panels(plot_of(cos(2 * theta), -3 * pi / 4, 3 * pi / 4))
+    writing = Writing(letters_of(set(panel.texts())))
+    frame = Frame((0.0, 0.0, float(wide), 90.0), panel.values)
+    found = [name for _, _, name, _ in _names_with_room(panel, frame, writing)]
+    assert found == ([] if form is None else [names[form] for _, _, names in panel.turns])
+
+
+def test_the_name_of_an_extremum_is_clear_of_the_ticks_of_the_axis() -> None:
+    (panel,) = panels(plot_of(cos(theta), -pi / 12, pi / 2))
+    writing = Writing(letters_of(set(panel.texts())))
+    ((middle, _, name, _),) = _names_with_room(panel, Frame((0.0, 0.0, 120.0, 90.0), panel.values), writing)
+    assert middle - writing.size(name, plotting.SMALLEST)[0] / 2 > plotting.TICK + 3
+>>>>>>> f1

@@ -10,9 +10,15 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
+<<<<<<< HEAD
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from math import ceil, dist, floor, log10
+=======
+from dataclasses import dataclass
+from itertools import combinations
+from math import ceil, floor, log10
+>>>>>>> f1
 from typing import Any, TypeAlias
 
 from derive.algebra.expressions import Amount
@@ -31,13 +37,19 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 STEPS = 240
+<<<<<<< HEAD
 MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
 ROOM = 0.36  # margin above and below a curve, in units of its height
+=======
+MOST_ACROSS, MOST_UP = 6, 4  # most intervals between the ticks of the two axes
+ROOM = 0.42  # margin above and below a curve, in units of its height
+>>>>>>> f1
 PANEL, TALL = 6.0, 4.2  # centimetres
 MARGIN = 0.08  # margin around a path, in units of its width and height
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
 CM = 72 / 2.54
+USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
 SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # in points: the distance of the name of an axis from its numbers, and of a name from its dot
@@ -56,7 +68,7 @@ class Panel:
     across, up       the ticks of both axes, with their numbers
     names            the names of both axes
     values           the ranges of the axes: left, below, right, above
-    turns            the extrema: the point, whether it is a minimum, and its name
+    turns            the extrema: the point, whether it is a minimum, and its names, with and without the kind
     numbers          the numbers that were substituted
     is_path          whether the curve is a path, which has dots at its ends and an arrowhead
     lines            the curves of a phase portrait
@@ -68,7 +80,7 @@ class Panel:
     up: Ticks
     names: tuple[str, str]
     values: Extent
-    turns: tuple[tuple[Spot, bool, str], ...]
+    turns: tuple[tuple[Spot, bool, tuple[str, str]], ...]
     numbers: str
     is_path: bool = False
     shape: float | None = None
@@ -76,7 +88,8 @@ class Panel:
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
-        yield from (*self.names, *(name for _, _, name in self.turns), *([self.numbers] if self.numbers else []))
+        yield from (name for _, _, names in self.turns for name in names)
+        yield from (*self.names, *([self.numbers] if self.numbers else []))
 
 
 @dataclass(frozen=True)
@@ -162,20 +175,26 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
     low, high = min(y for _, y in points), max(y for _, y in points)
     room = ROOM * ((high - low) or abs(high) or 1.0)
     start, end = curve.lower * curves.per_unit, curve.upper * curves.per_unit
+    wide, tall = (0 if curves.unit == DEGREES else _power(start, end)), _power(low, high)
     return Panel(
         points=tuple((x * curves.per_unit, y) for x, y in points),
         values=(start, low - room, end, high + room),
-        across=_ticks(start, end, MOST_ACROSS, curves.unit == DEGREES),
-        up=_ticks(low, high, MOST_UP, room=room),
+        across=_scaled_ticks(wide, start, end, MOST_ACROSS, curves.unit == DEGREES),
+        up=_scaled_ticks(tall, low, high, MOST_UP, room=room),
         names=(
+<<<<<<< HEAD
             _axis_name(plot.variable, curves.unit, notation),
             _axis_name(plot.label, plot.unit_up, notation),
+=======
+            _axis_name(plot.variable, curves.unit, notation, wide),
+            _axis_name(plot.label, unit_of_kind(plot.kind), notation, tall),
+>>>>>>> f1
         ),
         turns=tuple(
             (
                 (each.at * curves.per_unit, each.value),
                 each.kind == MINIMUM,
-                rf"$\mathrm{{{words.drawings[each.kind]}}}\;\;{_mathtext_of_value(told_value(plot, each))}$",
+                _names_of(words.drawings[each.kind], _mathtext_of_value(told_value(plot, each))),
             )
             for each in curve.marked
         ),
@@ -183,6 +202,7 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
     )
 
 
+<<<<<<< HEAD
 def path_panel(plot: Plot, curve: Curve, notation: Notation, letter: str = "") -> Panel:
     """Return the panel of a path."""
     assert plot.across is not None
@@ -241,6 +261,26 @@ def _widened(low: float, high: float, size: float) -> tuple[float, float]:
     """Return a range of this size with the same middle."""
     middle = (low + high) / 2
     return middle - size / 2, middle + size / 2
+=======
+def _names_of(kind: str, value: str) -> tuple[str, str]:
+    """Return the names of an extremum, with and without its kind."""
+    return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
+
+
+def _power(low: float, high: float) -> int:
+    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size."""
+    greatest = max(abs(low), abs(high))
+    power = floor(log10(greatest)) if greatest > 0 else 0
+    return 0 if USUAL[0] <= power <= USUAL[1] else power
+
+
+def _scaled_ticks(power: int, low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
+    """Return the ticks with numbers that are divided by a power of ten."""
+    if not power:
+        return _ticks(low, high, most, in_degrees, room)
+    unit = 10.0**power
+    return tuple((at * unit, text) for at, text in _ticks(low / unit, high / unit, most, in_degrees, room / unit))
+>>>>>>> f1
 
 
 def _title(letter: str, numbers: str) -> str:
@@ -270,10 +310,13 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: f
     return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
 
 
-def _axis_name(symbol: Any, unit: str, notation: Notation) -> str:
-    """Return the name of an axis, a quantity divided by its unit: `U / J`."""
+def _axis_name(symbol: Any, unit: str, notation: Notation, power: int = 0) -> str:
+    """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
+    `U / (10^33 J)`."""
     name = _mathtext(notation.layout(symbol))
-    over = rf"\,/\,{_mathtext_of_unit(unit)}" if unit else ""
+    parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
+    divisor = rf"({parts[0]}\,{parts[1]})" if len(parts) > 1 else "".join(parts)
+    over = rf"\,/\,{divisor}" if divisor else ""
     return f"${name}{over}$"
 
 
@@ -338,21 +381,31 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float
         yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)
 
 
-def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> Iterator[tuple[float, float, str, bool]]:
-    """Yield each name of an extremum with its position in the panel: x of its middle, and y of its edge next to the
-    dot. Also yield whether the extremum is a minimum. A name that would cover another name is left out; the caption has
-    the values of all extrema."""
+def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[tuple[float, float, str, bool]]:
+    """Return the name of each extremum with its position in the panel: x of its middle, and y of its edge next to the
+    dot. Also return whether the extremum is a minimum.
+
+    If a name would cover another, all names are without the words. If this does not help, there are no names; the
+    caption has the values of all extrema.
+    """
+    for k in (0, 1):
+        found = [_beside_dot(*turn[:2], turn[2][k], frame, writing) for turn in panel.turns]
+        if not any(_overlap(one, other) for (_, one), (_, other) in combinations(found, 2)):
+            return [each for each, _ in found]
+    return []
+
+
+def _beside_dot(
+    place: Spot, is_lowest: bool, name: str, frame: Frame, writing: Writing
+) -> tuple[tuple[float, float, str, bool], Extent]:
+    """Return the name of an extremum with its position, clear of the ticks of the axis on the left, and its box."""
     left, _, right, _ = frame.paper
-    taken: list[Extent] = []
-    for place, is_lowest, name in panel.turns:
-        x, y = frame.spot(place)
-        wide, high = writing.size(name, SMALLEST)
-        middle = max(left + PAD + wide / 2, min(x, right - PAD - wide / 2))
-        edge = y - PAD - DOT if is_lowest else y + PAD + DOT
-        box = middle - wide / 2, edge - high * is_lowest, middle + wide / 2, edge + high * (not is_lowest)
-        if not any(_overlap(box, other) for other in taken):
-            taken.append(box)
-            yield middle, edge, name, is_lowest
+    x, y = frame.spot(place)
+    wide, high = writing.size(name, SMALLEST)
+    middle = max(left + TICK + PAD + wide / 2, min(x, right - PAD - wide / 2))
+    edge = y - PAD - DOT if is_lowest else y + PAD + DOT
+    box = middle - wide / 2, edge - high * is_lowest, middle + wide / 2, edge + high * (not is_lowest)
+    return (middle, edge, name, is_lowest), box
 
 
 def _overlap(one: Extent, other: Extent) -> bool:
