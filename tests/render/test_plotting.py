@@ -7,11 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-<<<<<<< HEAD
-from sympy import Expr, Integer, Symbol, cos, pi, sin, symbols
-=======
-from sympy import Expr, Integer, Rational, Symbol, cos, pi, symbols
->>>>>>> f1
+from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, symbols
 
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Across, Levels, Plot
@@ -20,12 +16,8 @@ from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
-<<<<<<< HEAD
-from derive.render.drawing.plotting import CM, Frame, Panel, line_of, panel_of, plot_sheet
-=======
 from derive.render.drawing.lettering import letters_of
-from derive.render.drawing.plotting import CM, Frame, Panel, Writing, _names_with_room, panel_of, plot_sheet
->>>>>>> f1
+from derive.render.drawing.plotting import CM, Frame, Panel, Writing, _names_with_room, line_of, panel_of, plot_sheet
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
@@ -171,7 +163,6 @@ def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -
     assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")
 
 
-<<<<<<< HEAD
 def path_of(across: Expr, up: Expr, unit: str = "J", upper: Expr = 2 * pi) -> Plot:
     x, z = Symbol("x"), Symbol("z")
     return Plot("path", z, up, theta, Integer(0), upper, "energy", "angle", across=Across(x, across, unit))
@@ -241,7 +232,8 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
 def test_a_range_of_two_turns_has_a_few_ticks() -> None:
     (panel,) = panels(plot_of(cos(theta), -2 * pi, 2 * pi))
     assert [at for at, _ in panel.across] == [-360, -180, 0, 180, 360]
-=======
+
+
 @pytest.mark.parametrize(("wide", "form"), [(400, 0), (140, 1), (30, None)])
 def test_all_extrema_are_named_in_the_same_form_or_none(wide: int, form: int | None) -> None:
     """If there is little room, the names are without the kind; if there is less, there are none."""
@@ -257,4 +249,3 @@ def test_the_name_of_an_extremum_is_clear_of_the_ticks_of_the_axis() -> None:
     writing = Writing(letters_of(set(panel.texts())))
     ((middle, _, name, _),) = _names_with_room(panel, Frame((0.0, 0.0, 120.0, 90.0), panel.values), writing)
     assert middle - writing.size(name, plotting.SMALLEST)[0] / 2 > plotting.TICK + 3
->>>>>>> f1

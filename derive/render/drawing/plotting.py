@@ -10,15 +10,9 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
-<<<<<<< HEAD
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate, combinations, pairwise
 from math import ceil, dist, floor, log10
-=======
-from dataclasses import dataclass
-from itertools import combinations
-from math import ceil, floor, log10
->>>>>>> f1
 from typing import Any, TypeAlias
 
 from derive.algebra.expressions import Amount
@@ -37,13 +31,8 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 STEPS = 240
-<<<<<<< HEAD
 MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
-ROOM = 0.36  # margin above and below a curve, in units of its height
-=======
-MOST_ACROSS, MOST_UP = 6, 4  # most intervals between the ticks of the two axes
 ROOM = 0.42  # margin above and below a curve, in units of its height
->>>>>>> f1
 PANEL, TALL = 6.0, 4.2  # centimetres
 MARGIN = 0.08  # margin around a path, in units of its width and height
 PORTRAIT = 0.85  # height divided by width of a phase portrait
@@ -182,13 +171,8 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
         across=_scaled_ticks(wide, start, end, MOST_ACROSS, curves.unit == DEGREES),
         up=_scaled_ticks(tall, low, high, MOST_UP, room=room),
         names=(
-<<<<<<< HEAD
-            _axis_name(plot.variable, curves.unit, notation),
-            _axis_name(plot.label, plot.unit_up, notation),
-=======
             _axis_name(plot.variable, curves.unit, notation, wide),
-            _axis_name(plot.label, unit_of_kind(plot.kind), notation, tall),
->>>>>>> f1
+            _axis_name(plot.label, plot.unit_up, notation, tall),
         ),
         turns=tuple(
             (
@@ -202,7 +186,6 @@ def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words
     )
 
 
-<<<<<<< HEAD
 def path_panel(plot: Plot, curve: Curve, notation: Notation, letter: str = "") -> Panel:
     """Return the panel of a path."""
     assert plot.across is not None
@@ -261,7 +244,8 @@ def _widened(low: float, high: float, size: float) -> tuple[float, float]:
     """Return a range of this size with the same middle."""
     middle = (low + high) / 2
     return middle - size / 2, middle + size / 2
-=======
+
+
 def _names_of(kind: str, value: str) -> tuple[str, str]:
     """Return the names of an extremum, with and without its kind."""
     return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
@@ -280,7 +264,6 @@ def _scaled_ticks(power: int, low: float, high: float, most: int, in_degrees: bo
         return _ticks(low, high, most, in_degrees, room)
     unit = 10.0**power
     return tuple((at * unit, text) for at, text in _ticks(low / unit, high / unit, most, in_degrees, room / unit))
->>>>>>> f1
 
 
 def _title(letter: str, numbers: str) -> str:

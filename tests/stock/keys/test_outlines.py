@@ -132,14 +132,8 @@ def drawn(folder: Path, text: str) -> Drawing:
 
 
 def test_the_axes_of_a_cube_begin_at_its_centre_unless_the_centre_is_asked_for(tmp_path: Path) -> None:
-<<<<<<< HEAD
     assert len([mark for mark in of(drawn(tmp_path, CUBE), Line) if mark.pen == "hidden"]) == 3
     asks = drawn(tmp_path, edited(CUBE, ("answer: moment_about", "answer: [centre_of_mass, moment_about]")))
-=======
-    assert len([mark for mark in of(drawing_of(tmp_path, "cube"), Line) if mark.pen == "hidden"]) == 3
-    change = "answer: moment_about\n    points", "answer: [centre_of_mass, moment_about]\n    points"
-    asks = drawing_of(tmp_path, "cube", change)
->>>>>>> f1
     assert not [mark for mark in of(asks, Line) if mark.pen == "hidden"]
 
 
