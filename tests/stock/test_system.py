@@ -221,3 +221,26 @@ def test_an_unknown_key_causes_no_further_error(tmp_path: Path) -> None:
         "a particle has no key `weight`",
         "a particle needs `mass`: its mass",
     ]
+
+
+CART = (
+    ("  coordinates: {theta: angle}", "  coordinates: {x: length, theta: angle}"),
+    ("  places: {A: [l*sin(theta), -l*cos(theta)]}", "  places: {A: [x + l*sin(theta), -l*cos(theta)]}"),
+    ("{bob: {mass: m, at: A}}", "{bob: {mass: m, at: A}, cart: {mass: m, at: [x, 0]}}"),
+    ("equations_of_motion", "equilibria"),
+)
+
+
+def test_a_momentum_without_effect_on_the_equilibria_is_not_assumed(tmp_path: Path) -> None:
+    """The effective potential of a pendulum on a cart contains the momentum only in a constant term."""
+    run = Run()
+    run_solve(loaded(tmp_path, edited(PENDULUM, *CART)), run)
+    assert not run.assumed
+    assert len([q for q in run.established if q.key.startswith("rest")]) == 2
+
+
+def test_a_momentum_on_which_the_equilibria_depend_is_assumed(tmp_path: Path) -> None:
+    planet = [(old, new.replace("positive J", "J")) for old, new in PLANET]
+    run = Run()
+    run_solve(loaded(tmp_path, edited(PENDULUM, *planet, ("equations_of_motion", "equilibria"))), run)
+    assert [str(each) for each in run.assumed] == ["J != 0"]
