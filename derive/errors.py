@@ -204,6 +204,10 @@ class Faults:
     ) -> None:
         self.add(Complaint(code, message, place, notes, help))
 
+    @property
+    def complaints(self) -> tuple[Complaint, ...]:
+        return tuple(self._complaints)
+
     def take(self, others: Faults) -> None:
         for complaint in others._complaints:
             self.add(complaint)

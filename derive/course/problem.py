@@ -7,11 +7,12 @@ are known; `Prose.place_of` and `Problem.place_of` give the places for their err
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from collections.abc import Mapping as Table
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path, PurePosixPath
 from posixpath import normpath
 
@@ -32,7 +33,7 @@ from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
 from derive.course.problem_set import path_of
 from derive.course.prose import Prose
-from derive.course.schema import read_record
+from derive.course.schema import THE_KEYS_ARE, read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, Methods, StockScript, stock_names, stock_script
 from derive.course.unused import unused_in
@@ -439,6 +440,28 @@ def _names_under(given: Mapping | None, key: str) -> set[str]:
     return {name.text for name, _ in declared.pairs} if isinstance(declared, Mapping) else set()
 
 
+# codes of errors in one value, which do not depend on other keys
+OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive", "dimension", "changes")
+
+
+def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
+    """Whether all errors are unknown keys within an entry, such as a particle, that resemble no known key. Then no
+    value is missing, so errors in the known keys are not consequences of these errors."""
+    at_top = {name.place for name, _ in given.pairs}
+    return all(
+        each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top
+        for each in faults.complaints
+    )
+
+
+def _errors_of_values(reading: Callable[[Faults], object]) -> Faults:
+    """Return the errors of a reading that concern one value only."""
+    found = Faults()
+    with found:
+        reading(found)
+    return Faults(each for each in found.complaints if each.code in OF_ONE_VALUE)
+
+
 def _described_by(
     script: StockScript, given: Mapping, symbols: dict[str, Declared], values: tuple[Measured, ...], faults: Faults
 ) -> Pinned:
@@ -447,6 +470,8 @@ def _described_by(
     written = read_record(script.stock.keys, given, "`given`", own)
     if own:
         faults.take(own)
+        if _are_superfluous_keys(own, given):
+            faults.take(_errors_of_values(partial(script.stock.read, written, symbols)))
         return Pinned(symbols, (), values)
     described = script.stock.read(written, symbols, faults)
     symbols |= described.chosen

@@ -19,6 +19,7 @@ from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Wo
 from derive.errors import Faults, Place, did_you_mean, nearest
 
 MAX_FIGURES = 15
+THE_KEYS_ARE = "the keys are "  # begins the help for an unknown key that is similar to no known key
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Record")
@@ -95,7 +96,7 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
             close = renamed.get(name.text) or nearest(name.text, [known for known in keys if node.get(known) is None])
             if close in missing:
                 missing.remove(close)
-            help_line = f"did you mean `{close}`?" if close else "the keys are " + ", ".join(f"`{k}`" for k in keys)
+            help_line = f"did you mean `{close}`?" if close else THE_KEYS_ARE + ", ".join(f"`{k}`" for k in keys)
             help_line = f"write `{close}`: {keys[close].meaning}" if close and name.text in renamed else help_line
             faults.error("unknown-key", f"{what} has no key `{abridged(name.text)}`", name.place, help=help_line)
     for wanted in missing:

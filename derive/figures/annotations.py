@@ -228,7 +228,7 @@ class Arrow(Mark):
         far = self._length(paper)
         spots = paper.spots(start, plus(start, along, -far if self.pushes else far))
         if self.aside:
-            x, y = direction(*spots)
+            x, y = direction(*(spots[::-1] if self.pushes else spots))
             spots = tuple((u - self.aside * y, v + self.aside * x) for u, v in spots)
         pen = "asked" if self.asked else "given"
         if self.pushes:

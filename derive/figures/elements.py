@@ -141,7 +141,7 @@ def wedge(*corners: Any, label: Any = None) -> Mark:
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
     """Hatched ground from one point to another, with its solid side below.
 
-    under   a block or a cart on the ground, without a given height; the ground is then drawn at its base
+    under   a block or a cart, whose `at` is on this line; the ground is then drawn at its base
     """
     return _ground(start, end, "down", under)
 
@@ -158,8 +158,13 @@ def wall(start: Any, end: Any, solid: str = "left") -> Mark:
 
 def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
     (a, b), keys = vectors_of(start, end)
-    off = UNDER.get(type(under), 0.0) if getattr(under, "height", None) is None else 0.0
-    return GroundMark(a, b, towards(side, a.rows), off, keys=keys)
+    solid = towards(side, a.rows)
+    off = 0.0 if getattr(under, "stands", False) else UNDER.get(type(under), 0.0)
+    if off and (height := getattr(under, "height", None)) is not None:  # half of the height is a length, not points
+        across = solid - (b - a) * (b - a).dot(solid) / (b - a).dot(b - a)
+        a, b = (end + across * as_expr(height) / (2 * across.norm()) for end in (a, b))
+        off -= under.usual[1] / 2
+    return GroundMark(a, b, solid, off, keys=keys)
 
 
 def pivot(at: Any, label: Any = None, away: Any = "down") -> Mark:

@@ -134,7 +134,7 @@ def link_from_fixed(system: System, end: Location) -> Link | None:
 
 def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
     """Yield the links to a moving point from the fixed points about which it rotates."""
-    for start in (_without(end, q) for q in moving_in(system, *end.components)):
+    for start in (_without(end, q) for q in sorted(moving_in(system, *end.components), key=str)):
         link = _link(system, start, end) if start is not None and is_fixed(system, start) else None
         if link is not None:
             yield link

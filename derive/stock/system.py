@@ -8,9 +8,10 @@ from functools import cached_property
 from itertools import chain
 from typing import Any
 
-from sympy import Expr, Integer
+from sympy import Expr, Integer, diff
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
+from derive.algebra.tidy import tidied
 from derive.course.parts import BOTH, ENERGY, LAGRANGE
 from derive.course.placement import Placement
 from derive.course.stock import Methods, Stock, told_at
@@ -475,11 +476,22 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         is_pushed = is_driven or bool(self.system.given_forces)
         if self.system.constraints:  # a constraint force may act along a cyclic coordinate
             return self.lagrangian if is_pushed else self.potential_energy
-        for momentum in self.cyclic.values():
-            assume(Relation(momentum.symbol, ">" if momentum.symbol.is_positive else "!=", Integer(0)))
+        self._assume_momenta()
         if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
             return self.effective_potential
         return self.lagrangian if is_pushed else self.potential_energy
+
+    def _assume_momenta(self) -> None:
+        """Assume that the constant momenta are positive, or different from zero. Leave the second assumption out if the
+        force of the effective potential on the other coordinates does not depend on the momentum."""
+        left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
+        for symbol in (momentum.symbol for momentum in self.cyclic.values()):
+            if symbol.is_positive:
+                assume(Relation(symbol, ">", Integer(0)))
+        for symbol in (momentum.symbol for momentum in self.cyclic.values()):
+            forces = [tidied(diff(explicit(self.effective_potential.value), q)) for q in left]
+            if not symbol.is_positive and (not left or any(force.has(symbol) for force in forces)):
+                assume(Relation(symbol, "!=", Integer(0)))
 
     @cached_property
     def stationary(self) -> tuple[Quantity, ...]:

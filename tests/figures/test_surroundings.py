@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import atan2, degrees, hypot, pi
 
 import pytest
-from sympy import sin
+from sympy import ImmutableDenseMatrix, Integer, Rational, sin
 
 from derive.figures import angle_mark, block, drawing, fixed_end, gravity_mark, length_mark, particle, pivot, rod, way
-from derive.figures.annotations import ASIDE
-from derive.figures.elements import ceiling, floor, wall
+from derive.figures.annotations import ASIDE, Arrow
+from derive.figures.elements import cart, ceiling, floor, wall
 from derive.figures.marks import Mark
 from derive.figures.pieces import Piece
 from derive.figures.surroundings import ARC, FloorMark
@@ -17,6 +17,7 @@ from derive.mechanics import Coordinate, point
 from tests.figures.machines import ORIGIN, R, a, hung, l, letter, m, seen
 from tests.figures.scenery import strokes
 
+AT, ALONG = ImmutableDenseMatrix([0, 0]), ImmutableDenseMatrix([1, 0])
 RIGHT, DOWN = point(2, 0), point(0, -2)
 
 
@@ -41,11 +42,20 @@ def test_a_wall_is_hatched_on_the_side_that_is_said() -> None:
     assert side(shown(wall(ORIGIN, DOWN, solid="right")))[0] > 1
 
 
-def test_a_floor_is_drawn_under_what_stands_on_it() -> None:
-    on_it = block(point(1, 0))
+@pytest.mark.parametrize(
+    "on_it", [block(point(1, 0)), block(point(1, 0), height=Rational(1, 2)), block(point(1, 0), stands=True)]
+)
+def test_a_floor_is_drawn_under_what_stands_on_it(on_it: Mark) -> None:
     pieces = shown(on_it, floor(ORIGIN, RIGHT, under=on_it))
     ground = strokes(pieces, "ground")[0]
     assert ground.spots[0][1] == pytest.approx(min(y for _, y in strokes(pieces, "edge")[0].spots))
+
+
+def test_a_floor_is_drawn_under_the_wheels_of_a_cart_with_a_height() -> None:
+    on_it = cart(point(1, 0), height=Rational(1, 2))
+    pieces = shown(on_it, floor(ORIGIN, RIGHT, under=on_it))
+    lowest = min(y for stroke in strokes(pieces, "edge") for _, y in stroke.spots)
+    assert strokes(pieces, "ground")[0].spots[0][1] == pytest.approx(lowest)
 
 
 def test_the_ground_under_several_places_is_wide_enough_for_them_all() -> None:
@@ -124,3 +134,13 @@ def test_gravity_points_down_beside_everything_else() -> None:
     others = [x for piece in pieces if piece is not arrow and type(piece).__name__ != "Tag" for x, _ in piece.spots]
     assert arrow.spots[0][0] == arrow.spots[1][0] > max(others) + 10
     assert arrow.spots[1][1] < arrow.spots[0][1]
+
+
+@pytest.mark.parametrize("pushes", [False, True])
+def test_an_arrow_is_shifted_to_its_left_side(pushes: bool) -> None:
+    """Both arrows point to the right, so their left side is above."""
+    straight, shifted = (Arrow(AT, ALONG, Integer(1), pushes=pushes, aside=aside) for aside in (0.0, 5.0))
+    first, second = (
+        strokes(shown(particle(ORIGIN), particle(RIGHT), arrow), "asked")[0] for arrow in (straight, shifted)
+    )
+    assert [v - y for (_, y), (_, v) in zip(first.spots, second.spots, strict=True)] == pytest.approx([5, 5])

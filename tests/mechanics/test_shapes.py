@@ -191,3 +191,8 @@ def test_integrals_that_vanish_are_left_out_of_the_sum() -> None:
     chain = moment_of_inertia(Torus(R, a, M), "x").step.chain
     (multiplied,) = [form.expr for form in chain if form.because == "multiplied"]
     assert 0 not in {term for sums in multiplied.atoms(Terms) for term in sums.args}
+
+
+def test_a_symbol_names_one_side_of_a_triangle() -> None:
+    triangle = Triangle(((ZERO, ZERO), (2 * a, ZERO), (ZERO, a)), M)
+    assert triangle.edges == ((2 * a, ((0, 1),)),)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -167,3 +168,21 @@ def test_a_wrong_linear_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(wobble, "diff", lambda f, *by: -right(f, *by) if by == (y,) else right(f, *by))
     with pytest.raises(Unverified, match="linearised"):
         linearised_rotation(equations((A, B, C)), "z", omega)
+
+
+@pytest.mark.parametrize("points", [None, 1])
+def test_the_root_with_the_other_sign_is_refused(monkeypatch: pytest.MonkeyPatch, points: int | None) -> None:
+    """Also if the rate vanishes at all points that are tried first, where all moments are equal."""
+    found, right = squared((A, B, C), "z"), wobble._root_of
+    monkeypatch.setattr(wobble, "_root_of", lambda square: -right(square))
+    if points is not None:
+        monkeypatch.setattr(wobble, "prime", lambda _: points)
+    with pytest.raises(Unverified):
+        perturbation_rate(found)
+
+
+@pytest.mark.parametrize(("other", "said"), [("omega_y", True), ("Omega_y", False), ("omega_x", False)])
+def test_the_small_components_belong_to_one_vector(other: str, said: bool) -> None:
+    small = symbols(other, real=True)
+    facts: Any = SimpleNamespace(inputs={"along": z, "small_1": x, "small_2": small})
+    assert wobble.claims.another_component(facts, x) is said

@@ -199,3 +199,48 @@ def test_nothing_is_drawn_of_a_body_that_has_no_shape(tmp_path: Path) -> None:
     run = Run()
     run_solve(loaded(tmp_path, text), run)
     assert not run.drawings
+
+
+def test_an_unknown_key_hides_no_error_of_another_value(tmp_path: Path) -> None:
+    wrong = (("mass: m, at", "mass: l, zz: 3, at"), ("-l*cos(theta)]", "-l*cos(thta)]"))
+    assert messages(tmp_path, edited(PENDULUM, *wrong)) == [
+        "6: `thta` is not declared",
+        "7: `mass` must be a mass, but `l` is a length",
+        "7: a particle has no key `zz`",
+    ]
+
+
+def test_an_unknown_key_causes_no_further_error(tmp_path: Path) -> None:
+    """A key that resembles a known key, or an unknown key of `given:` itself, may declare what other values need."""
+    in_place_of_a_name = ("  places: {A", "  named: {A")
+    assert [each.partition(": ")[2] for each in messages(tmp_path / "top", edited(PENDULUM, in_place_of_a_name))] == [
+        "`given` has no key `named`"
+    ]
+    found = messages(tmp_path / "nested", edited(PENDULUM, ("mass: m, at", "weight: m, at")))
+    assert sorted(each.partition(": ")[2] for each in found) == [
+        "a particle has no key `weight`",
+        "a particle needs `mass`: its mass",
+    ]
+
+
+CART = (
+    ("  coordinates: {theta: angle}", "  coordinates: {x: length, theta: angle}"),
+    ("  places: {A: [l*sin(theta), -l*cos(theta)]}", "  places: {A: [x + l*sin(theta), -l*cos(theta)]}"),
+    ("{bob: {mass: m, at: A}}", "{bob: {mass: m, at: A}, cart: {mass: m, at: [x, 0]}}"),
+    ("equations_of_motion", "equilibria"),
+)
+
+
+def test_a_momentum_without_effect_on_the_equilibria_is_not_assumed(tmp_path: Path) -> None:
+    """The effective potential of a pendulum on a cart contains the momentum only in a constant term."""
+    run = Run()
+    run_solve(loaded(tmp_path, edited(PENDULUM, *CART)), run)
+    assert not run.assumed
+    assert len([q for q in run.established if q.key.startswith("rest")]) == 2
+
+
+def test_a_momentum_on_which_the_equilibria_depend_is_assumed(tmp_path: Path) -> None:
+    planet = [(old, new.replace("positive J", "J")) for old, new in PLANET]
+    run = Run()
+    run_solve(loaded(tmp_path, edited(PENDULUM, *planet, ("equations_of_motion", "equilibria"))), run)
+    assert [str(each) for each in run.assumed] == ["J != 0"]

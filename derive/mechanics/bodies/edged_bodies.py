@@ -216,14 +216,15 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides whose length is a multiple of a symbol; each length appears at most once."""
-        found: dict[Expr, tuple[int, int]] = {}
+        """The sides whose length is a multiple of a symbol; each symbol appears at most once."""
+        found: dict[Expr, tuple[Expr, tuple[int, int]]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]
             length = sqrt(tidied(x**2 + y**2))
-            if length.as_coeff_Mul()[1].is_Symbol and length.free_symbols.isdisjoint(found):
-                found[length] = i, k
-        return tuple((length, (edge,)) for length, edge in found.items())
+            letter = length.as_coeff_Mul()[1]
+            if letter.is_Symbol:
+                found.setdefault(letter, (length, (i, k)))
+        return tuple((length, (edge,)) for length, edge in found.values())
 
     @property
     def _signed_area(self) -> Expr:

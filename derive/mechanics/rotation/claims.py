@@ -192,10 +192,10 @@ def to_first_order(facts: Judged, speed: Any) -> bool:
 
 
 def another_component(facts: Judged, letter: Any) -> bool:
-    """Whether the two small components and the component along the axis are distinct, and the named component belongs
-    to the same vector as the component along the axis."""
-    named = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
-    return len(set(named)) == 3 and letter.name.rpartition("_")[0] == named[0].name.rpartition("_")[0]
+    """Whether the two small components and the component along the axis are distinct, and the named component and these
+    three belong to the same vector."""
+    components = [facts.inputs[role] for role in ("along", "small_1", "small_2")]
+    return len(set(components)) == 3 and len({each.name.rpartition("_")[0] for each in (*components, letter)}) == 1
 
 
 def small_one(which: str) -> Naming:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, diff, linsolve, prime, sqrt
 
@@ -20,6 +21,7 @@ from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Quantity, is_zero
+from derive.steps.trial_numbers import trial_points
 
 __all__ = ["body_cone_rate", "linearised_rotation", "perturbation_rate", "perturbation_rate_squared"]
 
@@ -312,17 +314,17 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
         The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate vanishes. If none of the tried points is suitable, the sign is not checked.
+        where the rate vanishes. If no point is suitable, the rate itself is compared, which confirms nothing.
         """
         letters = sorted(value.free_symbols, key=str)
-        for turn in range(len(letters) + 1):
-            ordered = letters[turn:] + letters[:turn]
-            there = {letter: Rational(prime(n + 5), 7) for n, letter in enumerate(ordered)}
-            if not grows and value.subs(there).is_negative:
-                continue
-            here = found.subs(there)
-            return here, Abs(here)
-        return Abs(found), Abs(found)
+        turned = (letters[turn:] + letters[:turn] for turn in range(len(letters) + 1))
+        tried = ({letter: Rational(prime(n + 5), 7) for n, letter in enumerate(ordered)} for ordered in turned)
+        square = -value if grows else value
+        for there in chain(tried, trial_points(letters, Relation(square, ">", ZERO))):
+            if square.subs(there).is_positive:
+                here = found.subs(there)
+                return here, Abs(here)
+        return found, Abs(found)
 
     return establish(
         PERTURBATION_RATE,
