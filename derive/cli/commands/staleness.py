@@ -1,4 +1,4 @@
-"""`derive why`: the reasons why an output is stale."""
+"""`derive why`: the reasons why an output is out of date."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from derive.cli.asked import problem_id_of, root_of
 
 
 def why(arguments: argparse.Namespace) -> int:
-    """Print what would be made again, why, and by which command; the exit code is 0 even if something is stale."""
+    """Print what would be made again, why, and by which command. The exit code is 0 even if an output is out of
+    date."""
     from derive.building.staleness import Asked, asked_about, staleness
 
     root = root_of(arguments)

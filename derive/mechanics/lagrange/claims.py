@@ -227,8 +227,8 @@ def is_stretched(facts: Judged) -> bool:
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
     length `gradient`, which is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a, where J contains
-    the derivatives of r with respect to the coordinates, and a those of f. Its length is computed numerically. If the
-    position or the condition is not given, the symbol is taken as the force.
+    the derivatives of r with respect to the coordinates, and a contains those of f. The length of this gradient is
+    computed numerically. If the position or the condition is not given, the symbol is taken to be the force.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
