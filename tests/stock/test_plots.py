@@ -84,7 +84,7 @@ def test_numbers_outside_the_case_of_a_result_are_not_drawn(tmp_path: Path, numb
     """An underdamped motion needs b^2 < 4 k m."""
     curve = f"drawings:\n  curve: {{plot: weak, against: t, range: [0 s, 9 s], at: b, cases: {numbers}}}\n"
     before, _, after = DAMPED.partition("drawings:\n")
-    text = before + curve + after[after.index("note: >\n") :]
+    text = before + curve + after[after.index("parts:\n") :]
     try:
         rendered(course_with(tmp_path, text), "trial/one", only=("text",))
         found = ""
@@ -103,26 +103,26 @@ FAST = "      - {omega: 4 rad/s}\n"
     [
         (
             [("    cases:\n" + SLOW + FAST, "    values: {R: 1 m}\n"), (", <<cases>>", "")],
-            51,
+            56,
             "`values` has no effect on the plot `energy`",
             "",
         ),
         (
             [("    cases:\n" + SLOW + FAST, ""), (", <<cases>>", "")],
-            45,
+            50,
             "needs a number for `R`, `g`, `m`, `omega`",
             "under the `values` of the problem, or under the `cases` of the drawing",
         ),
-        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 53, "`theta` varies along the horizontal axis", ""),
-        ([(FAST, "      - {omega: 2 rad/s}\n")], 53, "case ii of the plot `energy` is the same as case i", ""),
-        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 53, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 58, "`theta` varies along the horizontal axis", ""),
+        ([(FAST, "      - {omega: 2 rad/s}\n")], 58, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 58, "case ii of the plot `energy` is the same as case i", ""),
         (
             [("    at: c\n", "    at: d\n")],
-            35,
+            39,
             "no plot in part c has `cases`",
             "the plot `energy` is in part d: mention `<<cases>>` there, or move the plot with `at: c`",
         ),
-        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 52,
+        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 57,
          "`M` does not occur in the drawing `energy`, so its value is not used", ""),
     ],
 )  # fmt: skip
@@ -360,3 +360,11 @@ def test_the_stored_steps_depend_on_what_is_plotted(tmp_path: Path) -> None:
     portraits = [("15 J", "16 J"), ("-180 deg", "-90 deg")]
     assert len({steps_key(loaded(tmp_path, edited(SWING, edit))) for edit in portraits}) == 2
     assert steps_key(loaded(tmp_path, THROW.replace("The path.", "A path."))) in keys, "but not on its caption"
+
+
+def test_the_ends_of_a_range_may_have_units_of_several_parts(tmp_path: Path) -> None:
+    """No name in `m/s^2` is taken to be the name of an answer."""
+    text = PENDULUM.replace("values: {m: 1 kg, g: 9.8 m/s^2, l: 1 m}", "values: {m: 1 kg, l: 1 m}")
+    text = text.replace("energy., answer: potential_energy", "frequency of small oscillations., answer: frequency")
+    text += "drawings: {swing: {plot: frequency, against: g, range: [1 m/s^2, 20 m/s^2]}}\n"
+    assert '"key": "swing"' in rendered(course_with(tmp_path, text), "trial/one", only={"json"}).texts["json"]

@@ -38,17 +38,21 @@ class FoundLetter(Declared):
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol."""
+    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol.
+
+    skips   whether a name is neither a symbol nor an answer, such as a name in the unit of a number
+    """
 
     node: Scalar
     letters: Mapping[str, Declared]
+    skips: Callable[[str], bool] = lambda name: False
 
     @property
     def answers(self) -> tuple[Word, ...]:
         """Return the names in the formula that are neither given symbols nor units; they are taken to be names of
         answers."""
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
-        found = {str(name): name for name in letters_in(self.node) if name not in given}
+        found = {str(name): name for name in letters_in(self.node) if name not in given and not self.skips(name)}
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
