@@ -177,7 +177,7 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("in no direction",),
     ),
     "m_neg": (("Assume that m > M.", "If m > M, the angular frequency"), ()),
-    "max_letters": (("which lies in the interval if 2b > a",), ()),
+    "max_letters": (("It lies in the interval if 2b > a",), ()),
     "origin-on-told-body": (("∫(0..L) x dx) = 2M x/L²", "2/L² ∫(0..L) x² dx", "2/3 L (1, 0, 0)"), ()),
     "pend_tension": (("a string only pulls", "as long as v_0² > 2g l", "v_0² < 5g l"), ("contact",)),
     "resonance-none": (("exists if b² < 2k m", "≈ 1000 s^-1", "≈ 1.000 m"), ()),

@@ -343,7 +343,7 @@ def test_a_condition_that_leaves_the_interval_out_is_refused(monkeypatch: pytest
 
 def test_a_resonance_has_its_condition_though_numbers_fulfil_it(tmp_path: Path) -> None:
     page = printed(tmp_path, DRIVEN)
-    assert "which exists if b² < 2k m" in page and "≈ 1000 s^-1" in page
+    assert "Such a maximum exists if b² < 2k m" in page and "≈ 1000 s^-1" in page
 
 
 def test_there_is_no_resonance_with_too_much_damping(tmp_path: Path) -> None:

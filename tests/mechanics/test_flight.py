@@ -296,8 +296,8 @@ def test_a_surface_that_nothing_uses_is_an_error(tmp_path: Path) -> None:
 def test_a_force_other_than_the_weight_is_refused(tmp_path: Path) -> None:
     text = edited(
         SPHERE,
-        ("g: acceleration}", "g: acceleration, q: positive charge, E: positive electric field}"),
-        ("  gravity: g", "  gravity: g\n  charges: {charge: q, at: particle, electric: [0, -E]}"),
+        ("g: acceleration}", "g: acceleration, q: positive charge, K: positive electric field}"),
+        ("  gravity: g", "  gravity: g\n  charges: {charge: q, at: particle, electric: [0, -K]}"),
     )
     assert any("a force other than its weight acts" in each.message for each in complaints(tmp_path, text))
 

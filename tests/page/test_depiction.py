@@ -209,6 +209,6 @@ def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warnin
 
 def test_a_caption_does_not_repeat_the_extrema_that_the_plot_shows(tmp_path: Path) -> None:
     found = drawings(rendered_once(ROOT, "library/rod_on_shaft", only={"json"}))
-    assert found["system"]["number"] is None and found["energy"]["number"] == 1
+    assert found["system"]["number"] == 1 and found["energy"]["number"] == 2
     assert "minimum" not in found["energy"]["caption"] and "minimum" in found["energy"]["alt"]
     assert found["energy"]["caption"].endswith("In both, l = 1 m, m = 1 kg and g = 9.8 m/s^2.")

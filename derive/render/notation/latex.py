@@ -176,7 +176,8 @@ def _fits_in_line(layout: Layout) -> bool:
 
 def _unsigned(term: Layout) -> Layout:
     """Return a term of a sum without the sign in front of it."""
-    return row(*term.items[1:]) if isinstance(term, Row) and isinstance(term.items[0], Operator) else term
+    is_signed = isinstance(term, Row) and term.items[:1] and isinstance(term.items[0], Operator)
+    return row(*term.items[1:]) if is_signed and isinstance(term, Row) else term
 
 
 def _are_letters(layout: Layout) -> bool:
