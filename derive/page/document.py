@@ -147,8 +147,9 @@ class _Writer:
         asked = [node for part in parts for node in part.ask]
         statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
-        strategy = self._told(problem.strategy.pieces) if problem.strategy else ()
-        note = self._told(problem.note.pieces, formula=self.formulas.in_note) if problem.note else ()
+        in_solution = self.formulas.in_solution
+        strategy = self._told(problem.strategy.pieces, formula=in_solution) if problem.strategy else ()
+        note = self._told(problem.note.pieces, formula=in_solution) if problem.note else ()
         self.references.check(self.numbers, self.symbols)
         title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
         self.faults += self.formulas.faults
@@ -398,7 +399,7 @@ class _Writer:
         own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
-            nodes = self._told(prose.pieces, own)
+            nodes = self._told(prose.pieces, own, self.formulas.in_solution)
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""

@@ -1,8 +1,9 @@
 """The formulas in an author's prose, parsed with the symbols of the problem: symbols and dimensions are checked.
 
-A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. The author
-is warned if a note gives the symbol of a result a value that no step of the page derives. This happens if the problem
-is changed but the note is not. A formula that cannot be parsed is printed, with a warning for the author, if it
+A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. But an
+equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results must hold for the results of the
+page. If it does not, for example because the problem was changed and the equation was not, the author is warned. A
+formula that cannot be parsed is printed, with a warning for the author, if it
 contains only commands that derive can print.
 """
 
@@ -27,12 +28,14 @@ from derive.course.transcript import Transcript
 from derive.errors import Complaint, Rejected
 from derive.page.wording import Math, Text
 from derive.steps.chain import short
-from derive.steps.step import Step
+from derive.steps.step import Step, is_zero
 
 if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
+FORCES = ("force", "torque")  # kinds of unknowns that vary in time as coordinates do, but have values in the equations
+DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
 _LETTER = re.compile(
@@ -66,20 +69,28 @@ class Formulas:
         self.vectors = {name.name: name for name in known if isinstance(name, MatrixSymbol)}
         self.numbers = {measured.symbol: measured for measured in problem.measured}
         self.given = {letter.symbol for letter in problem.symbols.values()}
-        self.results = {symbol: values for symbol, values in _results(steps).items() if symbol not in self.given}
+        steps = list(steps)
+        moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
+        self.varying = {each for q in moving for each in (q, rate(q))}
+        results = _results(steps, self.varying)
+        unknown = {step.symbol for step in steps}  # also a tension, which is declared but derived
+        self.results = {
+            symbol: values for symbol, values in results.items() if symbol in unknown or symbol not in self.given
+        }
+        self.given -= self.results.keys()
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
 
-    def in_note(self, formula: TexFormula) -> Math | Text:
-        """Return a formula of the note, which must agree with the results of the page."""
-        return self.node(formula, is_of_note=True)
+    def in_solution(self, formula: TexFormula) -> Math | Text:
+        """Return a formula of the solution, which must agree with the results of the page."""
+        return self.node(formula, is_of_solution=True)
 
-    def node(self, formula: TexFormula, is_of_note: bool = False) -> Math | Text:
+    def node(self, formula: TexFormula, is_of_solution: bool = False) -> Math | Text:
         """Return the formula for the page; if it cannot be printed, its characters as text."""
         from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
 
         try:
-            read = self._read(formula, is_of_note)
+            read = self._read(formula, is_of_solution)
         except Rejected as error:
             is_printable = self._complain(formula, error.complaints)
             return Math(Transcript(quoted_formula(formula.tex))) if is_printable else Text(formula.tex)
@@ -96,7 +107,7 @@ class Formulas:
         vector = self.vectors.get(symbol.name)
         return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
-    def _read(self, formula: TexFormula, is_of_note: bool) -> ReadMath:
+    def _read(self, formula: TexFormula, is_of_solution: bool) -> ReadMath:
         from derive.course.latex import read_latex
         from derive.course.latex.quoting import Unquotable, quoted_formula
 
@@ -113,9 +124,10 @@ class Formulas:
                 if not self._has_unknown(read):
                     _compare(left, right)
                 self._check_number(left, right, mark)
-                if is_of_note and mark == "=":
+                if is_of_solution and mark == "=":
                     self._check_result(left, right)
                     self._check_result(right, left)
+                    self._check_equation(left, right)
         try:
             quoted_formula(formula.scalar.text)
         except Unquotable as error:
@@ -134,27 +146,52 @@ class Formulas:
     def _check_result(self, left: Side, right: Side) -> None:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
-        There is no warning if the right side is a single symbol: such an equation is a condition, for example for
-        resonance. There is no warning either if the right side contains a symbol that is neither given nor derived,
+        There is no warning if the right side is zero, or a symbol or its negative: such an equation is a condition, for
+        example for resonance. Nor is there one if the right side contains a symbol that is neither given nor derived,
         such as a rate of steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())
         said = list(self._in_givens(other))
         is_derived = any(equal(one, other) for value in values for one in self._in_givens(value) for other in said)
+        is_condition = isinstance(other, Symbol) or isinstance(-other, Symbol) or other == 0
         known = {*self.results, *self.given}.union(*(value.free_symbols for value in values))
-        if not values or is_derived or isinstance(other, Symbol) or not explicit(other).free_symbols <= known:
+        if not values or is_derived or is_condition or not explicit(other).free_symbols <= known:
             return
         message = f"`{left.text} = {right.text}` is printed, but the page derives {one} = {short(values[-1])}"
-        help_line = "correct the note; if this formula is about a special case, you can ignore the warning"
+        help_line = "correct the formula; if it is about a special case, you can ignore the warning"
         self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
 
-    def _in_givens(self, value: Any) -> Iterator[Any]:
-        """Yield a value with the symbols of results replaced by each combination of their values."""
+    def _check_equation(self, left: Side, right: Side) -> None:
+        """Warn if an equation between two formulas does not hold for the results of the page.
+
+        There is no warning if the equation contains fewer than two results, because it may be a condition, such as
+        v^2 = g R; nor if it contains a symbol that is neither given nor derived.
+        """
+        one, other = left.branches[0][0][0], right.branches[0][0][0]
+        if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
+            return
+        apart = explicit(one - other)
+        used = self.results.keys() & apart.free_symbols
+        values = [value for symbol in used for value in self.results[symbol]]
+        known = {*self.results, *self.given, *self.varying}.union(*(value.free_symbols for value in values))
+        if len(used) < 2 or not apart.free_symbols <= known or any(map(is_zero, self._in_givens(apart))):
+            return
+        message = f"`{left.text} = {right.text}` is printed, but it does not hold for the results of the page"
+        help_line = "correct the equation; if it is about a special case, you can ignore the warning"
+        self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
+
+    def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
+        """Yield a value with the symbols of results replaced by each combination of their values, and the symbols in
+        these values in the same way."""
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
+        if not symbols or not depth:
+            yield explicit(value)
+            return
         for values in islice(product(*(self.results[symbol] for symbol in symbols)), MOST_COMBINATIONS):
             known = dict(zip(symbols, values, strict=True))
-            yield explicit(bound(explicit(value), known)).xreplace(known)
+            replaced = explicit(bound(explicit(value), known)).xreplace(known)
+            yield from islice(self._in_givens(replaced, depth - 1), MOST_COMBINATIONS)
 
     def _has_unknown(self, read: ReadMath) -> bool:
         entries = [value for side in read.sides for branch in side.branches for value, _ in branch]
@@ -182,11 +219,9 @@ class Formulas:
         return True
 
 
-def _results(steps: Iterable[Step]) -> dict[Any, list[Any]]:
+def _results(steps: Iterable[Step], varying: set[Any]) -> dict[Any, list[Any]]:
     """Return symbol -> every value that the steps derive for it; coordinates and rates vary, so they are left out."""
     found: dict[Any, list[Any]] = {}
-    steps = list(steps)
-    varying = {each for step in steps for q, _ in step.coordinates for each in (q, rate(q))}
     for step in steps:
         symbol, value = step.symbol, explicit(step.result)
         if isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase):
