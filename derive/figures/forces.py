@@ -322,7 +322,7 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
     )
     if free and rows.rank(simplify=True) < len(free):
         return False
-    if _is_on_axle(system, of):
+    if _is_on_axle(system, of, acting):
         return True
     values = {letter: explicit(step.value) for letter, step in found.items()}
     for k in set(range(len(centre.components))) - set(free):
@@ -388,23 +388,24 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
         drawn = _Drawn(at, way, value, times * size, keys, size in surfaces or not letters)
         (named if letters else unnamed).append(drawn)
     others = [*_weight(system, of), *named]
-    balancing = _axle_force(of, others) if _is_on_axle(system, of) else []
+    balancing = _axle_force(of, others) if _is_on_axle(system, of, acting) else []
     return [*named, *(replace(each, value=_balance(each, others)) for each in unnamed), *balancing]
 
 
-def _is_on_axle(system: System, of: Any) -> bool:
-    """Whether only strings act on a body with a fixed centre in a plane. Then it is on an axle, like a pulley."""
+def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
+    """Whether only vertical strings act on a body with a fixed centre in a plane. Then it is on an axle, like a pulley,
+    and the force of the axle is vertical."""
     if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
+        return False
+    if any(force.direction[0] != 0 for force in acting):
         return False
     return all(isinstance(each, Line) for each in connections_of(system, Connection) if each.on(of))
 
 
 def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
-    """Return the force of an axle, which balances the other forces, if all forces are vertical. No equation contains
-    its symbol, so its label is the sum of the other forces."""
+    """Return the force of an axle, which balances the other forces, all of them vertical. No equation contains its
+    symbol, so its label is the sum of the other forces."""
     up = -downwards(2)
-    if any(each.way not in (up, -up) for each in others):
-        return []
     label = tidied(Add(*(-as_expr(each.label) * each.way[1] for each in others)))
     known = all(each.value is not None for each in others)
     value = tidied(Add(*(-as_expr(each.value) * each.way[1] for each in others))) if known else None

@@ -14,6 +14,7 @@ from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.render.drawing.picture import picture
 from tests.figures.test_connected import drawings, library, of_class
+from tests.stock.described import edited
 
 
 def test_the_forces_on_all_bodies_have_one_scale(tmp_path: Path) -> None:
@@ -50,3 +51,14 @@ def test_the_force_diagram_of_a_particle_has_lengths_in_points(tmp_path: Path) -
     weight, _ = of_class(drawing, ForceArrow)
     strokes = [piece for piece in picture(drawing, Numbers({}), 5.0, 4.2) if getattr(piece, "pen", "") == "given"]
     assert max(dist(*stroke.spots) for stroke in strokes) == pytest.approx(float(weight.size) * FORCE, abs=0.1)
+
+
+def test_a_pulley_with_a_horizontal_string_has_no_diagram_because_its_axle_force_is_not_vertical(
+    tmp_path: Path,
+) -> None:
+    """Without the horizontal component of the axle force, the diagram would be false."""
+    text = library("atwood_disc").split("limits:")[0]
+    start, end = text.index("wording:"), text.index("parts:")
+    plain = text[:start] + text[end:].replace("answer: [light_x, light]", "answer: accelerations").split("drawings:")[0]
+    assert "forces_pulley" in drawings(tmp_path / "vertical", plain)
+    assert "forces_pulley" not in drawings(tmp_path / "horizontal", edited(plain, ("at: [R, -y]", "at: [y, R]")))
