@@ -64,6 +64,12 @@ class Wanted:
         rejected(code, message, place, help, *self.notes)
 
 
+def is_number_with_unit(scalar: Scalar) -> bool:
+    """Return whether the text is a number with a unit, such as `1.5 kg m^2/s`, and not an expression."""
+    match = _NUMBER_UNIT.fullmatch(scalar.text)
+    return bool(match and begins_with_unit(match["unit"].strip()))
+
+
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
     """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression."""
     match = _NUMBER_UNIT.fullmatch(scalar.text)

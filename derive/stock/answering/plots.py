@@ -15,7 +15,6 @@ from derive.course.expression import Declared
 from derive.course.given import read_end
 from derive.course.placement import Placement, Range
 from derive.course.stock import told_at
-from derive.course.units import begins_with_unit
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import did_you_mean, rejected
 from derive.figures import plot
@@ -162,7 +161,7 @@ class Plotted:
         return found, tuple(keys)
 
     def _end(self, node: Scalar, kind: str) -> tuple[Expr, list[str]]:
-        formula = Formula(node, self._letters, skips=begins_with_unit)
+        formula = Formula(node, self._letters)
         marks, found = formula.marks(self._one)
         end = read_end(node, kind, {**self._letters, **marks})
         end = end.xreplace({mark: explicit(right_side(quantity.value)) for mark, quantity in found.items()})

@@ -11,6 +11,7 @@ from sympy import Dummy, Expr
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import Relation, explicit
 from derive.course.expression import Declared, letters_in, read_expression
+from derive.course.measures import is_number_with_unit
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.errors import rejected
 from derive.steps.derivation import with_ancestors
@@ -38,21 +39,19 @@ class FoundLetter(Declared):
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol.
-
-    skips   whether a name is neither a symbol nor an answer, such as a name in the unit of a number
-    """
+    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol."""
 
     node: Scalar
     letters: Mapping[str, Declared]
-    skips: Callable[[str], bool] = lambda name: False
 
     @property
     def answers(self) -> tuple[Word, ...]:
         """Return the names in the formula that are neither given symbols nor units; they are taken to be names of
         answers."""
+        if is_number_with_unit(self.node):
+            return ()
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
-        found = {str(name): name for name in letters_in(self.node) if name not in given and not self.skips(name)}
+        found = {str(name): name for name in letters_in(self.node) if name not in given}
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
