@@ -75,6 +75,8 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
     known += [place for place in named if not same(place, end)]
     moving = moving_in(system, *end.components)
+    if all(system.coordinates.get(q) == "length" for q in moving):
+        return None  # this particle does not rotate, although another particle may rotate about it
     found = [start for q in moving if (start := _without(end, q)) is not None]
     found += [place for place in known if moving_in(system, *place.components) & moving]
     starts = sorted(found, key=lambda start: _rank(system, start, known))

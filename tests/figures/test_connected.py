@@ -450,3 +450,10 @@ def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense(tmp_path
     for number, pointed in ((2.0, (True, False)), (-1.0, (False, True))):
         arc = angle.pieces(OnPaper(Numbers({angle.label: number}), FLAT, 60.0))[1]
         assert isinstance(arc, Stroke) and (arc.head, arc.tail) == pointed
+
+
+def test_a_particle_that_does_not_rotate_has_no_link_to_one_that_does(tmp_path: Path) -> None:
+    """The distance between the puck and the hanging mass does not depend on the angle of the puck."""
+    marks = drawings(tmp_path, library("table_with_hole"))["system"].marks
+    labels = [str(label) for mark in marks if (label := getattr(mark, "label", None)) is not None]
+    assert labels.count("phi") == 1 and not [label for label in labels if label.startswith("sqrt")]
