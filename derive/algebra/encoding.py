@@ -65,8 +65,8 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
     """Assumptions that give an equal symbol. SymPy does not record which assumptions were written.
 
-    The result is the first of the usual sets that gives an equal symbol. If there is none, it is the set of all
-    assumptions that SymPy derived.
+    The usual sets of assumptions are tried in order, and the first one that gives an equal symbol is returned. If none
+    does, the set of all assumptions that SymPy derived is returned.
     """
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:

@@ -46,8 +46,11 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return the keys of all steps if `key` is None, else the key of one step. `key` may be the key of this step or of
-    a step that it replaces. It may also be the name of a verb, which means the first step that this verb made."""
+    """Return the keys of the steps to explain: all steps if `key` is None, otherwise one step.
+
+    `key` is the key of this step, the key of a step that it replaces, or the name of a verb. The name of a verb means
+    the first step that this verb made.
+    """
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}

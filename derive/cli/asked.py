@@ -13,9 +13,11 @@ from derive.errors import Complaint, Misused
 
 
 def found_root(named: str | None) -> Path | None:
-    """Return the folder that contains `problems`; None if there is no such folder. Only `named` is tried, or else the
-    folder in DERIVE_ROOT; without both, the working folder, the folders above it and the checkout of derive are tried
-    in this order."""
+    """Return the folder that contains `problems`, or None if there is no such folder.
+
+    If `named` is given, only this folder is tried. Otherwise, if DERIVE_ROOT is set, only that folder is tried.
+    Otherwise the working folder, the folders above it, and the checkout of derive are tried in this order.
+    """
     asked = named or os.environ.get("DERIVE_ROOT")
     try:
         here = Path.cwd()
