@@ -212,7 +212,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
         faults.error("missing-key", message, node.place, help="such as `{of: frequency, letter: M, to: infinity}`")
         return None
     if found.to is not None and ways != ["letter"]:
-        faults.error("unknown-key", "only a `letter` goes `to` a value", found.places["to"])
+        faults.error("unknown-key", "`to` is allowed only together with `letter`", found.places["to"])
     return found
 
 

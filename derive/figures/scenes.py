@@ -189,7 +189,7 @@ def point_mark(at: Any, label: Any = None) -> Mark:
 
 
 def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[Mark]:
-    """The coordinate axes from their origin; two axes if the origin is in a plane.
+    """The coordinate axes from their origin `at`; two axes if `at` has two components.
 
     reach   the length of the axes, or one length for each axis
     """

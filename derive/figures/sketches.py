@@ -224,8 +224,8 @@ class _Scene:
         yield from self._fields()
 
     def _rolling(self) -> Iterable[Mark]:
-        """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing if a body touches a
-        surface of the description, in a plane."""
+        """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing for motion in a plane if
+        the description has a contact of a body with a surface."""
         return () if self._touching_bodies() else contact_marks(self.system)
 
     def _axis_of_table(self) -> list[Mark]:

@@ -27,8 +27,9 @@ TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the righ
 # The precession angle at which the line of nodes points to the viewer and to the left. Then the axis of the body leans
 # to the left and slightly away from the viewer.
 NODES_IN_FRONT = -pi / 18
-# Length of an axis, and distance and radius of a rotation arrow, relative to the axis of the body.
-LONGER, BESIDE, ROUND = Rational(27, 20), Rational(6, 5), Rational(1, 8)
+# Length of a drawn axis, and distance of a rotation arrow from its start, relative to the length of the body's axis.
+LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
+ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
 CLEAR, APART = 14.0, 20.0  # distance from the axis to the first dimension line, and between such lines, in points
 CENTRE = "C"
@@ -70,7 +71,7 @@ def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
     body, and the angle between these two axes. Yield nothing if the rotations are not Euler angles that all vary.
 
-    size   the distance of the rotation arrows from the centre
+    size   the length of the axis of the body
     """
     turns: Any = getattr(placed.turned, "turns", ())
     if [i == 2 for i, _ in turns] != [True, False, True] or not all(moving_in(system, angle) for _, angle in turns):

@@ -168,7 +168,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     """Return an error for each case of a plot that repeats an earlier case, and for each number that a case gives for
-    the symbol of the horizontal axis."""
+    the symbol that varies along the horizontal axis or along a path."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):

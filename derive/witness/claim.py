@@ -75,7 +75,7 @@ class Claim:
 
     @cached_property
     def moving(self) -> set[Symbol]:
-        """All symbols that vary along a motion."""
+        """The coordinates, their rates up to the third order, the multipliers and the time; not the momenta."""
         q = self.blueprint.coordinates
         return {*q, *(rate(s, n) for s in q for n in (1, 2, 3)), *self.blueprint.multipliers, TIME}
 

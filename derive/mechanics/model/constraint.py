@@ -112,8 +112,12 @@ class Constraint(Part):
 
     @property
     def by_length(self) -> Expr:
-        """The residual divided by `gradient`. Where the constraint holds, the differential of this quotient is the
-        factor of the force in the virtual work."""
+        """The residual divided by `gradient`.
+
+        If the constraint does not contain rates, the virtual work of the force is `force` times the differential of
+        this quotient, where the constraint holds. If it does, each factor of a dq in the virtual work is `force` times
+        the coefficient of the rate of q in this quotient.
+        """
         return self.residual / self.gradient
 
     @property

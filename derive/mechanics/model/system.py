@@ -348,7 +348,7 @@ class System:
 
     @property
     def places(self) -> list[Location]:
-        """The places of the particles, bodies and charges, and the ends of springs and central forces."""
+        """The places of the particles and charges and of the centres of mass, and those that connections join."""
         return [place for part in self.parts for place in part.places]
 
     @property

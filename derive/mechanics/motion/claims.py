@@ -84,7 +84,7 @@ def _is_negative(root: Expr) -> bool:
 
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the motion reaches each place exactly under the stated condition.
+    """Whether, for trial numbers, the motion reaches each place if the stated condition holds, and only then.
 
     If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
     motion turns back first, behind it. If contact or a taut string has to last until the motion is there, a sentence

@@ -53,7 +53,9 @@ def signs_counted(
         changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
         if changes != len(expected) or all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
             where = tuple((str(s), str(x)) for s, x in point.items())
-            return Verdict(Grade.REFUTED, f"{changes} zeros were counted, {len(expected)} found", where)
+            return Verdict(
+                Grade.REFUTED, f"the force has {changes} zeros, and {len(expected)} equilibria are listed", where
+            )
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
     return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of numbers")

@@ -72,7 +72,7 @@ class RigidBody(Placeable, OfParticles):
 
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
 
-    mass      the mass, kg; only results about free rotation do not need it
+    mass      the mass, kg, which a `System` needs; Euler's equations do not contain it
     moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
               the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m

@@ -178,9 +178,9 @@ def moment_seen(
 ) -> Moment:
     """Moment of inertia about an axis, with words that specify how the sentence names this axis.
 
-    seen   words of the sentence by name. The word `seen` is "own" (a body axis), "mapped" (the body is defined by a
-           position map), "across_plane" (normal to the plane of motion) or "part". For a part, the word `whole` is the
-           axis of the whole body that is parallel to the axis of the moment
+    seen   words of the sentence by name. Its entry "seen" names the axis: "own" for a body axis, "mapped" for an axis
+           of a body that a position map defines, "across_plane" for the normal of the plane of motion, "part" for an
+           axis of a part. Its entry "whole", for a part only, is the parallel axis of the whole body
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Source: the same as for `moment_of_inertia`.
     """

@@ -324,7 +324,9 @@ def perpendicular_axes(
     across = getattr(body, "flat_across", None)
     if across is None or axes != set("xyz") - {across}:
         message = "the perpendicular-axis theorem needs a flat body and two axes in its plane"
-        raise Rejected(Complaint("not-flat", message, help='use `moment_of_inertia(body, "x")` and `"y"`'))
+        in_plane = [f'`moment_of_inertia(body, "{axis}")`' for axis in "xyz" if axis != across]
+        help_line = f"use {' and '.join(in_plane)}" if across else None
+        raise Rejected(Complaint("not-flat", message, help=help_line))
     k = "xyz".index(across)
 
     return establish(

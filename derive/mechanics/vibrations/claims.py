@@ -68,7 +68,7 @@ def free_motion(wanted: str) -> Predicate:
     """Judge the kind of a free motion.
 
     If a or c is zero, the other coefficients decide. Otherwise the signs of c/a and of the discriminant decide. If the
-    sign of the discriminant is unknown, the stated condition must fit.
+    sign of the discriminant is unknown, the stated condition must be that for a discriminant of the sign of this kind.
     """
 
     def is_so(facts: Judged) -> bool:

@@ -162,8 +162,9 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return a measure of how clearly the vectors appear. It is the length of the most foreshortened vector times about
-    the sine of the narrowest angle between two vectors; both factors have an upper limit."""
+    """Return a measure of how clearly the vectors appear. It is the product of two factors, each with an upper
+    limit: the shortest length of a vector in the view, and the smallest sine of an angle between two vectors in the
+    view. The sine of an obtuse angle counts 1.2 times."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:
