@@ -91,6 +91,7 @@ class Chain:
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
+SAME = "same"  # in place of this outcome, if the sentence of the step just before has the same words
 
 JOINED = "<<chain>>"  # the phrase of a step without words; its lines follow the lines of the step before
 VALUE = "value_"  # prefix of the roles that give values of symbols
@@ -141,13 +142,15 @@ class Phrases:
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
 
-        A phrase may apply only after a step of the same rule with a certain outcome, or only after a step of a certain
-        other rule.
+        A phrase may apply only after a step of the same rule with a certain outcome, or with the same words, or only
+        after a step of a certain other rule.
         """
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
-        following = f"{step.outcome}{AFTER}{preceded_by}"
-        phrase = of_rule.get(following, of_rule.get(step.outcome))
+        keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
+        if before is not None and (before.rule, before.outcome, before.words) == (step.rule, step.outcome, step.words):
+            keys.insert(0, f"{step.outcome}{AFTER}{SAME}")
+        phrase = next((of_rule[key] for key in keys if key in of_rule), None)
         if phrase is None:
             raise Rejected(no_phrase(step.key, step.rule, step.outcome, of_rule))
         return phrase

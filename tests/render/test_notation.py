@@ -127,6 +127,8 @@ PINNED = [
     (ex.CarriedRate(L, w), r"\frac{d\bm{L}}{dt}", "dL⃗/dt"),
     (ex.column(0, 0, 0), r"\bm{0}", "0"),
     # as written
+    (ex.At(ex.At(M, a, Integer(0)), v, Integer(0)), r"\left.M\right|_{a=v=0}", "M|(a = v = 0)"),
+    (ex.At(ex.At(M, a, Integer(0)), v, Integer(1)), r"\left.M\right|_{a=0,\ v=1}", "M|(a = 0, v = 1)"),
     (ex.Factors(a, 3 * a), r"a\cdot 3a", "a·3a"),
     (ex.Terms(8 * a, 18 * a), "8a+18a", "8a + 18a"),
     (ex.Ratio(M, ex.Factors(a, 2 * a, 3 * a)), r"\frac{M}{a\cdot 2a\cdot 3a}", "M/(a·2a·3a)"),

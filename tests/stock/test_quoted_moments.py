@@ -29,6 +29,29 @@ def test_a_page_quotes_the_moment_of_a_disc(tmp_path: Path) -> None:
     assert "particles" in evidence
 
 
+RODS = """title: Two rods
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle, phi: angle}
+  bodies:
+    upper: {shape: rod, length: l, mass: m, from: [0, 0], along: [sin(theta), -cos(theta)]}
+    middle: {shape: rod, length: l, mass: m, from: upper.far_end, along: [sin(phi), -cos(phi)]}
+    lower: {shape: rod, length: l, mass: m, from: upper.far_end, along: [sin(phi), -cos(phi)]}
+  gravity: g
+statement: Two rods.
+parts:
+  - {ask: Find the kinetic energy., answer: kinetic_energy}
+"""
+
+
+def test_a_moment_that_was_quoted_is_not_quoted_again(tmp_path: Path) -> None:
+    text = " ".join(page(tmp_path, RODS).split())
+    assert text.count("uniform rod about its centre") == 1
+    assert "and that of a uniform rod about its centre is I_middle" in text
+    assert "and likewise I_lower = 1/12 m l²" in text
+
+
 def test_an_author_can_ask_for_the_integral(tmp_path: Path) -> None:
     text = page(tmp_path, DERIVED)
     assert "∫" in text and "where σ = M/(π R²)" in text

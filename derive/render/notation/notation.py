@@ -332,10 +332,17 @@ class Notation:
         return self._differentiated("d", f, self.layout(x), order)
 
     def _at(self, expr: ex.At) -> Layout:
-        f, x, place = expr.args
-        return Evaluated(
-            within(self.layout(f), Binding.FACTOR), row(self.layout(x), Operator("equals"), self.layout(place))
-        )
+        """Write the values of all variables behind one bar; variables with the same value form a chain, x = y = 0."""
+        names: dict[Any, list[Layout]] = {}
+        f: Any = expr
+        while isinstance(f, ex.At):
+            f, x, place = f.args
+            names.setdefault(place, []).insert(0, self.layout(x))
+        behind: list[Layout] = []
+        for place, own in reversed(names.items()):
+            chain = [part for x in own for part in (x, Operator("equals"))]
+            behind += [*([Operator("comma")] if behind else []), *chain, self.layout(place)]
+        return Evaluated(within(self.layout(f), Binding.FACTOR), row(*behind))
 
     def _relation(self, expr: ex.Relation) -> Layout:
         left, right = (self.side(side) for side in expr.sides)
