@@ -154,8 +154,8 @@ def _written(matrix: Matrix) -> Expr:
 
 
 def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
-    """Solve by Gaussian elimination: for each unknown, choose among the equations not yet used the one in which the
-    unknown has the simplest factor. Then eliminate the unknown from all other equations."""
+    """Solve by Gaussian elimination: for each unknown, choose among the equations not yet used the one in which its
+    coefficient is simplest. Then eliminate the unknown from all other equations."""
     rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
     n = matrix.cols
     for column in range(n):

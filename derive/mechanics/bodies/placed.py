@@ -1,4 +1,4 @@
-"""The position and orientation of a body. The position is the place of the centre of mass, or of a point held fixed.
+"""The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
 The orientation in space is a set of axes. In a vertical plane the orientation is an angle about the normal, positive
 counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the

@@ -172,9 +172,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
-    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies about
-    the fixed axis of the body that rotates with a coordinate, or for this body only, about its fixed axis or its centre
-    of mass.
+    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
+    about the fixed axis of the body that rotates with a coordinate. If the coordinates do not allow this rotation, the
+    law is for this body only, about its fixed axis or its centre of mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body
@@ -224,8 +224,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
 
 def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Symbol, Expr]]:
-    """Return the bodies whose angular momentum the law contains, the point, and the changes of the coordinates in the
-    rotation of these bodies about the point by a unit angle, counterclockwise."""
+    """Return the bodies in the law, the point of the law, and the changes of the coordinates if these bodies rotate
+    about this point by a unit angle, counterclockwise."""
     choices: list[tuple[list[Alone], Vector]] = [([body], body.centre)]
     if body.axis is not None:
         choices = [(bodies_alone(impact.system), body.axis), ([body], body.axis), *choices]

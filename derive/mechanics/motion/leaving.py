@@ -58,8 +58,8 @@ LEAVES_CONTACT = Rule(
 
 @in_results(
     "leaves",
-    "where a contact force vanishes",
-    force="leaves: a contact force",
+    "where the force vanishes",
+    force="leaves: a contact force, or the tension of a string",
     letter="for: a function of the place, such as `cos(theta)`",
     start="start",
 )
