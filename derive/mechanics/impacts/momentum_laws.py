@@ -69,7 +69,7 @@ def impulses_on_bodies(impact: Impact) -> list[Struck]:
 
 
 def _body_at(impact: Impact, place: Vector) -> Any:
-    """The particle or body of which a point moves with the place at the instant of the impact; None for a place at
+    """The particle or body with a point that moves like the place at the instant of the impact; None for a place at
     rest, which is on the ground."""
     slopes = {q: tuple(c.diff(q) for c in place) for q in impact.moving}
     if all(is_zero(impact.there(c)) for slope in slopes.values() for c in slope):
@@ -261,7 +261,7 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return the law, and the same sum of the jumps of the momenta p = dT/dq_dot."""
+    """Return the law, and the sum of the jumps of the momenta p = dT/dq_dot that must equal it."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

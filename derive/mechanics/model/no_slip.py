@@ -65,7 +65,7 @@ def no_slip(
     if fixes is not None and fixes.symbol not in found:
         isolated = ", ".join(rate(q).name for q in found)
         message = f"`no_slip` cannot isolate the rate of {fixes.symbol.name}: the conditions isolate {isolated}"
-        help_line = "leave out `fixes`, or name a coordinate whose rate has a constant factor"
+        help_line = "leave out `fixes`, or name a coordinate whose rate has a constant coefficient"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
 
@@ -308,7 +308,7 @@ def _solved(
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows if the particle is at rest: as another row it does not increase the rank."""
+        """Check that the condition follows if the particle is at rest: as a further row, it does not raise the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 

@@ -80,7 +80,7 @@ class WeightOfRope(StoredEnergy):
     """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
-    force    a force along the rope on the first end that does the work of the weight. If all pieces move by ds along
+    force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
              the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
     at       the position of the first end
     """
