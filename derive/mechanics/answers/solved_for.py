@@ -43,7 +43,7 @@ def solved_for(
 
     equations   one equation or several
     unknowns    letters, rates, accelerations (`x.acceleration`), or expressions such as `theta.rate**2`, `cos(theta)`
-    keys        keys of the steps; by default the letters of the unknowns
+    keys        keys of the steps; by default the names of the unknowns, such as theta_ddot or cos_theta
 
     Check: all values substituted back into all equations; elimination of the unknowns one after another.
     Outcomes: alone (one equation), several (the first of several unknowns), following (a later unknown).

@@ -193,7 +193,7 @@ def _point_of(body: Any, components: Any) -> Point:
 
 def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -> PlacedBody:
     if not isinstance(at, Location):
-        raise Rejected(Complaint("wrong-argument", "the place of a body must be a value of `point` or `place`"))
+        raise Rejected(Complaint("wrong-argument", "the place of a body must come from `point` or `place`"))
     count = 3 if isinstance(turned, Axes) else 2
     if len(at.components) != count:
         message = "if `turned` is a set of axes, the place needs three components; if it is an angle, two components"

@@ -97,7 +97,7 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class OfCoordinate(Fact):
-    """The coordinate to which an equation of motion or a momentum belongs."""
+    """The coordinate to which an equation, an acceleration or a momentum belongs."""
 
     missing = "is not an equation of one coordinate"
     coordinate: Coordinate
