@@ -170,8 +170,8 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries a surface that moves with coordinates, unless it is at rest in given axes. The same is
-    required if the contact has friction and the surface rotates with time."""
+    """Require that a body carries a surface that moves with coordinates, unless it is at rest in given axes. The same
+    is required if the contact has friction and the surface rotates with time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
