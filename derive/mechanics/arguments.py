@@ -32,7 +32,7 @@ _CALLED = {
 }
 
 
-# functions that return a part of a system; this part contains all arguments of the function unchanged
+# functions whose result, such as a force or a place, contains all arguments of the function unchanged
 KEEPING = {
     "angular_impulse",
     "charge",
@@ -48,8 +48,8 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before each call. In a run with a memory, a
-    call with equal arguments returns the earlier result; only the functions in `KEEPING` are always called."""
+    """Return the verb with a check of its arguments before each call. In a run with a memory, a call with equal
+    arguments returns the earlier result; only the functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
@@ -100,9 +100,9 @@ def _names(given: Any) -> Iterator[str]:
 
 
 def _check_kept(verb: str, arguments: Mapping[str, Any], made: Any) -> None:
-    """Check that a part of a system, such as a force, contains its arguments unchanged.
+    """Check that the result of a verb, such as a force, contains the arguments unchanged.
 
-    A law and its second route both use this part, so their comparison would not detect a sign that the verb changed.
+    A law and its second route both use this result, so their comparison would not detect a sign that the verb changed.
     """
     kept = set(_values(made))
     for value in _values(tuple(arguments.values())):

@@ -5,8 +5,8 @@
 
 The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
 an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
-decorator and the signature are used to parse the key, and for the schema for editors, the manual and the messages of
-errors.
+decorator and the signature are used to parse the key, and to write the schema for editors, the manual and the error
+messages.
 """
 
 from __future__ import annotations

@@ -291,7 +291,7 @@ def held_rod(**more: Any) -> Any:
     ("wrong", "said"),
     [
         (lambda: System(Rod(l, m)), "not a Rod"),
-        (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "a value of `point` or `place`"),
+        (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "must come from `point` or `place`"),
         (
             lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)),
             "if it is an angle, two components",

@@ -54,11 +54,11 @@ def equation_in_limit(
 
     equation   an equation, such as an equation of motion
     letter     a constant that is small, large or near a value
-    to         0 if the letter is small, SymPy's `oo` if it is large, else the value that it is near
+    to         0 if the letter is small, SymPy's `oo` or `-oo` if it is large, else the value that it is near
     order      the highest power of the small quantity that is kept; by default only the leading terms
 
-    If a function of the letter and the time, such as sin(Omega t), is expanded for a small letter, the result is valid
-    for short times only, and its sentence says so.
+    If the letter is small and a function of letter and time is expanded, such as sin(Omega t), the result is valid for
+    short times only. Its sentence says so.
     Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
     quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).

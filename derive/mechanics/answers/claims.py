@@ -110,7 +110,7 @@ def _letters(facts: Judged) -> set[Any]:
 
 def _only_there(facts: Judged, point: Point) -> bool:
     """Whether, at these trial numbers, the unknown cannot have the value of any other root. If another root is
-    possible, return whether this root is complex."""
+    possible, return whether the root of the step is complex."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -226,7 +226,7 @@ def always(wanted: bool) -> Predicate:
 
 def as_let(equation: bool, reason: bool) -> Predicate:
     """If `equation` is true, judge whether the step is an equation without a symbol; otherwise, whether the step is a
-    value with a symbol. The step must state a reason exactly if `reason` is true."""
+    value with a symbol. The step must state a reason if and only if `reason` is true."""
 
     def is_so(facts: Judged) -> bool:
         letter = facts.symbol is None if equation else facts.symbol is not None
@@ -357,7 +357,7 @@ LARGER = roots_fit(lambda this, other, b: abs(this) > abs(other) and this * othe
 
 
 def whether(real: bool, predicate: Predicate) -> Predicate:
-    """Return the predicate with a further test: the discriminant must be known to be positive exactly if `real` is
+    """Return the predicate with a further test: the discriminant must be known to be positive if and only if `real` is
     true."""
     return lambda facts: (sign_known(_discriminant(facts)) == 1) == real and predicate(facts)
 
@@ -440,7 +440,8 @@ def near_that(facts: Judged, place: Any) -> bool:
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """Whether the power is the requested order, and no higher power of the small quantity is kept."""
+    """Whether the power is the requested order, if there is one. For a finite limit, no higher power of the small
+    quantity may be kept."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)
@@ -524,16 +525,15 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the conditions in the sentence are exact: for exactly those values of the symbols for which they hold,
-    the place of the extremum is real and lies between the ends of the interval."""
+    """Whether the conditions in the sentence are exact: the place of the extremum is real and lies between the ends of
+    the interval if and only if these conditions hold."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends of the interval for exactly those values of the symbols for which
-    the sentence says so. Trial numbers are used only if they make the width of the interval positive and the place
-    real."""
+    """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence hold.
+    Trial numbers are used only if they make the width of the interval positive and the place real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

@@ -74,15 +74,15 @@ def where(
     of        a scalar, any unit
     mark      the comparison sign: one of =, !=, <, >, <=, >=
     bound     the bound, of the same unit; 0, or another quantity
-    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound is linear in
-              the unknown or in its square. For an expression such as 2b in place of a letter, the relation is solved
-              for one of the letters of this expression
+    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound must be linear
+              in the unknown or in its square. For a sum or product such as 2b, the relation is solved for one of the
+              letters in it
     through   the same condition in other letters, for an intermediate line, and the results that these letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
-    Check: the sign of quantity minus bound, for an unknown at the right side of the solved relation and at any
-    distance above it. If the two relations differ by a factor of unknown sign, also random points: the original and
-    the solved relation are both true or both false.
+    Check: the sign of quantity minus bound, for an unknown equal to the right side of the solved relation, and for an
+    unknown at any distance above it. If the two relations differ by a factor of unknown sign, also random points: the
+    original and the solved relation are both true or both false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
@@ -166,8 +166,8 @@ def _of_known_sign(of: Quantity, mark: str, bound: Expr | Quantity, difference: 
 
 
 def _solved_for_one_of(of: Quantity, difference: Expr, mark: str, letter: Any) -> tuple[Expr, Relation]:
-    """Solve for the unknown. For an expression such as 2b in place of a symbol, solve for the first symbol of this
-    expression for which a solution is possible."""
+    """Solve for the unknown. For a sum or product such as 2b, solve for the first of its symbols for which a solution
+    is possible."""
     given = explicit(value_behind(letter)) if isinstance(letter, Quantity | Expr) else None
     if not isinstance(given, Add | Mul):
         unknown = unknown_of("where", letter)

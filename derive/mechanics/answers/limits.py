@@ -83,7 +83,8 @@ def limiting_case(
     of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
              limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
-    to       the limit: 0 for a small letter, SymPy's `oo` for a large letter, otherwise the value near which it is
+    to       the limit: 0 for a small letter, SymPy's `oo` or `-oo` for a large letter, otherwise the value that it is
+             near
     order    the highest power of the small quantity that is kept; by default only the leading term
 
     For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
@@ -177,7 +178,7 @@ def _whole(of: Quantity, name: Any, approach: Approach) -> Any:
 
 
 def _solved_for(of: Quantity) -> Symbol | None:
-    """Return x for an equation x = f without x in f, and x_min for x >= f; None for any other relation."""
+    """Return x for an equation x = f without x in f, x_min for x >= f, and x_max for x <= f; otherwise None."""
     if not isinstance(of.value, Relation) or of.value.operator not in BORDERS:
         return None
     left, right = of.value.sides

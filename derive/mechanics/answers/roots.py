@@ -70,7 +70,8 @@ def roots(
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
     """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
-    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only positive roots are kept.
+    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be positive
+    are kept.
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
@@ -78,18 +79,18 @@ def roots(
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
-    keys       keys of the steps; by default the letter, with _1, _2 if there are several
+    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 if several
     key        the beginning of the default keys, in place of the letter
-    symbols    the letters of the roots; by default the letter of the unknown, with _1, _2 if there are several
+    symbols    the letters of the roots; by default the unknown, a letter with _1, _2 if there are several
 
     Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
     If cos(theta) is the unknown, a factor such as sin(theta) is split off; the page states the equation sin(theta) = 0
     as a further solution.
-    Outcomes: single, double, only (any other root is complex or not positive), several (the first of several roots),
-    following (a later root), none (no root is real), none_positive, none_reached (a sine or a cosine would be greater
-    than 1 or less than -1); for both roots in one formula: two, none, double, conditional (the sign of b^2 - 4 a c
-    depends on the symbols), opposite (one of each sign), linear.
+    Outcomes: single, double, only (any other root is complex, not positive, or outside the range of the unknown),
+    several (the first of several roots), following (a later root), none (no root is real), none_positive, none_reached
+    (a sine or a cosine would be greater than 1 or less than -1); for both roots in one formula: two, none, double,
+    conditional (the sign of b^2 - 4 a c depends on the symbols), opposite (one of each sign), linear.
     Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two;
     no root is in the range of the unknown.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.

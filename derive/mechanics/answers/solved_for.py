@@ -43,7 +43,7 @@ def solved_for(
 
     equations   one equation or several
     unknowns    letters, rates, accelerations (`x.acceleration`), or expressions such as `theta.rate**2`, `cos(theta)`
-    keys        keys of the steps; by default the letters of the unknowns
+    keys        keys of the steps; by default the names of the unknowns, such as theta_ddot or cos_theta
 
     Check: all values substituted back into all equations; elimination of the unknowns one after another.
     Outcomes: alone (one equation), several (the first of several unknowns), following (a later unknown).
@@ -154,8 +154,8 @@ def _written(matrix: Matrix) -> Expr:
 
 
 def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
-    """Solve by Gaussian elimination: for each unknown, choose among the equations not yet used the one in which the
-    unknown has the simplest factor. Then eliminate the unknown from all other equations."""
+    """Solve by Gaussian elimination: for each unknown, choose among the equations not yet used the one in which its
+    coefficient is simplest. Then eliminate the unknown from all other equations."""
     rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
     n = matrix.cols
     for column in range(n):

@@ -81,7 +81,7 @@ def put_in(
 
     of       a value or an equation
     others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
-             power, sine, cosine or tangent of one; mappings of letters or coordinates to values
+             power, sine, cosine or tangent of such a letter; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
 

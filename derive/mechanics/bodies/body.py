@@ -66,7 +66,7 @@ class Body(Placeable, OfParticles):
     other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
-    is_lopsided: ClassVar[bool] = False  # whether symmetric particles do not imply inversion symmetry of the body
+    is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
     systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # names of the coordinates in which its limits are known
     is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
@@ -101,13 +101,13 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return this body as a part of a larger body, with its point named `of` at (x, y), at (x, y, z) or at a value
-        of `point`."""
+        """Return this body as a part of a larger body, with its point named `of` at a place: (x, y), (x, y, z) or a
+        place that `point` gives."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return this body as a part of a larger body, rotated right-handed about an axis of the larger body.
-        The axis goes through the centre of mass of this body."""
+        """Return this body as a part of a larger body, rotated right-handed about its own centre of mass. The axis of
+        rotation is parallel to an axis of the larger body."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:

@@ -1,6 +1,6 @@
 """The boundary of a body: a geometric shape, described by places in body axes. A drawing projects this boundary.
 
-The `boundary` of a body is one of these records, or None if no record describes the body, for example if the body
+The `boundary` of a body is one of these records. It is None if no record describes the body, for example if the body
 consists of parts, or if only its moments are known.
 """
 

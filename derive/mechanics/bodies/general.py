@@ -266,7 +266,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
     body   a body defined by its position map
     Second route: the square of the size is det(r_i . r_j), with scalar products from squared distances of neighbouring
-    points. For a solid, a numerical check also compares the signed volume that small edges span.
+    points. For a solid, a numerical check also compares the size with the signed volume that small edges span.
     Outcomes: curve, surface, solid.
     Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
     """

@@ -5,8 +5,9 @@ variable if the limits are constant, nested integrals if a limit depends on an o
 the innermost antiderivatives in brackets, the values of these brackets, and so on outwards; then the product of the
 values, and the product with the mass collected.
 
-For a solid of revolution the integral is first over the disc at each height, and then along the axis. In Cartesian
-coordinates the integral over the disc is along its chords.
+For a solid of revolution whose radius varies with the height, or in Cartesian coordinates, the integral is first over
+the disc at each height, and then along the axis. In Cartesian coordinates the integral over the disc is along its
+chords.
 """
 
 from __future__ import annotations

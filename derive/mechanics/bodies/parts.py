@@ -43,13 +43,13 @@ class PlacedPart:
         return cls(body, body.reference, body.point(body.reference).position)
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return the same part with one of its points at a place: (x, y), (x, y, z) or a value of `point`."""
+        """Return the same part with one of its points at a place: (x, y), (x, y, z) or a place that `point` gives."""
         self.body.point(of)  # raises an error if the part has no such point
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return the same part, rotated right-handed by an angle about its fixed point. The axis is "x", "y" or "z" of
-        the larger body."""
+        """Return the same part, rotated right-handed by an angle about its fixed point. The axis of rotation is
+        parallel to the axis "x", "y" or "z" of the larger body."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
         if any(not is_zero(way) for way in turn.T * made.turn - self.turn):

@@ -1,4 +1,4 @@
-"""The position and orientation of a body. The position is the place of the centre of mass, or of a point held fixed.
+"""The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
 The orientation in space is a set of axes. In a vertical plane the orientation is an angle about the normal, positive
 counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the
@@ -193,7 +193,7 @@ def _point_of(body: Any, components: Any) -> Point:
 
 def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -> PlacedBody:
     if not isinstance(at, Location):
-        raise Rejected(Complaint("wrong-argument", "the place of a body must be a value of `point` or `place`"))
+        raise Rejected(Complaint("wrong-argument", "the place of a body must come from `point` or `place`"))
     count = 3 if isinstance(turned, Axes) else 2
     if len(at.components) != count:
         message = "if `turned` is a set of axes, the place needs three components; if it is an angle, two components"

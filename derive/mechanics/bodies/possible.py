@@ -185,8 +185,8 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 def _always(pieces: Sequence[Piece]) -> Fault | None:
     """Return a fault that occurs in every draw of the symbols that can be evaluated; None if there is no such fault.
 
-    If no fault is common to all draws, the body is possible: of many rods, for example, two may have the same place by
-    accident, and other draws have other pairs.
+    If no fault is common to all draws, the body is possible. For example, two of many rods may overlap by accident in
+    one draw, and two other rods in the next draw.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}

@@ -1,7 +1,7 @@
 """Regions of space that bodies fill, and the coordinates for integrals over these regions.
 
-A region consists of limits, the position as a function of the coordinates, and the factor that turns a product of
-differentials into a volume, an area or a length: r for cylindrical coordinates.
+A region consists of limits, the position as a function of the coordinates, and a factor. This factor turns a product
+of differentials into a volume, an area or a length; for cylindrical coordinates it is r.
 """
 
 from __future__ import annotations

@@ -15,8 +15,8 @@ from derive.steps.step import is_zero
 
 
 def is_struck(wanted: bool) -> Predicate:
-    """Return a predicate: the power of the impulses depends on the rate of the coordinate exactly if `wanted` is
-    true."""
+    """Return a predicate: the power of the impulses must depend on the rate of the coordinate if `wanted`, and must not
+    depend on it otherwise."""
     return lambda facts: wanted != is_zero(explicit(facts.inputs["slope"]))
 
 
@@ -52,14 +52,14 @@ Vector = tuple[Expr, ...]
 
 
 def has_impulse(wanted: bool) -> Predicate:
-    """Return a predicate: whether the sum of the impulses in the law, or of their torques, is nonzero exactly if
-    `wanted` is true."""
+    """Return a predicate: the sum of the impulses in the law, or of their torques, must be nonzero if `wanted`, and
+    zero otherwise."""
     return lambda facts: wanted != is_zero(Add(*facts.inputs["impulses"]))
 
 
 def about_a_fixed_axis(struck: bool) -> Predicate:
-    """Return a predicate: whether the point of the law is fixed, and the sum of the torques about this point is nonzero
-    exactly if `struck` is true. If the sum is zero, the law must also contain all bodies of the system."""
+    """Return a predicate: the point of the law must be fixed. If `struck`, the sum of the torques about this point must
+    be nonzero. Otherwise it must be zero, and the law must contain all bodies of the system."""
 
     def is_so(facts: Judged) -> bool:
         fixed = not any(explicit(c).has(*facts.inputs["moving"]) for c in facts.inputs["about"])

@@ -219,8 +219,8 @@ class Impact:
             raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """Require that a body or a particle moves with the place of each impulse, and with each place of a collision,
-        for which no body is stated."""
+        """If no body is stated for an impulse or for an end of a collision, require that the place is at rest, or moves
+        with a body or a particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -346,7 +346,7 @@ class Impact:
 
     def _check_approach(self, speed: Expr) -> None:
         """Require that the two places approach each other along the normal, because surfaces can push but not pull. If
-        the sign of their relative speed is unknown, the page assumes this sign."""
+        it is unknown whether they do, the page assumes that they approach each other."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"

@@ -69,7 +69,7 @@ def impulses_on_bodies(impact: Impact) -> list[Struck]:
 
 
 def _body_at(impact: Impact, place: Vector) -> Any:
-    """The particle or body of which a point moves with the place at the instant of the impact; None for a place at
+    """The particle or body with a point that moves like the place at the instant of the impact; None for a place at
     rest, which is on the ground."""
     slopes = {q: tuple(c.diff(q) for c in place) for q in impact.moving}
     if all(is_zero(impact.there(c)) for slope in slopes.values() for c in slope):
@@ -172,9 +172,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
-    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies about
-    the fixed axis of the body that rotates with a coordinate, or for this body only, about its fixed axis or its centre
-    of mass.
+    """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
+    about the fixed axis of the body that rotates with a coordinate. If the coordinates do not allow this rotation, the
+    law is for this body only, about its fixed axis or its centre of mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body
@@ -224,8 +224,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
 
 def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Symbol, Expr]]:
-    """Return the bodies whose angular momentum the law contains, the point, and the changes of the coordinates in the
-    rotation of these bodies about the point by a unit angle, counterclockwise."""
+    """Return the bodies in the law, the point of the law, and the changes of the coordinates if these bodies rotate
+    about this point by a unit angle, counterclockwise."""
     choices: list[tuple[list[Alone], Vector]] = [([body], body.centre)]
     if body.axis is not None:
         choices = [(bodies_alone(impact.system), body.axis), ([body], body.axis), *choices]
@@ -261,7 +261,7 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return the law, and the same sum of the jumps of the momenta p = dT/dq_dot."""
+    """Return the law, and the sum of the jumps of the momenta p = dT/dq_dot that must equal it."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

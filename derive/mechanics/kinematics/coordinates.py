@@ -97,7 +97,7 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class OfCoordinate(Fact):
-    """The coordinate to which an equation of motion or a momentum belongs."""
+    """The coordinate to which an equation, an acceleration or a momentum belongs."""
 
     missing = "is not an equation of one coordinate"
     coordinate: Coordinate
@@ -283,7 +283,7 @@ def unknown(name: str, kind: str, positive: bool = False) -> Symbol:
 
     name       the symbol of the unknown
     kind       the kind of quantity, such as "force"
-    positive   whether the unknown is known to be positive, so that only positive roots are valid
+    positive   whether the unknown is positive; only positive roots are then valid
     """
     if kind not in KINDS:
         message = f"`unknown`: there is no kind `{kind}`"

@@ -1,7 +1,7 @@
-"""Checks of what the forces of a system act on.
+"""Checks that the forces and constraints of a system act on its parts.
 
-The place of each force must move with a part of the system. Each constraint must have a gradient, along which its force
-acts. Friction between two bodies must act on both of them.
+The place of a force must be fixed, or move with a part of the system. The gradient of a constraint must not vanish,
+because the constraint force acts along this gradient. Friction between two bodies must act on both of them.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ class WrongPart(Rejected):
 class WithParts(Protocol):
     """The interface of a system that these checks use.
 
-    `acting` lists the forces for which the script does not state the body on which they act. Each item is a part of
-    the system, the name of its force, such as "drag", and the place where this force acts.
+    `acting` lists the forces for which the script does not state the body on which they act. Each item contains a part
+    of the system, the name of its force, such as "drag", and the place where this force acts.
     """
 
     @property
@@ -58,8 +58,7 @@ class WithParts(Protocol):
 
 
 def check_what_is_acted_on(system: WithParts) -> None:
-    """Reject a force whose place moves with no particle, a constraint whose gradient vanishes wherever the constraint
-    holds, and friction for which the second body is not stated."""
+    """Reject forces that act on nothing, constraints without a gradient, and friction whose second body is unknown."""
     _check_particles(system)
     _check_gradients(system)
     _check_partners(system)
@@ -89,11 +88,10 @@ def _check_gradients(system: WithParts) -> None:
 
 
 def _check_partners(system: WithParts) -> None:
-    """Require that the script states the body that exerts a force, if this force contains the symbol of a constraint
-    force, as the friction mu N does.
+    """Require the second body of a force that contains the symbol of a constraint force, such as the friction mu N.
 
-    The opposite force acts on this second body. The second body need not be stated if the system has only one mass, or
-    if all forces that contain a constraint force add up to zero.
+    The second body exerts this force, and the opposite force acts on it. The second body need not be stated if the
+    system has only one mass, or if all such forces add up to zero.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

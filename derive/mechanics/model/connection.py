@@ -1,7 +1,7 @@
 """Connections of bodies with each other and with the ground, such as contacts, strings, massless rods and joints.
 
-A connection itself has no effect on the motion. The functions that return it also return constraints and forces, which
-do have an effect. For drawings, the connection records which forces act on which material points.
+The constraints and forces that a function returns with a connection affect the motion; the connection itself does not,
+except for the weight of a rope. For drawings, a connection records which forces act on which material points.
 """
 
 from __future__ import annotations

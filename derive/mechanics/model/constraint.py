@@ -188,7 +188,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     """A constraint f = c on coordinates or on their rates, enforced by a force.
 
     condition   f, a formula in coordinates and time, or a formula linear in the rates of coordinates
-    equals      the constant value c of f
+    equals      the value c of f, a constant or a function of the time
     force       the symbol of the multiplier: a force if f is a length, a torque if f is an angle
     """
     try:

@@ -136,12 +136,13 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
-    from the surface is the distance of the centre of the body from the surface, minus the radius of the body. In space,
-    a disc, a hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along
-    the axis of the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the
-    plane is then the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be
-    held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre
-    must be one radius from the curve, along the normal at a point whose horizontal distance is a coordinate.
+    from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
+    hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
+    the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the plane is
+    then the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be held at
+    its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre must be
+    one radius from the curve, along the normal at the point of contact. The horizontal distance of this point from the
+    origin of the curve must be a coordinate.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
     Lifshitz, *Mechanics*, section 38.
     """
@@ -169,8 +170,8 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries the surface if the surface moves with coordinates, or if the contact has friction and
-    the surface rotates with time."""
+    """Require that a body carries a surface that moves with coordinates, unless it is at rest in given axes. The same
+    is required if the contact has friction and the surface rotates with time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
@@ -230,8 +231,8 @@ def _check_reached(touch: Contact) -> None:
 
 
 def _check(touch: Contact) -> None:
-    """Check that the normal is a unit vector, and that the distance of the place of contact from the surface, along
-    this normal, is the distance of the body from the surface."""
+    """Check that the normal is a unit vector. The distances of the place of contact and of the body from the surface,
+    along this normal, must be equal."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
     gap = touch.gap / touch.surface.gradient(touch.at)

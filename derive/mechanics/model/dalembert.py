@@ -38,9 +38,10 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a generalized force along a coordinate, such as a torque along an angle, N m.
 
-    place   the components of the place; for a generalized force, the coordinate or the angle as the only component
-    held   pairs of a symbol in the place, such as a component of the position of a particle in its body, and the value
-           of this symbol; the symbol is constant in every displacement
+    place   the components of the place; for a generalized force, the coordinate, the angle, the distance or the time
+            along which it acts, as the only component
+    held    pairs of a symbol in `place` and its value; such a symbol, for example for the position of a particle in its
+            body, is constant in every displacement
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
 
@@ -136,7 +137,7 @@ class Matter(Fact):
         return bool(self.points or self.loads)
 
     def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        """The second routes by their names; a subclass changes the names to show what the routes are based on."""
+        """The second routes by name; a subclass changes the names to show on which facts the routes are based."""
         return dict(routes)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:
@@ -145,7 +146,7 @@ class Matter(Fact):
 
     @property
     def is_driven(self) -> bool:
-        """Whether a place depends on time explicitly, not only through the coordinates."""
+        """Whether the place of a mass point depends on time explicitly, not only through the coordinates."""
         return any(depends_on_time(x) for point in self.points for x in point.place)
 
     @property

@@ -93,9 +93,10 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move with coordinates, but with no particle, body or massless rod at a particle.
+    """The indices of the places that move with coordinates, but not like any part of the system.
 
-    The result is empty if the Lagrangian is given as a formula, or if the witness cannot compute the places.
+    The parts are particles, bodies, and massless rods that end at a particle. The result is empty if the Lagrangian is
+    given as a formula, or if the witness cannot compute the places.
     """
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]

@@ -153,8 +153,10 @@ class StoredEnergy(Part):
         return {"energies": [self.energy]}
 
     def stored_loads(self, moving: Sequence[Symbol]) -> list[Load]:
-        """The generalized force -dU/dq along each coordinate, and -dU/dt along t, the rate at which U decreases if all
-        coordinates are constant; only those that are not zero."""
+        """The generalized force -dU/dq along each coordinate, and -dU/dt along t; zeros are left out.
+
+        -dU/dt is the rate at which U decreases if all coordinates are constant.
+        """
         slopes = [(q, -diff(self.energy, q)) for q in (*moving, TIME)]
         return [Load((slope,), (q,)) for q, slope in slopes if slope != 0]
 

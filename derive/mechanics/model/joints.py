@@ -41,7 +41,7 @@ class Pin(Connection):
 def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     """A frictionless hinge, which keeps two points together; in space it is a ball joint.
 
-    of, to   the two points: points of bodies, particles, or fixed places
+    of, to   the two points: points of bodies, bodies (at the centre of mass), particles, or places without coordinates
     force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. A component does
              not appear if the coordinates alone keep the two points together along its axis
     The opposite force acts on `to`.

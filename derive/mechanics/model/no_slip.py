@@ -47,15 +47,15 @@ def no_slip(
     at       the place where the body touches the surface, m
     ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
              rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
-    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. A rate with a
-             constant factor is isolated before any rate with a factor that varies
-    Each independent condition isolates another rate. A condition with constant coefficients can be integrated, so it
-    may be a part of a `System`, where it expresses one coordinate by other coordinates.
-    Second route: differentiate the place of the particle at the contact, with a constant position in the body.
+    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. A rate whose
+             coefficient in the condition is constant comes before any rate whose coefficient varies
+    Each independent condition isolates a different rate. A condition with constant coefficients can be integrated, so
+    it may be a part of a `System`, where it expresses one coordinate by other coordinates.
+    Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
     If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
     velocity, each condition is satisfied.
-    Errors: the particle at the contact is always at rest; the body cannot roll at this place; no condition isolates the
-    rate of `fixes`.
+    Errors: the body does not reach this place, or cannot roll there; the particle at the contact is always at rest; no
+    condition isolates the rate of `fixes`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
     found: dict[Symbol, Quantity] = {}
@@ -65,7 +65,7 @@ def no_slip(
     if fixes is not None and fixes.symbol not in found:
         isolated = ", ".join(rate(q).name for q in found)
         message = f"`no_slip` cannot isolate the rate of {fixes.symbol.name}: the conditions isolate {isolated}"
-        help_line = "leave out `fixes`, or name a coordinate whose rate has a constant factor"
+        help_line = "leave out `fixes`, or name a coordinate whose rate has a constant coefficient"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
 
@@ -125,8 +125,8 @@ def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
 def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
     """Check that the constraints are components of the slip velocity.
 
-    The constraints must vanish exactly if the slip velocity vanishes, and the sum of their squares must be the square
-    of this velocity.
+    The constraints must vanish if and only if the slip velocity vanishes, and the sum of their squares must be the
+    square of this velocity.
     """
     moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
     at_rest = velocity_of_particle(body, at, ground)
@@ -308,7 +308,7 @@ def _solved(
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows if the particle is at rest: as another row it does not increase the rank."""
+        """Check that the condition follows if the particle is at rest: as a further row, it does not raise the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 

@@ -51,8 +51,8 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The places where the part acts on an object that the script does not state, each after the name of the part,
-        such as "spring"."""
+        """Pairs of the name of the force, such as "spring", and a place where the part acts on an object that the
+        script does not state."""
         return ()
 
     def weighed(self, gravity: Expr) -> Sequence[Any]:

@@ -1,4 +1,4 @@
-"""Angular velocity of a body, and its inertia about the point at which it is held or about its centre of mass."""
+"""Angular velocity of a body, and the inertia about its centre of mass or about a point at which the body is held."""
 
 from __future__ import annotations
 

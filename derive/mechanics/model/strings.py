@@ -64,7 +64,7 @@ class Line(Connection):
         return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
 
     def weighed(self, gravity: Expr) -> Sequence[Part]:
-        """Return the weight of a rope, unless all its pieces keep their height."""
+        """Return the weight of a rope, unless its potential energy contains no coordinate."""
         if self.rope is None:
             return ()
         found = _weight_of_rope(self.places, self.rope, gravity)
@@ -80,7 +80,7 @@ class WeightOfRope(StoredEnergy):
     """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
-    force    a force along the rope on the first end that does the work of the weight. If all pieces move by ds along
+    force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
              the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
     at       the position of the first end
     """
@@ -168,7 +168,7 @@ def string(
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
     Or, with `mass_of`, a uniform rope, whose mass is that of a particle.
 
-    start, end   particles, points of bodies, or places in space
+    start, end   particles, bodies, points of bodies, or places; with `tension`, a place must contain no coordinate
     length       the total length of the straight pieces, m; it may be a function of the time, for a string that is
                  pulled in
     over         the pulleys or holes between the ends. For a hole, or for a pulley of negligible radius, give a place,
@@ -220,7 +220,7 @@ def _rotates(way: Location) -> bool:
 def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> tuple[Line | Constraint, ...]:
     """A massless rigid rod between two hinges, which pulls or pushes only along its direction.
 
-    start, end   particles, points of bodies, or places in space
+    start, end   particles, bodies, points of bodies, or places; with `force`, a place must contain no coordinate
     length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change

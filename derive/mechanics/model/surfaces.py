@@ -224,7 +224,8 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Require that the material moves with a body, with axes in space, or at a constant velocity along the plane."""
+    """Reject a motion of the material that is given twice, axes in a plane of motion, and a velocity that is not
+    constant or not along the surface."""
     if surface.of is not None and surface.moves is not None:
         message = "the body that carries the surface determines its motion"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))

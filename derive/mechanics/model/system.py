@@ -348,7 +348,8 @@ class System:
 
     @property
     def places(self) -> list[Location]:
-        """The places of the particles and charges and of the centres of mass, and those that connections join."""
+        """The places of particles, bodies and charges, the ends of springs and central forces, and the ends, holes
+        and pulleys of strings and rods."""
         return [place for part in self.parts for place in part.places]
 
     @property
@@ -395,7 +396,7 @@ class System:
 
 
 def _with_weights(parts: Sequence[Part]) -> list[Part]:
-    """Return the parts, and the weights of those whose mass is not at one place, such as a rope.
+    """Return the parts, and the weight of each part whose mass is not at one place, such as a rope.
 
     Reject a potential energy that is the weight of such a part, because it would count twice.
     """
@@ -493,7 +494,7 @@ def _at_zero(value: Expr) -> Expr:
 
 
 def _undriven(way: Expr) -> Expr:
-    """The displacement between two places where all coordinates are zero, without terms that contain the time."""
+    """The displacement between two places when all coordinates are zero, without terms that contain the time."""
     return Add(*(term for term in Add.make_args(_at_zero(way).expand()) if not depends_on_time(term)))
 
 

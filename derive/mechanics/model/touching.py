@@ -41,8 +41,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 def _foot(placed: PlacedBody, curve: Curve) -> Location:
     """Return the place where a round body touches a curve: the place whose normal passes through the centre of the
-    body, at the distance of the radius. The horizontal position of this place must be a coordinate of the
-    system."""
+    body, at the distance of the radius. The horizontal distance of this place from the origin of the curve must be a
+    coordinate of the system."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
         foot = curve.point(q)
@@ -57,8 +57,8 @@ def _foot(placed: PlacedBody, curve: Curve) -> Location:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume that the radius of a round body is less than the radius of curvature in each hollow of the curve, unless
-    this is known to be true."""
+    """Assume, unless it is known, that the radius of a round body is less than the radius of curvature in each hollow
+    of the curve."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
@@ -84,8 +84,8 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
 
     The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
-    the lowest point of this rim is one radius long. It is opposite to the projection of the normal of the plane onto
-    the plane of the rim. If the body touches the plane along a line, `_lower` chooses an end of this line.
+    the lowest point of this rim is one radius long. This vector is opposite to the projection of the normal of the
+    plane onto the plane of the rim. If the body touches the plane along a line, `_lower` chooses an end of this line.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
         message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
@@ -115,8 +115,8 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
     """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
 
-    The lowest place of a rim with the radius r is nearer to the plane than the centre of the rim by r times the sine of
-    the angle between the rim and the plane. The components of the normal along the axes of the body give this sine.
+    The lowest place of a rim is below its centre by r sin(a), where r is the radius of the rim and a the angle between
+    the rim and the plane. The components of the normal along the axes of the body give sin(a).
     """
     middle = _own(placed, ZERO, ZERO, ZERO)
     along, across, axis = (_own(placed, *map(Integer, own)) - middle for own in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))

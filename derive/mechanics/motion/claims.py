@@ -84,7 +84,7 @@ def _is_negative(root: Expr) -> bool:
 
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether, for trial numbers, the motion reaches each place if the stated condition holds, and only then.
+    """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
     If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
     motion turns back first, behind it. If contact or a taut string has to last until the motion is there, a sentence
@@ -152,7 +152,8 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """The sides of the start on which the place lies at trial numbers: 1 ahead, -1 behind; without the start itself."""
+    """The sides of the start on which the place lies at trial numbers: 1 ahead, -1 behind. Numbers for which the place
+    is the start are left out; if no others remain, the result is 1."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -197,7 +198,7 @@ def lost(later: bool) -> Predicate:
 
 
 def _gets_there_as_told(facts: Judged) -> bool:
-    """Whether, numerically, the squared rate at the place is positive exactly if the stated condition is satisfied."""
+    """Whether, numerically, the squared rate at the place is positive if and only if the stated condition holds."""
     told = facts.inputs.get("reached")
     if "squared" not in facts.inputs:
         return told is None
@@ -300,7 +301,7 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Whether, numerically, |F| <= mu_s N exactly where the result holds.
+    """Whether, numerically, |F| <= mu_s N if and only if the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
     for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.

@@ -265,7 +265,7 @@ def _check_alone(departure: Departure) -> None:
 
 
 def _only_weight(departure: Departure) -> bool:
-    """Whether the weight is the only force on the particle except the force of constraint."""
+    """Whether the weight is the only force on the particle except the constraint force."""
     matter, g = departure.matter, departure.gravity
     others = [each for each in matter.others if not isinstance(each, Load) or each.multiplier != departure.kept.force]
     weight = (ZERO, -matter.points[0].mass * g)
@@ -292,7 +292,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
     the particle was. The conditions under which contact is lost are assumed.
-    Second route: Lagrange's equations for the coordinates of the system, with the force of constraint zero. Checks:
+    Second route: Lagrange's equations for the coordinates of the system, with the constraint force zero. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
@@ -438,7 +438,7 @@ def _noughts(count: int) -> ImmutableDenseMatrix:
 
 
 def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
-    """Return the residuals of Lagrange's equations without the force of constraint, for a motion along a path.
+    """Return the residuals of Lagrange's equations without the constraint force, for a motion along a path.
 
     The rates and accelerations of the coordinates follow from the velocity and the acceleration along the path.
     """

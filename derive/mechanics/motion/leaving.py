@@ -1,4 +1,4 @@
-"""Loss of a contact that can only push: the normal force vanishes at a place that the motion reaches."""
+"""Loss of a contact that can only push, or of the tension of a string, at a place that the motion reaches."""
 
 from __future__ import annotations
 
@@ -58,13 +58,14 @@ LEAVES_CONTACT = Rule(
 
 @in_results(
     "leaves",
-    "where a contact force vanishes",
-    force="leaves: a contact force",
+    "where the force vanishes",
+    force="leaves: a contact force, or the tension of a string",
     letter="for: a function of the place, such as `cos(theta)`",
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
-    """Place where contact is lost because the normal force can only push: N = 0, solved for one unknown.
+    """Place where contact is lost, because the normal force can only push, or where a string goes slack: N = 0, solved
+    for one unknown.
 
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
@@ -79,8 +80,8 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back).
-    Errors: the force is not positive at the start, or not linear in the unknown; the motion may turn back before the
-    place.
+    Errors: the force may have either sign, as on a rail; it is not positive at the start, or not linear in the unknown;
+    the motion may turn back before the place.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)

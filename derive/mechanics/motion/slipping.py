@@ -72,11 +72,11 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     friction   the friction F of a contact with a coefficient mu_s of static friction, in newtons
     normal     the normal force N of the same contact in the same state, in newtons
     letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
-    If the letter is the coordinate of a motion whose forces follow from conservation of energy, the result is the first
-    place with |F| = mu_s N that the motion reaches from its start. Otherwise the result is the condition |F| <= mu_s N.
-    If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N and
-    -F <= mu_s N. If it is known, the sentence states the direction of the slip: the body slips against the friction
-    that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
+    The letter may be the coordinate of a motion whose forces follow from conservation of energy, or a function of this
+    coordinate. The result is then the first place with |F| = mu_s N that the motion reaches from its start. Otherwise
+    the result is the condition |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each
+    direction of F, F <= mu_s N and -F <= mu_s N. The sentence states the direction of the slip if it is known: the body
+    slips against the friction that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
     Outcomes: sticks, always, cannot (the condition is never true); needs_none (F = 0); slips, slips_squared (solved

@@ -51,7 +51,7 @@ class Friction:
         return tidied(side * self.F - self.limit.coefficient * self.N)
 
     def words(self, side: int) -> dict[str, str]:
-        """Return the words of the sentence: the body that would slip and, if it is known, the direction of the slip.
+        """Return the words of the sentence: the body that would slip, and the direction of the slip if it is known.
 
         The body slips against the friction that acts on it; `side` is the sign of F.
         """

@@ -124,7 +124,7 @@ def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
 
 
 def _may_end(speed: Quantity) -> str:
-    """Return what the motion needs besides its energy: contact with a surface that cannot pull, or a taut string."""
+    """Return what must last during the motion: contact with a surface that cannot pull, or a taut string."""
     kept = [fact for each in speed.ancestors() if (fact := each.fact(Constrained)) is not None]
     enforcers = {each.enforcer for fact in kept for each in fact.constraints}
     return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""

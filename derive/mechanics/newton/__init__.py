@@ -1,1 +1,1 @@
-"""Newton's and Euler's laws for single particles and bodies, and the conservation of energy. Bodies move in a plane."""
+"""Newton's and Euler's laws for single particles and for bodies in a plane, and the conservation of energy."""

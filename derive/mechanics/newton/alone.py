@@ -163,8 +163,8 @@ def bodies_alone(system: System) -> list[Alone]:
 def body_of(system: System, q: Symbol) -> Alone:
     """The body whose equation of motion belongs to a coordinate.
 
-    A body that moves with fewer coordinates is assigned first. For example, a wedge is assigned its own position. A
-    block on the wedge also moves with this position, so the block is assigned its position along the wedge.
+    A body that moves with fewer coordinates gets its coordinate first. For example, a wedge gets its own position. A
+    block on the wedge also moves with this position, so the block gets its position along the wedge.
     """
     taken: dict[Symbol, Alone] = {}
     bodies = bodies_alone(system)

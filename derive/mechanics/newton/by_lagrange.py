@@ -1,8 +1,8 @@
 """The second route of Newton's equations: Lagrange's equations for a displacement in which only one body moves.
 
 Each of Lagrange's equations is multiplied by the change of its coordinate in this displacement. The sum is the equation
-of motion of this body. Lagrange's equations come from the energies and from the derivatives of the constraints, and not
-from forces on bodies.
+of motion of this body. Lagrange's equations come from the energies, the generalized forces and the derivatives of the
+constraints, not from sums of forces on one body.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def lagrangian_behind(system: System) -> Quantity:
 
 
 def facts_of_motion(system: System, q: Coordinate, changes: Mapping[Symbol, Expr]) -> list[Fact]:
-    """The facts that later steps need of an equation of motion: its coordinate, the masses, forces and constraints, and
-    the displacement whose virtual work is the equation."""
+    """The facts about an equation of motion that later steps need: its coordinate, its system with the Lagrangian and
+    the constraints, and the displacement whose virtual work is the equation."""
     of = lagrangian_behind(system)
     kept = of.fact(Constrained)
     found: list[Fact] = [OfCoordinate(q), ForcedMotion(of), of.needed(Matter), system.described]

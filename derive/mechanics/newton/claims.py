@@ -21,8 +21,11 @@ SLOPES = {"up_the_slope": 1, "down_the_slope": -1}
 
 
 def of_masses(several: bool, alike: bool = False) -> Predicate:
-    """Return a predicate: whether the system has several masses exactly if `several`, and another mass equals the mass
-    of the body in the law exactly if `alike`."""
+    """Return a predicate that is true if both flags are right.
+
+    several   whether the system has several masses
+    alike     whether another mass equals the mass of the body in the law
+    """
 
     def is_so(facts: Judged) -> bool:
         masses = facts.inputs["masses"]
@@ -33,7 +36,8 @@ def of_masses(several: bool, alike: bool = False) -> Predicate:
 
 
 def at_rest(wanted: bool) -> Predicate:
-    """Return a predicate: whether the left side of the equation is zero, as for bodies at rest, exactly if `wanted`."""
+    """Return a predicate: the left side of the equation must be zero if `wanted`, as for bodies at rest, and nonzero
+    otherwise."""
     return lambda facts: is_zero(explicit(facts.result).left) == wanted
 
 
@@ -114,7 +118,8 @@ def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
 
 
 def point_of_the_torques(facts: Judged, outcome: str) -> bool:
-    """Whether the point has the property for which the sentence names it."""
+    """Whether the point is what the sentence calls it: a centre of mass, a fixed axis, a point of contact, or a point
+    where constraint forces act."""
     word, about, place = facts.words["where"], facts.inputs["about"], facts.inputs["place"]
     if word == "centre_of_mass":
         return all(is_zero(a - b) for a, b in zip(about, place, strict=True))

@@ -69,7 +69,8 @@ def normals(body: Alone) -> list[Vector]:
 
 
 def _centres(body: Alone) -> Iterator[Vector]:
-    """The fixed places about which the body may circle: ends of strings and rods, centres of circles, the origin."""
+    """Fixed places about which the body may circle: ends of strings and rods, holes, pulleys, centres of circles, and
+    the origin."""
     for part in body.system.parts:
         places: list[Vector] = []
         if isinstance(part, Line):

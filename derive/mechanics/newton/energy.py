@@ -36,7 +36,7 @@ TOTAL_ENERGY = Rule(
 def total_energy(system: System, symbol: str | None = None, key: str = "energy_function") -> Quantity:
     """Energy of a system, E = T + U, which is constant.
 
-    system   particles and bodies; only forces with a potential energy, and constraint forces, act on them
+    system   particles and bodies; the forces on them have a potential energy or do no work
     Second route: by Newton's second law for the mass points, the rate of change of E is the power of the forces without
     a potential energy. This power vanishes for all velocities that the constraints allow.
     Outcomes: free (no constraint force has a symbol), constrained (constraint forces with symbols act, but do no work).

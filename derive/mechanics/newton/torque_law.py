@@ -70,19 +70,19 @@ TORQUE_LAW = Rule(
 def torque_law(
     system: System, q: Coordinate, key: str | None = None, about: str = "", at_rest: bool = False
 ) -> Quantity:
-    """Sum of the torques on the body that rotates with a coordinate, I alpha = sum of tau. The direction in which the
-    body rotates if the coordinate increases is positive.
+    """Sum of the torques on the body that rotates with a coordinate, I alpha = sum of tau. Torques are positive in the
+    direction in which the body rotates as the coordinate increases.
 
     system   particles and bodies in a plane, and the forces on them
     q        a coordinate that rotates one body
     about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
              centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
-    at_rest  whether the system is at rest, so that the torques add up to zero. They are then taken about the point
-             where most of the unknown forces act, if the coordinates let only this body rotate about this point
+    at_rest  whether the system is at rest, so that the torques add up to zero. Among the points about which the
+             coordinates let only this body rotate, the point with the most unknown forces is then chosen
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.
-    Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; a
-    force without a symbol has a torque.
+    Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q does
+    not rotate this body; a force without a symbol has a torque.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7.
     """
     body = body_of(system, q.symbol)
@@ -136,8 +136,8 @@ def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
-    """The symbols of at most two unknown forces that act at the point about which torques at rest are taken; the
-    sentence names them."""
+    """For a body at rest, the symbols of at most two unknown forces that act at the point of the law; the sentence
+    names these forces."""
     if point.word != "point":
         return {}
     here = [f.letter for f in body.forces if f.at is not None and f.letter is not None and is_same(f.at, point.place)]
@@ -177,7 +177,8 @@ def _points_of_contact(body: Alone) -> list[About]:
 
 
 def _resting_point(body: Alone) -> Vector | None:
-    """The point of a body with one coordinate that is at rest in every motion; None without such a point."""
+    """The point of a body that is at rest in every motion, if one coordinate moves the body; None without such a
+    point."""
     moving = [q for q in body.moving if body.moves_with(q)]
     if len(moving) != 1 or body.turn(moving[0]) == 0:
         return None

@@ -109,7 +109,7 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether the equilibrium exists exactly where the condition holds.
+    """Whether the equilibrium exists if and only if the condition holds.
 
     Some sets of trial numbers must satisfy the condition, and some must violate it.
     """
@@ -298,8 +298,8 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
 
 
 def depends(border: str | None) -> Predicate:
-    """Judge whether the sign of the energy to second order depends on the numbers, and the stated condition holds
-    exactly where this sign is positive.
+    """Judge whether the sign of the change of the energy to second order depends on the numbers. The stated condition
+    must hold if and only if this sign is positive.
 
     border   the verdict of the higher order that decides on the boundary; None if no such order is stated
     """
@@ -318,7 +318,7 @@ def depends(border: str | None) -> Predicate:
 
 
 def bordered(border: str | None) -> Predicate:
-    """Judge whether the condition includes its boundary exactly if the equilibrium is stable on the boundary.
+    """Judge whether the condition includes its boundary if and only if the equilibrium is stable on the boundary.
 
     border   the verdict of the higher order that decides on the boundary; None if no order decides
     """
@@ -351,7 +351,7 @@ def higher_lasts(facts: Judged) -> bool:
 
 
 def sides_as_told(facts: Judged) -> bool:
-    """Whether the sentence states signs of distances u exactly if such signs are assumed.
+    """Whether the sentence states the signs of u in distances |u| if and only if such signs are assumed.
 
     If a step states every assumed sign in words, the sentence says instead that the springs are stretched.
     """

@@ -17,7 +17,7 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # number of parts of a range; number of sets of numbers for the symbols
-HALVINGS, SHRUNK = 40, 1e-6  # number of halvings of an interval; at a zero the force must then be below this fraction
+HALVINGS, SHRUNK = 40, 1e-6  # halvings; at a zero the force must then be below this fraction of its first value
 LITTLE = 1e-9
 
 

@@ -149,7 +149,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
-    Angles are between -pi and pi; distances are positive. A coordinate that no force depends on may have any value.
+    Angles are between -pi and pi. Coordinates are positive if they are declared so, and within their ranges. A
+    coordinate that no force depends on may have any value.
     Keys: for the conditions, `condition_` and the name of the coordinate; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force

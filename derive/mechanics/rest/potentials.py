@@ -168,7 +168,7 @@ def leading_order(
                which determines q_0 and the boundary
     where      an equation, symbol = value, for which the curvature of this potential energy vanishes at q_0
     at         the value q_0 of the coordinate; 0 by default
-    Check: of the derivatives of U at q_0 up to the n-th, only the n-th does not vanish.
+    Check: among the first n derivatives of U at q_0, only the n-th does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
     Errors: U' does not vanish at q_0; the boundary belongs to another potential energy.

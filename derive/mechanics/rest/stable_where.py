@@ -42,8 +42,8 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     """Condition under which an equilibrium is stable: S >= S_0, or S > S_0 if S_0 is not known to be stable.
 
     of   a result of `stability` that depends on a condition on the symbols
-    Check: above and below the boundary, the condition holds exactly if the second derivative is positive. Numerically,
-    the energy has a minimum at the equilibrium exactly where the condition holds.
+    Check: above and below the boundary, the condition holds if and only if the second derivative is positive.
+    Numerically, the energy has a minimum at the equilibrium if and only if the condition holds.
     Outcomes: with_border, without_border, open (no order decides at the boundary).
     Errors: the stability does not depend on a condition, or depends on a condition for several coordinates.
     Source: Taylor, *Classical Mechanics*, section 4.6.
@@ -91,7 +91,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
 
 
 def _by_energies(found: Relation, known: StableWhere, border: Relation | None) -> Verdict:
-    """Check numerically that the energy has a minimum at the equilibrium exactly where the relation holds."""
+    """Check numerically that the energy has a minimum at the equilibrium if and only if the relation holds."""
     letters = (letters_of(known.energy) | letters_of(found.residual)) - {known.coordinate}
     seen = 0
     for point in islice(points(letters, seed_of(known.energy)), 60):
