@@ -16,6 +16,7 @@ class References:
 
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
+    away     the equations without a number of parts that the page leaves out, by the keys of their steps
     faults   the object that collects the errors
     """
 
@@ -24,10 +25,12 @@ class References:
         set_id: str,
         others: Mapping[str, int],
         figures: Mapping[str, int],
+        away: Mapping[str, Inline],
         words: Phrases,
         faults: list[Complaint],
     ):
-        self.set_id, self.others, self.figures, self.words, self.faults = set_id, others, figures, words, faults
+        self.set_id, self.others, self.figures, self.away = set_id, others, figures, away
+        self.words, self.faults = words, faults
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
@@ -36,6 +39,8 @@ class References:
             return self._problem(mention)
         if mention.of == FIGURE:
             return self._figure(mention)
+        if mention.name in self.away:
+            return self.away[mention.name]
         self.equations.append(mention)
         return Ref(mention.name)
 

@@ -46,9 +46,11 @@ from derive.page.wording import (
     Inline,
     Math,
     Phrases,
+    Ref,
     Text,
     around_chain,
     conversions,
+    equation_of,
     filled,
     in_turn,
     joined,
@@ -115,9 +117,8 @@ class _Writer:
         self.faults: list[Complaint] = []
         self.dimensions = dict(like.dimensions) if like else self._dimensions()
         self.formulas = Formulas(problem, self.dimensions, [*derivation.steps, *values.values()])
-        self.references = References(
-            problem.set_id, others, caption_numbers(problem, drawings, derivation), words, self.faults
-        )
+        figures = caption_numbers(problem, drawings, derivation)
+        self.references = References(problem.set_id, others, figures, self._away(), words, self.faults)
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
@@ -125,7 +126,8 @@ class _Writer:
         self.framed: set[str] = set()  # steps whose result is framed as an answer
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
-        self.page_names = page_names(problem, derivation, words)
+        away, names = self.references.away, page_names(problem, derivation, words)
+        self.page_names = {name: away.get(name, own) if isinstance(own, Ref) else own for name, own in names.items()}
         answered = [step for part in problem.parts for step in derivation.answering(part.answers)]
         self.asked = {step.key for step in answered}
         self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed, values)
@@ -137,6 +139,13 @@ class _Writer:
         # All lines that follow from a wrong line are wrong too, so only the first error is reported.
         self.faults += [replace(fault, place=self.problem.place_of("solve"), help=HOMOGENEITY) for fault in unlike[:1]]
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
+
+    def _away(self) -> dict[str, Inline]:
+        """Return the equation of each step that only parts contain which this level leaves out."""
+        here = [self.level.shows(part.detail) for part in self.problem.parts]
+        shown = {key for keys, is_here in zip(self.derivation.parts, here, strict=True) if is_here for key in keys}
+        steps = [self.derivation.step(key) for keys in self.derivation.parts for key in keys if key not in shown]
+        return {step.key: equation_of(step) for step in steps}
 
     def document(self, compared: Sequence[Told], evidence: EvidenceShown) -> Document:
         problem = self.problem

@@ -339,6 +339,11 @@ def name_of(step: Step) -> Inline:
     return Ref(step.key) if step.symbol is None else Math(step.symbol)
 
 
+def equation_of(step: Step) -> Inline:
+    """Return the result of a step as an equation in running text."""
+    return Math(step.result if step.symbol is None else Relation(step.symbol, "=", step.result))
+
+
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:
     """Return the names that the phrase of a step may mention, with their values."""
     names: dict[str, Any] = {
