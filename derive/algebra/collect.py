@@ -249,8 +249,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number. The factor of the coefficient without angles and the factor of sines and
-    cosines stay separate if the tidy form of the second factor contains no sum."""
+    """Tidy a coefficient times a number. The factor of the coefficient without sines and cosines and the factor of
+    sines and cosines stay separate if the tidy form of the second factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -309,8 +309,8 @@ def _shorter(term: Expr) -> Expr:
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value to
-    choose from. If the denominator contains a sine or cosine, the sum is returned: that of the first other form, if
-    there is one.
+    choose from. If the denominator contains a sine or cosine, return the tidy terms of the first other form, or of the
+    value if there is no other form.
     """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)

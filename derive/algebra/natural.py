@@ -164,8 +164,8 @@ def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
     """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
 
-    Then the equation must be linear in the symbol, or contain only one power of the symbol, which must be positive.
-    Otherwise the result is None.
+    Then the equation must be linear in the symbol, or contain only one power of the symbol, and the symbol must be
+    positive. Otherwise the result is None.
     """
     order = _order_of_root(right, symbol)
     above, below = fraction(together(cancel(right**order)))
@@ -296,7 +296,7 @@ def _under_one_root(value: Expr) -> Expr:
 
 
 def _cost(value: Any) -> tuple[int, int]:
-    """The length including the symbols, and then the number of symbols, because of two forms with the same length the
-    one with fewer symbols is preferred."""
+    """The length including the symbols, and the number of symbols. If two forms have the same length, the form with
+    fewer symbols is preferred."""
     symbols = len(value.free_symbols)
     return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

@@ -26,7 +26,7 @@ def may_vanish(*values: Expr) -> Relation | None:
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
     """The condition that a sentence states: those factors of denominators that may vanish are not zero.
 
-    The result is empty if no factor may vanish.
+    The result is empty if no factor can vanish.
     """
     below: Expr = Integer(1)
     for value in values:

@@ -61,7 +61,7 @@ class Lines:
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> the value of this rate by the equations of motion. The last line uses these values, so this line
+    motion    rate -> the value of this rate by the equations of motion. The line of the result uses these values, so it
               is valid only for motions that satisfy the equations
     means     name -> its value, for the names that occur in the left side but not in the law
     """
