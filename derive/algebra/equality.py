@@ -280,7 +280,7 @@ def _refutation(sample: Sample) -> Verdict:
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     """Whether two equations or inequalities are equivalent. In most cases this is decided by the ratio of their
-    residuals: for inequalities its sign must be known, for equations it must not vanish."""
+    residuals: for inequalities the sign of the ratio must be known, for equations the ratio must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):

@@ -287,7 +287,7 @@ def _size(value: Any) -> int:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """Write the square roots of a product as one root, which a page also does."""
+    """Write the square roots of a product as one root, as pages do."""
     roots = [f for f in value.args if f.is_Pow and f.exp in (HALF, -HALF)]
     if len(roots) < 2:
         return value

@@ -195,7 +195,7 @@ class LimitKeys(Record):
     )
     step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
     stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
-    known: Word | None = key("a step with the same result by another derivation, by its key", TEXT)
+    known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 
 

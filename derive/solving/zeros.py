@@ -94,8 +94,8 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero at which k x + c is 0, or
-    pi/2 for the cosine. For any other function the list is empty."""
+    """Seven zeros of sin(k x + c) or cos(k x + c): the one at which k x + c is 0, or pi/2 for the cosine, and three on
+    each side of it. For any other function the list is empty."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []

@@ -420,14 +420,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    The result is None if these letters are in a sum, which has no common number in front; if the number in front is
-    rational; if this number is a product of roots and pi, whose size is easy to see; or if the answer ends with a line
-    in other letters, such as sqrt(2) omega_0.
+    The result is None if the letters are in a sum, which has no common number in front, or if the number in front is
+    rational. It is also None if this number is a product of roots and pi, whose size is easy to see, or if the answer
+    ends with a line in other letters, such as sqrt(2) omega_0.
 
-    answer       a scalar with letters
+    answer       a quantity, usually a scalar with letters
     figures      the number of significant figures
-    of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
-                 rational numbers times letters
+    of_vectors   whether a product of roots and pi, and a vector of numbers times letters, are also rounded
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
