@@ -119,9 +119,9 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """Take the common constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 + r^2 phi_dot^2), if
-    these constants include a mass or a moment of inertia. Otherwise put terms with the same numerical factor and the
-    same constants in one bracket.
+    """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
+    r^2 phi_dot^2). If there is no common number, or if these constants include no mass or moment of inertia, put terms
+    with the same numerical factor and the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]

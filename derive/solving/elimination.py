@@ -75,8 +75,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of at most `MOST` equations with as many new unknowns as equations; empty if there is
-    none.
+    """Return the smallest set of at most `MOST` coupled equations that determine as many new unknowns; empty if there
+    is none.
 
     The sets are tried in order: equations with the most preferred unknown come first, and among these the shortest.
     """
