@@ -164,8 +164,8 @@ def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
     """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
 
-    Then the equation must be linear in the symbol, or contain only one power of the symbol, and the symbol must be
-    positive. Otherwise the result is None.
+    Then the equation must be linear in the symbol, or the symbol must be positive and occur in only one power.
+    Otherwise the result is None.
     """
     order = _order_of_root(right, symbol)
     above, below = fraction(together(cancel(right**order)))

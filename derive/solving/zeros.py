@@ -306,7 +306,8 @@ def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
 
 
 def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
-    """The zeros of A sqrt(P) + B with constants A and B: the solutions of P = (B/A)^2, if -B/A is not negative."""
+    """The zeros of A sqrt(P) + B with constants A and B and P = a q^2 + c: the solutions of P = (B/A)^2, if -B/A is not
+    negative."""
     root = roots[0]
     linear = factor.as_poly(root)
     if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
