@@ -52,7 +52,7 @@ class Determinant(ScalarNode):
         """The dimension of a nonzero product with one entry from each row and column.
 
         All such products are assumed to have the same dimension. The result is None if every such product vanishes, or
-        if the dimension of an entry is unknown.
+        if the dimension of an entry of the chosen product is unknown.
         """
         matrix = self.args[0]
         for entry in matrix:

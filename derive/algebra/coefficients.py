@@ -28,8 +28,8 @@ class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. If the coefficient is a factor without
-    angles times a factor of sines and cosines only, `angles` is the second factor. `written(number, angles)` returns
-    the product of a number, the first factor and a rewritten second factor, with common factors in front.
+    sines and cosines times a factor of sines and cosines only, `angles` is the second factor. `written(number, angles)`
+    returns the product of a number, the first factor and a rewritten second factor, with common factors in front.
     """
 
     whole: Callable[[], Expr]
@@ -66,8 +66,8 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether the value is a sum of products of numbers and positive powers of symbols, sines and cosines, without
-    brackets."""
+    """Whether the value is a sum of products of numbers and positive integer powers, without brackets; the base of each
+    power is a symbol, or the sine or cosine of a symbol."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 
 
@@ -120,8 +120,8 @@ class Expanded(Ring):
         )
 
     def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
-        """Split the sum into a factor without angles and a factor of sines and cosines; None if no such factors
-        exist."""
+        """Split the sum into a factor without sines and cosines and a factor of sines and cosines only; None if no such
+        factors exist."""
         by_rest: dict[int, Terms] = {}
         for monomial, coefficient in terms.items():
             angles = monomial & self._angles
@@ -152,8 +152,8 @@ class Expanded(Ring):
         return Factored(found, is_prime)
 
     def product_in_front(self, terms: Terms, power: int = 1) -> Product:
-        """The common factors of the terms times the sum of the remaining terms, all raised to `power`, which is 1 or
-        -1."""
+        """The common factors of the terms times the sum of the terms without these factors, all raised to `power`,
+        which is 1 or -1."""
         lowest, content, rest = _in_front(terms)
         powers = {letter: power * n for letter, n in self._letters(lowest)}
         if len(rest) > 1:
@@ -204,7 +204,7 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:
-    """The monomial and the number that all terms have in common, and the remaining terms."""
+    """The monomial and the number that all terms have in common, and the terms divided by both."""
     lowest = reduce(_common, terms)
     content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
     return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}

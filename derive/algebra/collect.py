@@ -119,9 +119,9 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """Take the common constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 + r^2 phi_dot^2), if
-    these constants include a mass or a moment of inertia. Otherwise put terms with the same numerical factor and the
-    same constants in one bracket.
+    """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
+    r^2 phi_dot^2). If there is no common number, or if these constants include no mass or moment of inertia, put terms
+    with the same numerical factor and the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -249,8 +249,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number. The factor of the coefficient without angles and the factor of sines and
-    cosines stay separate if the tidy form of the second factor contains no sum."""
+    """Tidy a coefficient times a number. The factor of sines and cosines stays separate from the rest of the
+    coefficient if its tidy form contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -309,8 +309,8 @@ def _shorter(term: Expr) -> Expr:
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value to
-    choose from. If the denominator contains a sine or cosine, the sum is returned: that of the first other form, if
-    there is one.
+    choose from. If the denominator contains a sine or cosine, return the tidy terms of the first other form, or of the
+    value if there is no other form.
     """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)

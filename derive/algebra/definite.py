@@ -24,7 +24,7 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 
 
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
-    """The least sign that the quadratic form takes; None if this sign is unknown.
+    """The least sign of the quadratic form away from the origin; None if this sign is unknown.
 
     The sign is 1 for a positive definite form, 0 for a semidefinite form, and -1 if the form is negative in some
     direction.

@@ -34,7 +34,7 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 
 def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
-    """Encode as a tree of lists, strings and integers; `name` returns the name of a dummy symbol."""
+    """Encode an expression as data for JSON; `name` returns the name of a dummy symbol."""
     if expr is None:
         return ["None"]
     if name and isinstance(expr, Dummy):

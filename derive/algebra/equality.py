@@ -193,8 +193,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
-    """If both sides are the acos, asin or atan of an argument, return the two arguments: acos(u) equals acos(v) exactly
-    if u equals v."""
+    """If both sides are the acos, asin or atan of an argument, return the two arguments: acos(u) equals acos(v) if
+    and only if u equals v."""
     while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
         left, right = left.args[0], right.args[0]
     return left, right
@@ -280,7 +280,7 @@ def _refutation(sample: Sample) -> Verdict:
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     """Whether two equations or inequalities are equivalent. In most cases this is decided by the ratio of their
-    residuals: for inequalities its sign must be known, for equations it must not vanish."""
+    residuals: for inequalities the sign of the ratio must be known, for equations the ratio must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -410,7 +410,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 def _both_squared(left: Relation, right: Relation) -> bool:
     """Whether one relation is x > y, where neither side is negative, and the other relation is a positive multiple of
-    x^2 > y^2."""
+    x^2 > y^2. The operator is the same in both relations; > is an example."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):
@@ -450,8 +450,8 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Multiply out, with squares of sines replaced by squares of cosines, so that common factors are visible. Tangents
-    are replaced by sines and cosines."""
+    """Replace tangents by sines and cosines. If the expression then has a sine, multiply out and replace squares of
+    sines by squares of cosines, so that common factors are visible."""
     expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 

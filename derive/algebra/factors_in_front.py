@@ -153,7 +153,7 @@ def _is_one_sum(powers: frozenset[tuple[Expr, int]]) -> bool:
 
 
 def _apart(products: list[Product]) -> tuple[Product, Terms]:
-    """The common factor of the terms of a sum, and the remaining terms."""
+    """The common factor of the terms of a sum, and the terms without this factor."""
     terms: Terms = {}
     for number, powers in products:
         key = frozenset(powers.items())

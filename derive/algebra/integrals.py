@@ -194,8 +194,8 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
     """Whether it is known that w >= 0 between the limits.
 
-    This is known from the assumptions of the symbols in w, if w is a square root, or if w is linear in one variable of
-    integration and non-negative at both limits of this variable.
+    This is known in three cases: it follows from the assumptions of the symbols in w; or w is a square root; or w is
+    linear in one variable of integration and non-negative at both limits of this variable.
     """
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True

@@ -24,7 +24,7 @@ class Kind:
     """The properties of a kind.
 
     unit      the coherent SI unit as text
-    positive  whether symbols of this kind are positive; all other symbols are only real
+    positive  whether symbols of this kind are positive; symbols of the other kinds are only real
     signed    whether a minus sign is allowed, because it reverses a direction such as the direction of rotation; for
               all other positive kinds a minus sign is an error
     angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),

@@ -164,7 +164,7 @@ def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
     """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
 
-    Then the equation must be linear in the symbol, or contain only one power of the symbol, which must be positive.
+    Then the equation must be linear in the symbol, or the symbol must be positive and occur in only one power.
     Otherwise the result is None.
     """
     order = _order_of_root(right, symbol)
@@ -287,7 +287,7 @@ def _size(value: Any) -> int:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """Write the square roots of a product as one root, which a page also does."""
+    """Write the square roots of a product as one root, as pages do."""
     roots = [f for f in value.args if f.is_Pow and f.exp in (HALF, -HALF)]
     if len(roots) < 2:
         return value
@@ -296,7 +296,7 @@ def _under_one_root(value: Expr) -> Expr:
 
 
 def _cost(value: Any) -> tuple[int, int]:
-    """The length including the symbols, and then the number of symbols, because of two forms with the same length the
-    one with fewer symbols is preferred."""
+    """The length including the symbols, and the number of symbols. If two forms have the same length, the form with
+    fewer symbols is preferred."""
     symbols = len(value.free_symbols)
     return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

@@ -59,7 +59,7 @@ def vanishes(expr: Expr) -> bool:
 
 
 def is_identity(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are the same polynomial in symbols, sines and cosines; False means "not shown"."""
+    """Whether two expressions have the same normal form in symbols, sines and cosines; False means "not shown"."""
     try:
         return trig_polynomials.are_equal(left, right)
     except Outside:
@@ -93,7 +93,8 @@ def _is_nothing(divisor: Expr) -> bool:
 
 
 def _hides_angles(expr: Expr) -> bool:
-    """Whether a sine or cosine is under a root or in an absolute value, or an angle contains pi or an arc function."""
+    """Whether a sine, cosine or tangent is under a root or in an absolute value, or its angle contains pi or an arc
+    function."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)

@@ -1,4 +1,4 @@
-"""Roots of polynomials that have only real roots, without a closed form: a root is identified by its place in ascending
+"""Roots without a closed form, of polynomials with only real roots: a root is identified by its place in ascending
 order.
 
 If the coefficients are rational numbers, the value of a root is exact: an algebraic number of SymPy, which can be

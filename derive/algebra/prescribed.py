@@ -1,7 +1,7 @@
 """The time, and prescribed functions of the time such as the position X(t) of a shaken support.
 
-A prescribed function X and its rates X_dot, X_ddot are symbols, as a coordinate and its rates are. But they depend on
-the time alone. So the partial derivative of a formula with respect to t includes their derivatives, and
+A prescribed function X and its rates X_dot, X_ddot are symbols, as a coordinate and its rates are. But X depends on the
+time alone. So the partial derivative of a formula with respect to t includes the derivatives of X and of its rates, and
 `depends_on_time` is true for each formula that contains one of these symbols.
 """
 
@@ -89,5 +89,5 @@ def depends_on_time(value: Any) -> bool:
 
 
 def prescribed_in(value: Any) -> list[Prescribed]:
-    """Return the prescribed functions and their rates in a formula, by name."""
+    """Return the prescribed functions and their rates in a formula, sorted by name."""
     return sorted((s for s in explicit(value).free_symbols if isinstance(s, Prescribed)), key=lambda s: s.name)

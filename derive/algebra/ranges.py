@@ -20,8 +20,8 @@ from derive.algebra.order import known_order
 
 @dataclass(frozen=True)
 class Range:
-    """An interval: the symbol is greater than `least` and less than `greatest`. Of the two ends, those that are
-    `closed` belong to the range.
+    """The interval from `least` to `greatest` in which a symbol lies. An end belongs to the range only if it is
+    `closed`.
 
     Either end may be infinite. `written` is the text of the range in a file.
     """
@@ -154,7 +154,8 @@ def without_abs(value: Any) -> Any:
 
 
 def with_positive_factors_out(value: Expr) -> Expr:
-    """Take positive factors out of roots: sqrt(1 + v^2/sin(a)^2) is sqrt(sin(a)^2 + v^2)/sin(a) where sin(a) > 0."""
+    """Take positive factors with sines, cosines or tangents out of roots: sqrt(1 + v^2/sin(a)^2) is sqrt(sin(a)^2 +
+    v^2)/sin(a) where sin(a) > 0."""
     known = _KNOWN.get()
     if not known:
         return value
@@ -177,7 +178,8 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """The sign, 1 or -1, of all values within the ranges of the symbols; None if no common sign is known."""
+    """The sign, 1 or -1, of all values inside the ranges of the symbols; None if no common sign is known. The ends of
+    the ranges do not count."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
@@ -324,8 +326,8 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a sum of multiples of symbols, sines and cosines; None if they are unknown. Unless the sum is
-    constant or the range of a symbol includes an end, the sum does not reach the bounds."""
+    """The bounds of a sum of numbers and of multiples of terms that `_between` bounds; None if they are unknown. The
+    sum does not reach the bounds, except if it is constant or the range of a symbol includes an end."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):

@@ -99,7 +99,7 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """Whether the base is a symbol, or the sine or cosine of a symbol, as in phi_dot t cos theta of a steady
+    """Whether the base is a symbol, or the sine or cosine of a symbol, as in the angle phi_dot t cos theta of a steady
     precession."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 

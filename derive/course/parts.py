@@ -150,7 +150,7 @@ class Question(Record):
         required=True,
     )
     answers: tuple[Word, ...] = key(
-        "key of the step that answers it, or a list of keys",
+        "key of the step that answers the question, or a list of keys",
         Reader(one_or_more(KEY_OF_STEP), _answers, tuple),
         called="answer",
         required=True,

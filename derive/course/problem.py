@@ -93,7 +93,7 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that the parts ask for, that the limiting cases name, and that are plotted."""
+        """The names of the steps that parts ask for, that limiting cases name, and that plots of one answer show."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
@@ -245,7 +245,7 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
 
 
 def _by_method(pinned: Pinned, written: ProblemKeys, script: Script | StockScript | None, faults: Faults) -> Pinned:
-    """Add the methods that the problem and its parts state to the description of a system."""
+    """Add to the description of a system the methods that the problem and its parts state."""
     of_names: dict[str, Word] = {}
     for part in written.parts:
         if part.method is not None:
@@ -270,8 +270,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that a drawing with `plot` has `against` and `range` and belongs to a script of the engine, and that a
-    drawing without `plot` has no `against`."""
+    """Check that a drawing with `plot` belongs to a script of the engine. Unless it is a phase portrait, it needs
+    `against` and `range`. A drawing without `plot` must not have `against`."""
     for drawing in drawings:
         if drawing.plot and isinstance(script, Script):
             message, help_line = (
@@ -282,7 +282,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
         elif drawing.levels or drawing.over:
             _check_portrait(drawing, faults)
         elif drawing.plot and (drawing.against is None or drawing.range is None):
-            message = f"the plot `{drawing.key}` needs `against`, a letter, and `range`, its two ends"
+            message = f"the plot `{drawing.key}` needs `against` with a letter, and `range` with two ends"
             faults.error(
                 "missing-key", message, drawing.place, help="such as `against: theta, range: [-90 deg, 90 deg]`"
             )
@@ -291,10 +291,10 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check that a phase portrait has one answer, values and two ranges, and no key of another plot."""
+    """Check that a phase portrait has one answer, values and two ranges, and neither `against` nor `range`."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if not drawing.is_portrait:
-        message = f"the phase portrait `{drawing.key}` needs `plot`, one answer, `levels`, its values, and `over`"
+        message = f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels` and `over`"
         help_line = "such as `plot: hamiltonian, levels: [m*g*l], over: {theta: [-180 deg, 180 deg], p_theta: [...]}`"
         faults.error("missing-key", message, drawing.place, help=help_line)
     elif extra:

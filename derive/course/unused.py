@@ -63,7 +63,8 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
     """Warn of declared letters that are not used in the givens, the `reference:`, the limits, the drawings or formulas
-    in prose, and that do not replace a number. Letters of a kind with an exact number are left out."""
+    in prose, and that do not replace a number. A letter whose kind is in `exact` causes no warning: an exact number of
+    this kind, such as 45 deg, may be in its place."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
@@ -113,7 +114,7 @@ def _of_limit(limit: object) -> Iterator[str]:
 
 
 def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of coordinates and prescribed functions on which no place, body or energy depends."""
+    """Warn of coordinates and prescribed functions on which no place, body, force or energy depends."""
     if given is None:
         return
     used = {name for key, value in given.pairs if key.text not in OF_STATES for name in _names(value)}

@@ -157,8 +157,8 @@ class DrawingKeys(Record):
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
     plot: tuple[Formula, ...] | None = key(
-        "for a script of the engine: the answer whose curve is drawn, such as `potential_energy`; or two answers or "
-        "formulas, such as `[path_x, path_z]`, whose path is drawn",
+        "if `solve` is `system`, `body` or `rotation`: the answer whose curve is drawn, such as `potential_energy`; or "
+        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn",
         PLOTTED,
     )
     against: Word | None = key(
@@ -195,7 +195,7 @@ class LimitKeys(Record):
     )
     step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
     stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
-    known: Word | None = key("a step with the same result by another derivation, by its key", TEXT)
+    known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 
 
@@ -212,7 +212,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
         faults.error("missing-key", message, node.place, help="such as `{of: frequency, letter: M, to: infinity}`")
         return None
     if found.to is not None and ways != ["letter"]:
-        faults.error("unknown-key", "`to` is allowed only together with `letter`", found.places["to"])
+        faults.error("unknown-key", "`to` is allowed only with `letter`", found.places["to"])
     return found
 
 
@@ -246,8 +246,8 @@ class ProblemKeys(Record):
         SYMBOLS,
     )
     given: Mapping | None = key(
-        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; "
-        "for a script of the engine, the description of what it solves",
+        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; if "
+        "`solve` is `system`, `body` or `rotation`, the description of the system, body or rotation",
         GIVEN,
     )
     define: Definitions = key(
@@ -275,7 +275,8 @@ class ProblemKeys(Record):
     show: Table[str, str] = key("how much of a step is shown, by the step's key", mapping_of(one_of(SHOWN)))
     figures: int | None = key("significant figures where `form` states none", FIGURES)
     drawings: dict[Word, DrawingKeys] = key(
-        "where the drawings of the script appear, by their names", mapping_of(_DRAWING)
+        "the drawings, by their names: where each appears, its caption, width and numbers, or what it plots",
+        mapping_of(_DRAWING),
     )
     limits: tuple[LimitKeys, ...] = key("limiting and special cases that check the answers at the end", LIMITS)
     observations: tuple[Word, ...] | None = key(OBSERVATIONS_MEANING, OBSERVATIONS)

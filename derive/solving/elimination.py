@@ -27,8 +27,8 @@ class Isolated:
     """The equations that give an unknown once the earlier unknowns are known.
 
     equations   the indices of these equations
-    eliminated  the other unknowns of these equations
-    earlier     unknowns in these equations that are solved before this one
+    eliminated  the other unknowns of these equations, except those in `earlier`
+    earlier     unknowns in these equations that are found before this unknown
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
     """
 
@@ -75,8 +75,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of at most `MOST` equations with as many new unknowns as equations; empty if there is
-    none.
+    """Return the smallest set of at most `MOST` coupled equations that determine as many new unknowns; empty if there
+    is none.
 
     The sets are tried in order: equations with the most preferred unknown come first, and among these the shortest.
     """

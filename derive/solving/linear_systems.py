@@ -299,7 +299,7 @@ class Conservative(LinearSystem):
             message = f"the squares of {factor.degree} frequencies are the roots of a polynomial that does not factor"
             help_ = "use one symbol for equal masses or equal springs, or give numbers to all masses and springs"
             if self.name:
-                help_ = "numbers help only about a stable equilibrium, and only if there is one such polynomial"
+                help_ = "numbers help only if the equilibrium is stable and if there is only one such polynomial"
             raise Rejected(Complaint("no-closed-form", message, help=help_))
         names = [scalar(f"{self.name}_{n + 1}") for n in range(factor.degree)]
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
@@ -678,8 +678,8 @@ def size_of(value: Expr) -> float:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """Whether the product contains exactly one power with an exponent that is not an integer, and this is a power of a
-    sum with an exponent above 1 or below -1, as in m A^2/(l^2 + m c A)^(3/2)."""
+    """Whether exactly one factor of the product is a power with an exponent that is not an integer. The base of this
+    power must be a sum, and its exponent above 1 or below -1, as in m A^2/(l^2 + m c A)^(3/2)."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 

@@ -94,8 +94,8 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of sin(k x + c) or cos(k x + c) at most three half periods away from the zero at which k x + c is 0, or
-    pi/2 for the cosine. For any other function the list is empty."""
+    """Seven zeros of sin(k x + c) or cos(k x + c): the one at which k x + c is 0, or pi/2 for the cosine, and three on
+    each side of it. For any other function the list is empty."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -104,7 +104,7 @@ def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
 
 
 def _turned(factor: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a factor; if its period is a full turn, also the zeros one turn before and after."""
+    """The zeros of a factor by `zeros_of`; if its period is a full turn, also the zeros one turn before and after."""
     turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
     return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 
@@ -306,7 +306,8 @@ def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
 
 
 def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
-    """The zeros of A sqrt(P) + B with constants A and B: the solutions of P = (B/A)^2, if -B/A is not negative."""
+    """The zeros of A sqrt(P) + B with constants A and B and P = a q^2 + c: the solutions of P = (B/A)^2, if -B/A is not
+    negative."""
     root = roots[0]
     linear = factor.as_poly(root)
     if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:

@@ -1,6 +1,6 @@
 """The lines of a step: the values of the names in them, and the evidence that each line follows from the one before.
 
-This module also compares each second route with the result, by the same function `equal`.
+This module also compares each second route and check with the result, by the same function `equal`.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line, if the left side is an expression and not only a name, and the
-    first line is not a relation."""
+    """Check that the left side equals the first line. Nothing is checked if the left side is only a name, or if the
+    first line is a relation."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []

@@ -61,7 +61,7 @@ class Lines:
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> the value of this rate by the equations of motion. The last line uses these values, so this line
+    motion    rate -> the value of this rate by the equations of motion. The line of the result uses these values, so it
               is valid only for motions that satisfy the equations
     means     name -> its value, for the names that occur in the left side but not in the law
     """
@@ -280,7 +280,8 @@ def _place_of_verb(frame: FrameType) -> str:
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Check that each formula of the sentence equals the same formula by another route."""
+    """Check that each formula of the sentence equals the same formula by another route, and that each relation among
+    these formulas contains a symbol."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:
@@ -371,7 +372,8 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
 
 
 def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
-    """Reject a symbol for the result that already occurs in the result with another meaning."""
+    """Reject a symbol for the result that already occurs in the result with another meaning, or that is the symbol of
+    two components."""
     letters = {symbol} if isinstance(symbol, Symbol) else set(means)
     if isinstance(symbol, MatrixBase) and len(set(symbol)) < len(symbol):
         raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have the same name"))

@@ -102,8 +102,8 @@ def dimension_table(
     """Return the dimension of every name, and an error for each step that is not homogeneous or whose dimension is not
     that of its kind.
 
-    Each symbol must be given or be a coordinate. Any other symbol is rejected, because its meaning and its dependence
-    on time are unknown; this error is reported at the place `script`.
+    Each symbol must be given, be a coordinate, or be introduced by a step. Any other symbol is rejected, because its
+    meaning and its dependence on time are unknown; this error is reported at the place `script`.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []

@@ -45,8 +45,8 @@ class Display:
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         names of rules: the lines of an input of such a rule may already contain the result; below the
-                      level `full`, the sentence points to these lines
+    result_in         names of rules: if such a rule made an input, the lines of this input may already contain the
+                      result; below the level `full`, the sentence points to these lines
     conditions        roles of the conditions in the sentence that are part of the answer, so the frame shows them too
     quoted            whether only the result is shown below the level `full`, unless a part asks for the step
     verdict           whether the answer is the sentence, and the formula only its reason, so that no frame is needed
@@ -85,7 +85,8 @@ class Shown:
                   nowhere else
     taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that the step repeats, or ""
-    result_in     outcome -> names of rules: the lines of an input of such a rule may already contain the result
+    result_in     outcome -> names of rules: if such a rule made an input, the lines of this input may already contain
+                  the result
     quoted        outcomes whose steps are standard results: only the result is shown
     verdicts      outcomes for which the answer is the sentence, such as "stable", and the formula is only its reason
     The other fields are those of `Display`.

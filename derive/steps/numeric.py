@@ -110,10 +110,11 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if letters remain, if the answer is zero or an integer without letters, or if the value is
-    imaginary, such as the frequency of a motion that does not oscillate.
+    The result is None if letters remain, or if the value is imaginary, such as the frequency of a motion that does not
+    oscillate. It is also None for zero, for integers without letters, and for a relation without a single letter on its
+    left side.
 
-    answer    any quantity; if it is a relation with one letter on its left side, the right side gets the number
+    answer    any quantity; in a relation with a single letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
     unit      the name of the unit
     factor    the value of this unit in SI units
@@ -124,7 +125,8 @@ def value_of(
     For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
     period that is known as a series gets its number from the integral that the series approximates. Any other result
     derived from the series is rejected if the series is not accurate to the requested figures.
-    Outcomes: measured (numbers were substituted), exact; minimum or maximum, for the value of a function at zero slope.
+    Outcomes: measured (numbers were substituted), exact; integrated, for a period whose number is an integral; minimum
+    or maximum, for the value of a function at zero slope.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
     """
     value, within = _valued(answer.value)
@@ -374,9 +376,10 @@ COMPARISON = Rule(
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
 
-    The result is None if the condition is not such a relation or has no letters, or if letters remain.
+    The result is None if the condition is not an equation or inequality (!= does not count), if it has no letters, or
+    if letters remain.
 
-    condition   an inequality or an equation between given quantities, as `where` and `isotropic_where` yield
+    condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit
     Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
@@ -417,12 +420,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    answer       a scalar with letters. The result is None if these letters are in a sum, which has no common number in
-                 front; if the number in front is rational; or if this number is a product of roots and pi, whose size
-                 is easy to see
+    The result is None if the letters are in a sum, which has no common number in front, or if the number in front is
+    rational. It is also None if this number is a product of roots and pi, whose size is easy to see, or if the answer
+    ends with a line in other letters, such as sqrt(2) omega_0.
+
+    answer       a quantity, usually a scalar with letters
     figures      the number of significant figures
-    of_vectors   whether figures are asked for: then the answer may also be a product of roots, or a vector of
-                 rational numbers times letters
+    of_vectors   whether a product of roots and pi, and a vector of numbers times letters, are also rounded
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.

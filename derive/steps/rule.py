@@ -4,8 +4,8 @@ A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page choo
 each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
 
 Predicates are in the file `claims.py` of the folder of their rule, or in `derive/steps/claims.py`. They may use the
-facts of a result and the descriptions of bodies and systems. They do not use the modules that define rules, except
-that for coordinates as functions of the time.
+facts of a result and the descriptions of bodies and systems. They use no module that defines rules, with one exception:
+the module for coordinates as functions of the time.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ class Judged:
     """The data that a predicate judges.
 
     result      the value of the step
-    inputs      the values of the inputs, by their roles
+    inputs      role -> value, for the inputs, the objects that only the sentence contains, and the outcome data
     quantities  role -> quantity, for inputs that are quantities and for quantities that the sentence points to
     symbol      the symbol of the result on the page
     subject     the subject of the result
-    words       the terms of the phrase
+    words       term of the phrase -> its word
     """
 
     result: Any
@@ -89,8 +89,8 @@ class Quote:
 
     outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    values of the term `between` with which a step uses the theorem; if empty, a step uses it with every
-               value
+    between    words that a phrase may have for its term `between`. A step uses the theorem only if its phrase has one
+               of these words; if there are none, any word is allowed
     """
 
     theorem: Theorem
@@ -99,7 +99,7 @@ class Quote:
     between: frozenset[str] = frozenset()
 
     def fits(self, outcome: str, between: str) -> bool:
-        """Whether a step with this outcome, and with this word `between`, uses the theorem."""
+        """Whether a step with this outcome, and with this word for the term `between`, uses the theorem."""
         in_outcome = not self.outcomes or outcome in self.outcomes
         return in_outcome and (not self.between or between in self.between)
 
@@ -200,7 +200,7 @@ def judged_facts() -> frozenset[type[Any]]:
 
 
 def _names_its_point(facts: Judged) -> bool:
-    """Whether the words name the reference point of the result, if this point is known."""
+    """Whether the words name no point other than the reference point of the result; true if this point is unknown."""
     known = getattr(facts.subject.point, "name", None)
     in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
     named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
@@ -208,16 +208,16 @@ def _names_its_point(facts: Judged) -> bool:
 
 
 def _names_its_axis(facts: Judged) -> bool:
-    """Whether the words name the axis of the result, if this axis is known."""
+    """Whether the words name no axis other than the axis of the result; true if this axis is unknown."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}
 
 
 def _letter_of_its_axis(facts: Judged) -> bool:
-    """Whether a symbol with the index of an axis, such as I_z, has the index of the axis that the sentence names. For a
-    part of a composite body, the index must be that of the axis of the whole body, which is parallel to the axis of the
-    part."""
+    """Whether the index of a symbol, such as z in I_z, agrees with the axis that the sentence names. For a part of a
+    composite body, the index must name the axis of the whole body that is parallel to the axis of the part. True if the
+    index names no axis, or if the sentence names none."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

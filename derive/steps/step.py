@@ -100,8 +100,8 @@ class Step:
     @property
     def grade(self) -> Grade:
         """Return the less certain of two grades: the grade of the least certain line, and the grade of the most certain
-        route. All lines must hold, but one route is enough. A statement that was only tested at trial numbers must hold
-        too."""
+        other evidence, such as a route or a check. All lines must hold, but one route or check is enough. A statement
+        that was only tested at trial numbers counts like a line."""
         needed = [e for e in self.evidence if e.compared is Compared.LINES or e.claim == TRIALS]
         routes = [e.grade for e in self.evidence if e not in needed]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
@@ -158,8 +158,8 @@ class Quantity:
 
     @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates on which the value may depend, with their kinds: those of the step and of its parents,
-        without those that a fact eliminates."""
+        """Return the coordinates on which the value may depend, with their kinds: those of the step, and those of its
+        parents that no fact eliminates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}

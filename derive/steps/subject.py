@@ -1,5 +1,4 @@
-"""The subject of a value: the body, the point, the axes, the rotation and the position in space that the value belongs
-to.
+"""The subject of a value: the body, mass, point, axes, axis, rotation and position in space to which the value belongs.
 
 A moment of inertia belongs to one body and one point; an angular momentum belongs to one rotation. Every quantity
 carries its subject, and `establish` unites the subjects of the inputs. Two bodies, two points or two rotations in one
@@ -76,7 +75,8 @@ def united(
 
     key     the key of the step, for the message
     named   the key of each input, and its subject
-    differ  the properties in which the inputs may differ; the result is `SEVERAL` if they do
+    differ  the properties in which the inputs may differ, in addition to `axis`; a property in which they differ
+            becomes `SEVERAL`
     same    the function that decides whether two values are equal
     Errors: two inputs have different subjects.
     """

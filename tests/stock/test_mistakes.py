@@ -136,7 +136,7 @@ MISTAKES = [
     (SYSTEM, "{of: frequency", "{of: frequncy", "did you mean `frequency`?"),
     (SYSTEM, "letter: k, to: 0, why", "letter: k, known: pendulum, why", "`pendulum`"),
     (SYSTEM, "{of: frequency, letter: k", "{of: kinetic_energy, letter: k", "`kinetic_energy` does not depend on `k`"),
-    (SYSTEM, "letter: k, to: 0, why", "where: {k: 0}, to: 0, why", "only a `letter` goes `to` a value"),
+    (SYSTEM, "letter: k, to: 0, why", "where: {k: 0}, to: 0, why", "`to` is allowed only with `letter`"),
     (SYSTEM, "{system: {at", "{sistem: {at", "did you mean `system`?"),
     (SYSTEM, "at: statement}", "at: z}", "`z`"),
     (

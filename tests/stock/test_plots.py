@@ -58,7 +58,7 @@ def test_a_plot_that_is_added_after_a_build_is_drawn(tmp_path: Path) -> None:
     ("edits", "said"),
     [
         ([("    against: theta\n", "")], "needs `against`"),
-        ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against`, a letter, and `range`"),
+        ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against` with a letter, and `range`"),
         ([("    against: theta\n", "    against: phi\n")], "does not depend on `phi`"),
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot`"),
         ([("    plot: effective_potential\n", "    plot: equilibria\n")], "is several results"),
@@ -319,9 +319,9 @@ OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s
 @pytest.mark.parametrize(
     ("edits", "line", "said", "helped"),
     [
-        ([(OVER, "")], 14, "the phase portrait `portrait` needs `plot`, one answer, `levels`", "such as `plot: ham"),
+        ([(OVER, "")], 14, "the phase portrait `portrait` needs `plot` with one answer, `levels`", "such as `plot: h"),
         ([("    levels: [-5 J, m*g*l, 15 J]\n", "")], 14, "the phase portrait `portrait` needs", ""),
-        ([("    plot: hamiltonian\n", "")], 14, "the phase portrait `portrait` needs `plot`, one answer", ""),
+        ([("    plot: hamiltonian\n", "")], 14, "the phase portrait `portrait` needs `plot` with one answer", ""),
         ([("theta: [-180 deg, 180 deg], ", "")], 14, "the phase portrait `portrait` needs", ""),
         ([(OVER, OVER + "    against: theta\n")], 18, "`against` has no effect on the phase portrait", "leave it out"),
         ([(OVER, OVER + "    range: [0 deg, 1 deg]\n")], 18, "`range` has no effect on the phase portrait", ""),
