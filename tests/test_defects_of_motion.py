@@ -179,7 +179,7 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "m_neg": (("Assume that m > M.", "If m > M, the angular frequency"), ()),
     "max_letters": (("It lies in the interval if 2b > a",), ()),
     "origin-on-told-body": (("∫(0..L) x dx) = 2M x/L²", "2/L² ∫(0..L) x² dx", "2/3 L (1, 0, 0)"), ()),
-    "pend_tension": (("a string only pulls", "as long as v_0² > 2g l", "v_0² < 5g l"), ("contact",)),
+    "pend_tension": (("a string only pulls", "This happens if v_0² > 2g l and v_0² < 5g l"), ("contact",)),
     "resonance-none": (("exists if b² < 2k m", "≈ 1000 s^-1", "≈ 1.000 m"), ()),
     "rootcos2": (("U vanishes when * cos θ = 0", "if E_1 ≥ E_2, * cos θ = E_2/E_1"), ("θ = 0,", "vanishes at")),
     "roots_internal_error_conical_0_pi": (("provided that cos θ_0 > 0",), ()),

@@ -256,6 +256,7 @@ NAMED = (
 DERIVATIVE = re.compile(
     rf"(?<![\\\w])(?P<above>(?:d|\\partial )(?:\^\{{\d\}})?{NAMED})/(?P<below>(?:d|\\partial ){NAMED}(?:\^\{{\d\}})?)"
 )
+RATE_OF_ALL = re.compile(r"(?<![\\\w])d\((?P<of>[^()]*)\)/dt")
 
 
 def read_printed(
@@ -266,6 +267,7 @@ def read_printed(
     positions: list[Any] | None = None,
 ) -> tuple[list[list[Any]], list[str]]:
     """The sides of a printed chain, in each branch of its signs, and the marks between them."""
+    text = RATE_OF_ALL.sub(r"\\frac{d}{dt}(\g<of>)", text)
     text = DERIVATIVE.sub(r"\\tfrac{\g<above>}{\g<below>}", text)
     branches: list[list[Any]] = []
     marks: list[str] = []
