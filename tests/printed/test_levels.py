@@ -13,7 +13,7 @@ from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.introduced import expressions_in, letters_in, letters_of
 from derive.page.tree import Display, Document
-from derive.page.wording import Math, Text, phrases
+from derive.page.wording import Math, Text, ToldOnce, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, kept, rendered_once
 
@@ -44,8 +44,11 @@ def steps_of(problem_id: str) -> tuple[Problem, Solved]:
 
 
 def lines(document: Document) -> int:
-    displays = [block for part in document.parts for block in part.blocks if isinstance(block, Display)]
-    return sum(len(group.lines) for display in displays for group in display.groups)
+    """The lines of displays, and the theorems: a brief page has the line of a law in place of a theorem."""
+    blocks = [block for part in document.parts for block in part.blocks]
+    groups = [group for block in blocks if isinstance(block, Display) for group in block.groups]
+    theorems = [node for block in blocks for node in getattr(block, "nodes", ()) if isinstance(node, ToldOnce)]
+    return sum(len(group.lines) for group in groups) + len(theorems)
 
 
 def shown(document: Document) -> tuple[object, ...]:
