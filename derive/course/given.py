@@ -84,10 +84,11 @@ class Given:
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """Return the symbol of a declared letter. The letter `t` of kind time is the time itself; any other letter of kind
-    time is a duration."""
+    time is a duration. A letter whose range begins below zero is not positive, whatever its kind."""
     if name == TIME.name and kind == "time":
         return TIME
-    if about_kind(kind).positive or lies is not None and lies.is_above_zero:
+    is_positive = about_kind(kind).positive if lies is None else not lies.least.is_extended_negative
+    if about_kind(kind).positive and is_positive or lies is not None and lies.is_above_zero:
         return Symbol(name, real=True, positive=True)
     return Symbol(name, real=True)
 

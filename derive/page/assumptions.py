@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sympy import Expr, Integer, Symbol, cos, pi, sin
 
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import Amount, Relation
+from derive.algebra.kinds import unit_of_kind
 
 MIRRORED = {">": "<", ">=": "<="}
+ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written without a unit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
@@ -30,6 +32,22 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
         else:
             found.append(condition)
     return found
+
+
+def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:
+    """Return a condition in which each numerical bound of a symbol has the unit of this symbol: -1 m/s < v < 1 m/s."""
+    left, right = condition.left, condition.right
+    letter = left.right if isinstance(left, Relation) else left
+    unit = units.get(letter, "") if isinstance(letter, Symbol) else ""
+    if not unit or unit == ANGLE:
+        return condition
+    if isinstance(left, Relation):
+        left = Relation(_amount(left.left, unit), left.operator, left.right)
+    return Relation(left, condition.operator, _amount(right, unit))
+
+
+def _amount(number: Any, unit: str) -> Any:
+    return Amount(number, unit, Integer(1)) if number.is_Rational and number != 0 else number
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:

@@ -14,6 +14,7 @@ from sympy import preorder_traversal
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import Compared
 from derive.algebra.expressions import Amount, rate
+from derive.algebra.kinds import unit_of_kind
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.placement import STATEMENT
@@ -23,7 +24,7 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
-from derive.page.assumptions import between_bounds
+from derive.page.assumptions import between_bounds, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
@@ -229,7 +230,9 @@ class _Writer:
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
         if not assumed:
             return ()
-        conditions = joined([(Math(each),) for each in between_bounds(assumed)], self.words.labels["and"])
+        units = {letter.symbol: unit_of_kind(letter.kind) for letter in self.problem.letters}
+        stated = [with_units(each, units) for each in between_bounds(assumed)]
+        conditions = joined([(Math(each),) for each in stated], self.words.labels["and"])
         return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))
 
     def _illustrations(self) -> list[Illustration]:

@@ -24,6 +24,14 @@ def test_a_letter_may_lie_in_a_range(tmp_path: Path) -> None:
     assert [str(each) for each in run.assumed] == ["alpha > 0", "alpha < pi/2"]
 
 
+@pytest.mark.parametrize(("written", "is_positive"), [("(-1 m/s, 1 m/s)", None), ("(0, 2 m/s)", True)])
+def test_a_speed_whose_range_begins_below_zero_is_not_positive(
+    written: str, is_positive: bool | None, tmp_path: Path
+) -> None:
+    text = edited(PENDULUM, (WITH_RANGE[0], WITH_RANGE[1].replace("angle in (0, pi/2)", f"speed in {written}")))
+    assert loaded(tmp_path, text).symbols["alpha"].symbol.is_positive is is_positive
+
+
 def test_a_root_of_a_square_has_the_sign_that_the_range_settles(tmp_path: Path) -> None:
     at = ("[l*sin(theta), -l*cos(theta)]", "[l*sqrt(sin(alpha)**2)*theta, 0]")
     problem = loaded(tmp_path, edited(PENDULUM, WITH_RANGE, at, ("equations_of_motion", "kinetic_energy")))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Symbol, cos, pi, sin
 
 from derive.algebra.expressions import Relation
-from derive.page.assumptions import between_bounds
+from derive.page.assumptions import between_bounds, with_units
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
@@ -29,3 +29,10 @@ def test_what_follows_from_the_bounds_is_not_told() -> None:
     closed = Relation(alpha, ">=", 0)
     assert told(closed, BELOW, Relation(sin(alpha), "!=", 0)) == ["0 ≤ α < π/2", "sin α ≠ 0"]
     assert told(Relation(sin(beta), "!=", 0)) == ["sin β ≠ 0"]
+
+
+def test_a_bound_has_the_unit_of_its_letter() -> None:
+    v = Symbol("v", real=True)
+    both = between_bounds([Relation(v, ">", -1), Relation(v, "<", 2), ABOVE])
+    shown = [plain(Notation().layout(with_units(each, {v: "m/s", alpha: "rad"}))) for each in both]
+    assert shown == ["-1 m/s < v < 2 m/s", "α > 0"]
