@@ -60,7 +60,8 @@ class Equations:
     def beside(self, other: Equations) -> Equations:
         """Return the lines of both steps under one number; the steps share a row if there is room."""
         first, *others = other.lines
-        return replace(self, lines=(*self.lines, replace(first, beside=True), *others))
+        lines = (*self.lines, replace(first, beside=True), *others)
+        return replace(self, lines=lines, framed=len(lines) if other.framed else self.framed)
 
 
 class ChainWriter:

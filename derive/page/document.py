@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from sympy import preorder_traversal
+from sympy import MatrixBase, preorder_traversal
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import Compared
@@ -359,7 +359,7 @@ class _Writer:
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
         if not before and blocks and isinstance(blocks[-1], Display):
-            beside = self._beside(step, equations) and self._beside(self.before, blocks[-1].groups[-1])
+            beside = self._share_a_row(step, equations, blocks[-1].groups[-1])
             blocks[-1] = blocks[-1].with_more(display, beside)
             if beside:
                 self.numbers[step.key] = blocks[-1].groups[-1].number
@@ -380,12 +380,18 @@ class _Writer:
             told = (*told[:-1], Text(told[-1].text.rstrip(".") + ","))
         return (*told, Text(" ")) if told else ()
 
-    def _beside(self, step: Step | None, equations: Equations) -> bool:
-        """Return whether a step may share a row with another step: it needs a symbol, and must have no reason and no
-        frame."""
-        if step is None or self.level is Level.FULL or step.symbol is None or equations.framed:
+    def _share_a_row(self, step: Step, own: Equations, above: Equations) -> bool:
+        """Return whether a step and the step before may share a row and its number. Both need a symbol and have no
+        reason. If they are answers, both must be vectors, which share a frame."""
+        steps = (self.before, step)
+        if self.level is Level.FULL or any(each is None or each.symbol is None for each in steps):
             return False
-        return not any(line.reason for line in equations.lines) and equations.lines[-1].left is not None
+        if own.framed or above.framed:
+            vectors = all(each and isinstance(each.result, MatrixBase) and each.result.cols == 1 for each in steps)
+            if not (own.framed and above.framed and vectors):
+                return False
+        pair = (own, above)
+        return all(e.lines[-1].left is not None and not any(line.reason for line in e.lines) for e in pair)
 
     def _following(self, key: str) -> Step | None:
         """Return the next step that the part shows, if one sentence may describe both the step `key` and this next

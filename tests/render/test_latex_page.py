@@ -147,16 +147,11 @@ def test_units_and_dimensions_stand_upright(node: DimensionMark | UnitMark, tex:
     assert tex in solution(page(note=(node,)))
 
 
-def test_two_vectors_stand_side_by_side() -> None:
-    def vectors(count: int, reason: tuple[Text, ...] = ()) -> list[str]:
-        line = ChainLine(T, "equals", column(a, 0, 0), reason)
-        groups = tuple(Equations("mass", (line,), number) for number in range(1, count + 1))
-        return chain(solution(page(replace(display("mass"), groups=groups))))
-
-    both, between, third = vectors(3)
-    assert both.startswith(r"\sidebyside{\row{T}") and r"\eqnumber{2}" in both
-    assert (between, r"\eqnumber{3}" in third) == (r"\nextstep", True)
-    assert r"\sidebyside" not in "".join(vectors(2, (Text("why"),)))
+def test_two_vectors_of_an_answer_share_a_row_a_frame_and_a_number() -> None:
+    line = ChainLine(T, "equals", column(a, 0, 0), ())
+    both = Equations("mass", (line,), 1, framed=1).beside(Equations("time", (line,), 1, framed=1))
+    (row,) = chain(solution(page(replace(display("mass"), groups=(both,)))))
+    assert (row.count(r"\framedrow"), row.count(r"\eqnumber"), row.count("pmatrix")) == (1, 1, 4)
 
 
 def test_a_drawing_takes_the_sentences_before_it_and_after_it() -> None:

@@ -43,7 +43,6 @@ from derive.render.rendered import Tex
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 FEW_ROWS = 4  # a display of at most this many steps, each of one low row, is not divided between pages
-NARROW = 26  # in characters: two steps of this width fit on one line
 
 
 @dataclass(frozen=True)
@@ -203,16 +202,10 @@ class LatexPage:
         which has its result and its number, is never alone at the top of a page.
         """
         steps: list[str] = []
-        tall: list[bool] = []
         are_low = all(_is_low(printed_lines(group, self.notation)) for group in display.groups)
         between = r"\samestep" if are_low and len(display.groups) <= FEW_ROWS else r"\nextstep"
         for group, stop in zip(display.groups, display.stops, strict=True):
-            printed = printed_lines(group, self.notation)
-            tall.append(_is_tall_and_narrow(printed))
-            if tall[-2:] == [True, True]:
-                steps[-1], tall = rf"\sidebyside{{{steps[-1]}}}{{{self._step(printed, stop)}}}", []
-            else:
-                steps.append(self._step(printed, stop))
+            steps.append(self._step(printed_lines(group, self.notation), stop))
         return Tex(f"\n{between}\n".join(steps))
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
@@ -309,13 +302,6 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 def _is_low(lines: Sequence[Printed]) -> bool:
     """Return whether the lines are a single row, and no side of this row ends in a vector or tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
-
-
-def _is_tall_and_narrow(lines: Sequence[Printed]) -> bool:
-    """Return whether the step is a narrow vector or tensor, so that two such steps fit side by side."""
-    (line, *others) = lines
-    alone = not others and not line.reason and line.width < NARROW
-    return alone and isinstance(last_of(line.sides[-1][1]), Array)
 
 
 def _sides(line: Printed) -> str:
