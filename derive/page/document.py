@@ -474,7 +474,7 @@ def _illustrated(
     steps: int,
 ) -> tuple[Block, ...]:
     """Insert each drawing after the last step that it shows, or before the first step to which it leads; a drawing that
-    shows no steps begins the part."""
+    shows no steps begins the part. Numerical values of the answers follow the drawing."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [
         min((begins[k] for k in d.leads_to if k in begins), default=0)
@@ -488,8 +488,9 @@ def _illustrated(
         else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
         for drawing, place in zip(own, completed, strict=True)
     ]
+    before_values = steps if steps < len(blocks) and _parts_nothing(blocks, steps) else steps - 1
     found: list[Block] = []
     for i, block in enumerate(blocks):
-        found += [drawing for drawing, place in zip(own, places, strict=True) if place == i < steps]
+        found += [drawing for drawing, place in zip(own, places, strict=True) if place == i <= before_values]
         found.append(block)
-    return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place >= steps))
+    return (*found, *(drawing for drawing, place in zip(own, places, strict=True) if place > before_values))

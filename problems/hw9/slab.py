@@ -29,7 +29,7 @@ def solve(
     L = lagrangian(system)
     motion = equation_of_motion(L, theta)
     squared = frequency_squared(linearised(motion))
-    swings, grows = frequency_and_growth(squared)
+    swings = frequency(squared)
     stable = where(squared, ">", 0, radius, key="stability")
     U = potential_energy_of(system)
     level = extreme_value(U, theta)
@@ -55,4 +55,4 @@ def solve(
     contact, size = radius * across, 2 / S(5)
     pushes = arrow(across, contact, size, label=N), arrow(along, contact, size, label=F, is_reversed=True)
     sketch("forces", system, O, C, pushes, weights=True)
-    return L, motion, swings, grows, stable, level, minimum, again, N, F
+    return L, motion, swings, stable, level, minimum, again, N, F

@@ -107,14 +107,14 @@ class _Page:
 
     def _with_worth(self, text: str, worth: str) -> str:
         if not worth:
-            return text
+            return _filled(text)
         worth = f"[{worth}]"
         if columns(text) + len(worth) + 2 > PAGE_COLUMNS:
-            return textwrap.fill(text, PAGE_COLUMNS) + "\n" + worth.rjust(PAGE_COLUMNS)
+            return _filled(text) + "\n" + worth.rjust(PAGE_COLUMNS)
         return text + " " * (PAGE_COLUMNS - columns(text) - len(worth)) + worth
 
     def _wrapped(self, nodes: Sequence[Inline]) -> str:
-        return textwrap.fill(self._inline(nodes), PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
+        return _filled(self._inline(nodes))
 
     def _inline(self, nodes: Sequence[Inline]) -> str:
         return inline_text(nodes, self.notation, self.document.numbers)
@@ -158,3 +158,7 @@ class _Page:
             room = PAGE_COLUMNS - len(number) - columns(lines[middle])
             lines[middle] += (" " * room if room > 1 else "  ") + number
         return lines
+
+
+def _filled(text: str) -> str:
+    return textwrap.fill(text, PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
