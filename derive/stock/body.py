@@ -313,7 +313,7 @@ class BodyAnswers(Answers[Asked]):
 
         own      the name of the answer without the name of the body
         letter   the symbol of the result, if the author chose one
-        tensor   the symbol and the key of the tensor, if the tensor is about another point
+        tensor   the symbol and the key of the tensor, if the tensor is about another point or is the answer
         """
         axis = own[-1]
         if own == "inertia_tensor":

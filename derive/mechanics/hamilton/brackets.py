@@ -229,7 +229,7 @@ def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Ex
     "bracket",
     "the Poisson bracket of two answers, or of formulas in coordinates and momenta `p_x`",
     functions="bracket: two answers, or formulas in coordinates and their momenta `p_x`",
-    among="results: answers whose letters may appear in the bracket",
+    among="results: answers whose symbols may appear in the bracket",
 )
 def _in_results(
     functions: Functions, key: str, coordinates: Mapping[str, Coordinate], among: Sequence[Quantity] = ()

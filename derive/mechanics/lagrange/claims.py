@@ -37,7 +37,8 @@ from derive.steps.trial_numbers import Point, as_rational, assumptions_about, ev
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """Whether the momentum has its conserved value if the rate that the fact states is substituted."""
+    """Whether the fact names the momentum and the coordinate of the step, and the rate that the fact states gives the
+    momentum its conserved value."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -66,7 +67,7 @@ def _in_rates(facts: Judged) -> Expr:
 def _is_conserved(facts: Judged) -> bool:
     """Whether the rate of the result along the motion vanishes. D'Alembert's principle eliminates the accelerations.
 
-    A constraint force does no work for velocities that the constraint allows.
+    The terms lambda df/dt of the constraints f = 0 are also eliminated: they vanish along the motion.
     """
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
@@ -189,7 +190,7 @@ def free_bodies(facts: Judged) -> int:
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
     """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u. The
-    sentence must mention stretched springs exactly if one of these assumptions is about a spring."""
+    sentence must mention stretched springs if and only if one of these assumptions is about a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
@@ -281,9 +282,9 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
     The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation
-    or, if the function contains rates, with respect to the rate of this coordinate. If the sentence
-    also states a multiplier in terms of a force, the factor of this force is that derivative times the ratio of the
-    multiplier to the force. Friction terms in the generalized force, which are proportional to a constraint force, are
+    or, if the function contains rates, with respect to the rate of this coordinate. If the sentence also states a
+    multiplier in terms of a force, the factor of this force is that derivative times the ratio of the multiplier to the
+    force. Friction terms in the generalized force, which are proportional to a constraint force, are
     not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
     require.
     """
@@ -410,7 +411,7 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 
 
 def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
-    """Whether the equations that the sentence names, if it names any, give the result together with earlier unknowns.
+    """Whether the named equations and the earlier unknowns give the result; true if the sentence names no equations.
 
     With trial numbers for the other symbols, these equations are linear in the unknowns. They are solved for the
     unknown of the step, without the formula of the step.

@@ -21,7 +21,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ForceOf(Fact):
-    """The constraint of a constraint force, and the linear equations from which the force was solved."""
+    """The constraint of a constraint force, and the linear equations that were solved for the force."""
 
     missing = "is not the force of a constraint"
     constraint: Constraint

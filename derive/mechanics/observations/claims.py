@@ -105,8 +105,8 @@ def swings_like_a_pendulum(facts: Judged) -> bool:
 
 
 def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
-    """Whether the stated length is the result, which must then not contain g, or a symbol. If it is a symbol, another
-    predicate checks its value, or the outcome checks the acceleration that is stated with it."""
+    """Whether the stated length is the result and does not contain g, or is a symbol. If the length is a symbol,
+    another predicate checks its value, or the outcome checks the acceleration that is stated with it."""
     if told == facts.result:
         return facts.inputs["g"] not in told.free_symbols
     return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
@@ -175,7 +175,7 @@ def closes_for(ratio: int) -> Naming:
 
 
 def rate_on_the_circle(facts: Judged, told: Any) -> bool:
-    """Whether the rate in letters, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
+    """Whether the rate in symbols, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in q.named_values)
     letters = told.right if isinstance(told, Relation) else told
     return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
@@ -250,7 +250,7 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
 
 
 def isochronous(facts: Judged) -> bool:
-    """Whether T = mu q_dot^2/2 and U have d^2U/ds^2 = omega^2 with ds = sqrt(mu) dq, at all trial points.
+    """Whether d^2U/ds^2 = omega^2 at all trial points, where T = mu q_dot^2/2 and ds = sqrt(mu) dq.
 
     The derivatives are difference quotients of the energies. Also, mu must depend on q: with a constant mu, the
     equation of motion would be linear anyway.
@@ -407,7 +407,7 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable exactly where the others do not exist, and the others are stable where they
+    """Whether an equilibrium is stable if and only if the others do not exist, and the others are stable where they
     exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
@@ -759,8 +759,8 @@ def longer_by(facts: Judged, told: Expr) -> bool:
 
 
 def stays_below_and_approaches(facts: Judged) -> bool:
-    """Whether the frequency, where it is real, is below the given angular velocity, and approaches it if this is
-    large."""
+    """Whether the frequency, where it is real, is below the given angular velocity, and their ratio approaches 1 as the
+    velocity grows."""
     of, letter = facts.quantities["of"], facts.inputs["letter"]
 
     def is_so(line: Expr, point: Point) -> bool | None:

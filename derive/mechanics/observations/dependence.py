@@ -1,4 +1,4 @@
-"""Observations about symbols: what an answer does not depend on, where it vanishes, and where solutions branch off."""
+"""Observations about symbols, such as what an answer does not depend on, where it vanishes or where it diverges."""
 
 from __future__ import annotations
 
@@ -497,7 +497,7 @@ BELOW = Rule(
 
 
 def below(view: View) -> Observed:
-    """Frequency of oscillation that is always below a given angular velocity, and approaches it if this is large."""
+    """Frequency of oscillation below a given angular velocity; their ratio approaches 1 as the velocity grows."""
     for of in view.values("angular speed"):
         value = explicit(of.value)
         for letter in [s for s in view.of_kind("angular speed") if s in value.free_symbols]:

@@ -188,7 +188,7 @@ def _of_whole(called: str) -> dict[str, str]:
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
-    """Return the squared distance from axis k, as a sum of squares of the other components."""
+    """Return the squared distance of a point from axis k, as a sum of squares of the other components."""
     squares = [Pow(x, 2, evaluate=not x.is_Mul) for i, x in enumerate(way) if i != k and x != 0]
     return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)
 

@@ -168,6 +168,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
     times |d|.
     Outcomes: left_handed (the rate is known to be negative), right_handed (any other rate).
+    Errors: the body has no point of this name.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     body = along.subject.body

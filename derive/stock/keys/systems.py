@@ -125,7 +125,7 @@ class SystemKeys(Record):
     central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
     lagrangian: Tree | None = key(
         "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples, and drag with `on`, may be added",
         SCALAR,
     )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
@@ -309,7 +309,9 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
             if name not in used:
-                help_line = "describe the contact under `contacts`, let a flight end `on` it, or leave the surface out"
+                help_line = (
+                    "describe the contact under `contacts`, name it under `on` of `lands`, or leave the surface out"
+                )
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
 
@@ -322,7 +324,7 @@ def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
             message = f"`{name}` is the name of a pulley and of a body, a particle or a place"
             faults.error("twice", message, name.place, help="give the pulley another name")
         elif name not in over and {each.partition(".")[0] for each in over} <= known:
-            help_line = "let a string run `over` it, or leave the pulley out"
+            help_line = "name it under `over` of a string, or leave the pulley out"
             faults.error("unused-key", f"no string runs over the pulley `{name}`", name.place, help=help_line)
 
 
