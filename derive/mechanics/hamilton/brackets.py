@@ -1,5 +1,8 @@
-"""Poisson brackets of functions of coordinates and momenta. The bracket of a function with the Hamiltonian is the rate
-of change of this function, if the function does not contain the time and the Hamiltonian contains all forces."""
+"""Poisson brackets of functions of coordinates and momenta.
+
+The bracket of a function with the Hamiltonian is the rate of change of this function. This is true of functions that do
+not contain the time, if the Hamiltonian contains all forces.
+"""
 
 from __future__ import annotations
 

@@ -227,10 +227,10 @@ def is_stretched(facts: Judged) -> bool:
     """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
-    length `gradient`, which is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a, where J contains
-    the derivatives of r with respect to the coordinates, and a contains those of f. The length of this gradient is
-    computed numerically. If the position or the condition is not given, the symbol is taken to be the force.
-    """
+    length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
+    contains the derivatives of r with respect to the coordinates, and a contains those of f. The length of this
+    gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
+    force."""
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
@@ -281,10 +281,10 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
-    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation
-    or, if the function contains rates, with respect to the rate of this coordinate. If the sentence also states a
-    multiplier in terms of a force, the factor of this force is that derivative times the ratio of the multiplier to the
-    force. Friction terms in the generalized force, which are proportional to a constraint force, are
+    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
+    If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
+    multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
+    Friction terms in the generalized force, which are proportional to a constraint force, are
     not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
     require.
     """
@@ -314,7 +314,7 @@ def multiplier_of(i: int) -> Naming:
     """Return the predicate for the multiplier of the i-th function in a sentence.
 
     The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
-    of the equation, or to the rate of this coordinate.
+    of the equation, or to its rate.
     """
 
     def is_so(facts: Judged, letter: Any) -> bool:
@@ -483,8 +483,8 @@ multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 
 
 def multiplier_negative(facts: Judged) -> bool:
-    """Whether the symbol of the result is a force that is negative at trial numbers, and that acts on the body in the
-    direction that the sentence states."""
+    """Whether the symbol of the result is a force that is negative at trial numbers, and acts on the body in the stated
+    direction."""
     x, y = facts.inputs["positive"]
     word, of_slope, _ = facts.words["sense"].partition("_slope")
     across, beside, wanted = {"up": (y, x, 1), "down": (y, x, -1), "right": (x, y, 1), "left": (x, y, -1)}[word]

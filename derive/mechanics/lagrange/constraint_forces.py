@@ -635,8 +635,8 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
-    """Return the matrix with symbols in place of sines, cosines and roots, so that its entries are rational, and
-    a mapping from the replaced functions to these symbols."""
+    """Return the matrix with symbols in place of sines, cosines and roots, and a mapping from the replaced functions to
+    these symbols. The entries of the result are rational functions."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}

@@ -115,8 +115,8 @@ class Varied(Matter):
     def further_routes(self, q: Symbol) -> dict[str, Route]:
         """Return the second route by the energy identity, which needs no derivative of L with respect to q.
 
-        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate that L would have if q and its rate
-        were constant, is the power of the forces along q.
+        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate of L at constant q and q_dot, is
+        the power of the forces along q.
         """
 
         def power(found: Any) -> tuple[Any, Any]:

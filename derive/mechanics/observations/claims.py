@@ -65,8 +65,8 @@ def numbers(values: Iterable[Any], *more: Any, tried: int = 12) -> list[Point]:
 
 
 def for_each_form(quantity: Quantity, is_so: Callable[[Expr, Point], bool | None], *others: Any) -> bool:
-    """Whether a statement about a quantity is true of its value and, at points where the first line of its derivation
-    can be evaluated, also of this line."""
+    """Whether a statement about a quantity is true of its value. At points where the first line of its derivation can
+    be evaluated, the statement must also be true of this line."""
     value, *lines = forms(quantity)
     points = numbers([value], *others)
     return everywhere(points, lambda point: is_so(value, point)) and all(
@@ -226,7 +226,7 @@ def is_ratio_of(above: str, below: str) -> Naming:
 def all_frequencies_are_equal(facts: Judged) -> bool:
     """Whether the equations of motion are linear without any approximation and have only one frequency.
 
-    M^-1 K is then a multiple of the unit matrix at all trial points, and the second derivatives of the equations with
+    M^-1 K is then a multiple of the unit matrix at all trial points. The second derivatives of the equations with
     respect to coordinates, rates and accelerations vanish.
     """
     linear, of = facts.inputs["system"], facts.quantities["of"]

@@ -464,8 +464,8 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle, and the entry is sin(angle) cos(angle) times factors that
-    have one sign for all angles in this range."""
+    """Whether 0 and 90 degrees are in the range of the angle. The entry must be sin(angle) cos(angle) times factors
+    that have one sign for all angles in this range."""
     lies = range_of(angle)
     if lies is not None and not (lies.holds(Integer(0)) and lies.holds(pi / 2)):
         return False

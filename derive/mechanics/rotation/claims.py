@@ -71,8 +71,8 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """Whether the result is a diagonal entry, and every function that is odd in x, y or z has a zero integral over the
-    mass of the body. One such function is tested for each axis."""
+    """Whether the result is a diagonal entry, and every function that is odd in x, y or z integrates to zero over the
+    mass. One such function is tested for each axis."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -261,7 +261,7 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Judge whether the rate in space vanishes if and only if `in_space` is true, and the rate in the body vanishes if
+    """Judge whether the rate in space vanishes if and only if `in_space` is true. The rate in the body must vanish if
     and only if `in_body` is true.
 
     For `in_body=None`, the rate in the body may have any value. For `in_space=None`, judge whether the rate in the body
@@ -315,8 +315,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced if and only if `moved` is true, and its axes differ from the axes of the
-    whole body if and only if `turned` is true."""
+    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from those
+    of the whole body if and only if `turned` is true."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]

@@ -392,12 +392,12 @@ class JointKeys(Record):
     of: WrittenPlace = key("a point of a body, or a particle", PLACE, required=True)
     to: WrittenPlace = key("a point of another body, a particle, or a place in space", PLACE, required=True)
     force: Word = key(
-        "the symbol R of the force on the point `of`; its components are R_x and R_y, in space also R_z",
+        "the symbol R of the force on the body that `of` names; its components are R_x and R_y, in space also R_z",
         TEXT,
         required=True,
     )
     torque: Word | None = key(
-        "for a rigid joint in a plane: the symbol of the couple on the body of the point `of`", TEXT
+        "for a rigid joint in a plane: the symbol of the couple on the body that `of` names", TEXT
     )
 
     def symbols(self) -> list[Word]:
