@@ -87,7 +87,8 @@ DISSIPATION_FUNCTION = Rule(
 def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over the dampers of a system, in W.
 
-    system   the system with the dampers; c is in kg/s for a damped point, and in N m s for a damped angle
+    system   the system with the dampers; c is the force per velocity or, for a damped coordinate, the generalized force
+             per rate
     Second route: the power of the drag forces, sum of F . v, is -2 D.
     Errors: the system has no dampers.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
@@ -327,8 +328,8 @@ def difference(first: Expr, second: Expr) -> Expr:
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Return what the constraints relate: "coordinates", "rates", or "both" if some relate coordinates and some
-    rates."""
+    """Return the quantities that the constraints relate: "coordinates", "rates", or "both" if some relate coordinates
+    and some rates."""
     in_rates = {c.in_rates for c in constraints}
     return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
 

@@ -230,7 +230,8 @@ def is_stretched(facts: Judged) -> bool:
     length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
     contains the derivatives of r with respect to the coordinates, and a contains those of f. The length of this
     gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
-    force."""
+    force.
+    """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
         return False
@@ -284,9 +285,8 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
     If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
     multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
-    Friction terms in the generalized force, which are proportional to a constraint force, are
-    not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
-    require.
+    Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The word
+    under `between` must be "coordinates", "rates" or "both", as the stated functions require.
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -372,8 +372,8 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
-    """Whether the constraint is enforced by what the sentence names, such as a string; friction must enforce a
-    constraint on velocities. A sentence with the word "formula" names nothing, so it is accepted."""
+    """Whether the object that the sentence names, such as a string, enforces the constraint; friction must enforce a
+    constraint on velocities. A sentence with the word "formula" names no object, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True

@@ -130,7 +130,7 @@ FAMILIAR = Rule(
 
 
 def familiar(view: View) -> Observed:
-    """Acceleration that is a fixed fraction of that of free fall, or of a block on an incline without friction."""
+    """Acceleration that is a fixed fraction of the acceleration in free fall, or on an incline without friction."""
     for of in view.values("acceleration"):
         angles = [s for s in view.of_kind("angle") if s in explicit(of.value).free_symbols]
         for g in view.gravity if of.step.rule == "lagrange.acceleration" and len(angles) < 2 else ():

@@ -343,7 +343,7 @@ RESONANCE = Rule(
 
 
 def resonance(view: View) -> Observed:
-    """Driving frequency at which the amplitude without damping grows without bound: that of the free oscillation."""
+    """Driving frequency at which the undamped amplitude grows without bound: the frequency of the free oscillation."""
     for of in view.answers:
         if (of.step.rule, of.step.outcome) == ("vibrations.steady_amplitude", "undamped"):
             below, square = tidied(of.value).as_numer_denom()[1], _free_frequency(of)

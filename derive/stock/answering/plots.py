@@ -1,4 +1,4 @@
-"""`plot` under `drawings:`: the curve of one answer, or the path of two answers or formulas."""
+"""`plot` under `drawings:`: the curve of one answer, the path of two answers or formulas, or a phase portrait."""
 
 from __future__ import annotations
 

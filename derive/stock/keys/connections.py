@@ -55,7 +55,7 @@ RIGHT_OR_LEFT = one_of(("right", "left"))
 
 @dataclass(frozen=True)
 class Connected:
-    """What connections may refer to: bodies and particles by name, described surfaces and pulleys, places, symbols."""
+    """The objects to which connections may refer: bodies and particles by name, surfaces, pulleys, places, symbols."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
@@ -245,7 +245,7 @@ class ContactKeys(Record):
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body that touches the surface, `block` or that of `ladder.end`; empty for a place."""
+        """Return the name of the body that touches the surface, `ladder` for `ladder.end`; empty for a place."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:

@@ -92,6 +92,6 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """Draw a body with known principal moments; if `turns`, also draw its angular velocity and its angular momentum."""
+    """Draw a body with known principal moments; if `turns` is true, also its angular velocity and angular momentum."""
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))
