@@ -80,7 +80,8 @@ class Run:
 def followed(
     trial: Trial, start: State, length: float = LONG, event: Event | None = None, free: Dynamics | None = None
 ) -> Run | None:
-    """The motion from a state; None if it reaches a singularity or takes too long.
+    """The motion from a state, for a time `length` or until `event`; None if the motion reaches a singularity or takes
+    too long.
 
     free   the dynamics of the system without its constraints, in place of the dynamics of the trial
     """

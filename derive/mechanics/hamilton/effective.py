@@ -107,7 +107,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """Return the generalized force, along a coordinate, of all forces that the Lagrangian does not contain."""
+    """Return the generalized force along a coordinate, from all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
@@ -155,7 +155,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
     m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. With the rates
     substituted, R is T - U - sum of p q_dot, plus the sum of e v . A over charges e in magnetic fields.
-    Outcomes: one, several (momenta are constant).
+    Outcomes: one (one momentum is constant), several.
     Errors: no momentum is given; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
     force outside L acts along a remaining coordinate; also the errors of `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where R has the other sign.

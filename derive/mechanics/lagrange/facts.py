@@ -58,7 +58,7 @@ class FromLagrangian(Fact):
 
 @dataclass(frozen=True)
 class Energies(Fact):
-    """The two energies whose difference is a Lagrangian, and its term for magnetic fields, if there is one."""
+    """The kinetic and the potential energy of a Lagrangian, and its term for magnetic fields, if there is one."""
 
     missing = "is not a Lagrangian from `lagrangian`"
     kinetic: Quantity

@@ -100,5 +100,5 @@ def confirmed(kind: Observation, view: View) -> Observed:
 
 
 def of_kinds(view: View, names: Collection[str]) -> dict[str, Steps]:
-    """Return every observation of these kinds about the answers of a part."""
+    """Return, for each of these kinds, every observation about the answers of a part."""
     return {kind.name: list(kind.found(view)) for kind in OBSERVATIONS if kind.name in names}

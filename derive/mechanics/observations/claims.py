@@ -157,7 +157,7 @@ def orbital(facts: Judged, ratio: Expr, at: Mapping[Any, Expr] | None = None) ->
 
 
 def orbital_ratio(wanted: Callable[[Expr], bool]) -> Predicate:
-    """Judge the ratio of the radial frequency and the orbital rate."""
+    """Judge whether the result is the ratio of the radial frequency to the orbital rate, and satisfies `wanted`."""
 
     def is_so(facts: Judged) -> bool:
         return wanted(facts.result) and orbital(facts, facts.result)
@@ -166,7 +166,7 @@ def orbital_ratio(wanted: Callable[[Expr], bool]) -> Predicate:
 
 
 def closes_for(ratio: int) -> Naming:
-    """Judge a special value of a symbol for which the radial frequency is this multiple of the orbital rate."""
+    """Judge whether the radial frequency is this multiple of the orbital rate for the stated value of a symbol."""
 
     def is_so(facts: Judged, told: Relation) -> bool:
         return orbital(facts, Integer(ratio), {told.left: told.right})
@@ -182,9 +182,10 @@ def rate_on_the_circle(facts: Judged, told: Any) -> bool:
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
-    """Judge the ratio of two frequencies: its minimal polynomial has degree 1 if the ratio is a rational number.
+    """Judge whether the ratio of two frequencies is a rational number if and only if `rational` is true.
 
-    Both must be frequencies of the linear equations. For a rational ratio, there must be no third mode.
+    The minimal polynomial of a rational number has degree 1. Both numbers must be frequencies of the linear equations.
+    For a rational ratio, there must be no third mode.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -213,7 +214,7 @@ def _is_a_frequency(facts: Judged, number: Expr, point: Point) -> bool:
 
 
 def is_ratio_of(above: str, below: str) -> Naming:
-    """Judge an equation whose left side is the ratio of two answers and whose right side is the result."""
+    """Judge whether the left side of an equation is the ratio of two answers, and the right side is the result."""
 
     def is_so(facts: Judged, told: Relation) -> bool:
         ratio = explicit(told.left)
@@ -371,8 +372,8 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, with or without a change
-    of sign."""
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign there if and
+    only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
         of, place = facts.quantities["of"], facts.result

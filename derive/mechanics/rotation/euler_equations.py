@@ -136,7 +136,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def central_second_moments(self) -> ImmutableMatrix:
-        """The integrals of r_i r_j over the mass, where r is from the centre of mass.
+        """The integrals of r_i r_j over the mass, where r is measured from the centre of mass.
 
         If the moments are about the pivot, M c_i c_j is subtracted from the integrals about the pivot.
         """

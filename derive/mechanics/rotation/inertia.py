@@ -242,7 +242,7 @@ INERTIA_DEFINITION = Rule(
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
-    """Define the symbol J = integral of (r.r 1 - r r) dm, where r is from the point."""
+    """Define the symbol J = integral of (r.r 1 - r r) dm, where r is measured from the point."""
     return establish(
         INERTIA_DEFINITION,
         tensor(name),

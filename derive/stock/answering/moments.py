@@ -20,7 +20,7 @@ SOLUTION = "solution"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """Return the positions and velocities at which the requested motions begin.
+    """Return the positions and velocities at which the requested motions begin; None if no motion has a start rate.
 
     If several results give a value for one coordinate, the first value counts.
     """

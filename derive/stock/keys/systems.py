@@ -177,6 +177,7 @@ class DescribedSystem(Described):
     particles, bodies   the particles and the bodies by name, in the order of the file
     acting        all other parts of the system, grouped by kind
     surfaces      the surfaces by name
+    gravity       the acceleration of free fall; None if nothing has weight
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
     at, at_rest   the state about which motions are linearised: values of coordinates, or the name of an equilibrium
