@@ -1,1 +1,1 @@
-"""Scripts of the engine, for a `solve:` that names one: `given:` then describes what the script solves."""
+"""Scripts that the engine offers: `solve:` names one of them, and `given:` describes the bodies or the system."""

@@ -311,9 +311,10 @@ class BodyAnswers(Answers[Asked]):
     def under_key(self, name: Word, own: str, key: str, letter: dict[str, str], tensor: Mapping[str, str]) -> Quantity:
         """Return an answer whose key is the name of a result.
 
+        name     the name of the answer, as it is written in the file
         own      the name of the answer without the name of the body
         letter   the symbol of the result, if the author chose one
-        tensor   the symbol and the key of the tensor, if the tensor is about another point
+        tensor   the symbol and the key of the tensor, if the tensor is about another point or is the answer
         """
         axis = own[-1]
         if own == "inertia_tensor":

@@ -145,8 +145,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _draw_forces(self) -> None:
         """Draw the forces on each body.
 
-        If Newton's laws of the body are derived, or in space the equations of motion with constraint forces, the
-        drawing is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived. All
+        If steps derive Newton's laws of the body or, in space, equations of motion with constraint forces, the drawing
+        is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived. All
         drawings have one scale.
         """
         run = current_run.get()
@@ -220,7 +220,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def acting(self) -> list[Any]:
-        """Return what acts on the particles and bodies, in the order of `DescribedSystem.acting`."""
+        """Return the parts that act on the particles and bodies, in the order of `DescribedSystem.acting`."""
         return [part.made(self.parts_by_name) for part in self.described.acting]
 
     # -- energies and equations of motion --------------------------------------------------------------------------

@@ -81,7 +81,7 @@ class Claim:
 
     @cached_property
     def givens(self) -> list[Given]:
-        """The values substituted in the ancestors of this step: the step holds only for these values."""
+        """The values substituted in this step and its ancestors: the step holds only for these values."""
         found: dict[Given, None] = {}
         for ancestor in self.quantity.ancestors():
             if ancestor.step.rule == PUT_IN:

@@ -148,8 +148,8 @@ def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], 
 def _points(state: State) -> Numbers:
     """The points at which formulas are evaluated.
 
-    These are the state itself, the state with a complex step along each coordinate, the state with a complex step along
-    the motion, and three states ahead and three behind, each with a complex step along the motion.
+    The first point is the state itself. The next points have a complex step along each coordinate, and one along the
+    motion. The last points are three states behind and three ahead, each with a complex step along the motion.
     """
     n = len(state.q)
     here, along = np.concatenate([state.q, [state.t]]), np.concatenate([state.v, [1.0]])

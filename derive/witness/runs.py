@@ -1,4 +1,5 @@
-"""Motions simulated from their start: speeds by energy conservation, loss of contact, periods, solutions.
+"""Motions simulated from their start: speeds by energy conservation, loss of contact, slipping, free flights,
+solutions and periods.
 
 SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds when an event occurs:
 Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.
@@ -79,7 +80,8 @@ class Run:
 def followed(
     trial: Trial, start: State, length: float = LONG, event: Event | None = None, free: Dynamics | None = None
 ) -> Run | None:
-    """The motion from a state; None if it reaches a singularity or takes too long.
+    """The motion from a state, for a time `length` or until `event`; None if the motion reaches a singularity or takes
+    too long.
 
     free   the dynamics of the system without its constraints, in place of the dynamics of the trial
     """
@@ -194,7 +196,7 @@ def _margin(claim: Claim) -> Expr | None:
 
 
 def slips(claim: Claim) -> Verdict | None:
-    """Test whether |F| <= mu_s N exactly where the stated condition holds. If the step states where the body begins to
+    """Test whether |F| <= mu_s N if and only if the stated condition holds. If the step states where the body begins to
     slip, test instead whether the motion first violates |F| <= mu_s N there."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)

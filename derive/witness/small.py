@@ -167,7 +167,7 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states: small displacements stay small if the equilibrium is stable, and some
     small displacement grows if it is unstable. If the step states a condition for stability, the equilibrium must be
-    stable for numbers that satisfy the condition, and unstable for numbers that violate the condition."""
+    stable for numbers that satisfy the condition, and unstable for numbers that violate it."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None

@@ -1,5 +1,8 @@
-"""Poisson brackets of functions of coordinates and momenta. The bracket of a function with the Hamiltonian is the rate
-of change of this function, if the function does not contain the time and the Hamiltonian contains all forces."""
+"""Poisson brackets of functions of coordinates and momenta.
+
+The bracket of a function with the Hamiltonian is the rate of change of this function. This is true of functions that do
+not contain the time, if the Hamiltonian contains all forces.
+"""
 
 from __future__ import annotations
 
@@ -229,7 +232,7 @@ def _along_the_motion(found: Expr, f: Expr, space: PhaseSpace) -> tuple[Expr, Ex
     "bracket",
     "the Poisson bracket of two answers, or of formulas in coordinates and momenta `p_x`",
     functions="bracket: two answers, or formulas in coordinates and their momenta `p_x`",
-    among="results: answers whose letters may appear in the bracket",
+    among="results: answers whose symbols may appear in the bracket",
 )
 def _in_results(
     functions: Functions, key: str, coordinates: Mapping[str, Coordinate], among: Sequence[Quantity] = ()

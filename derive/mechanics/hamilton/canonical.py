@@ -118,7 +118,8 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
 def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     """Hamilton's equations, q_dot = dH/dp_q and p_q_dot = -dH/dq + Q + sum of lambda df/dq for each coordinate.
-    Q is the generalized force of the forces without a potential energy; lambda are the multipliers of constraints.
+    Q is the generalized force of the forces without a potential energy; lambda are the multipliers of the constraints
+    f = 0.
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.

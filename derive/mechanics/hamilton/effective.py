@@ -64,7 +64,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     principle.
     Outcomes: angular (q is an angle), linear (q is a length), other (neither, or L is not an energy).
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
-    constant.
+    constant, or is given for a momentum that is not linear in q_dot.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     required(of.coordinates, q, "conserved", of)
@@ -107,14 +107,15 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """Return the generalized force, along a coordinate, of all forces that the Lagrangian does not contain."""
+    """Return the generalized force along a coordinate, from all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
-    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. Reject momenta of
-    another Lagrangian, and forces outside L that act along the remaining coordinates. For an effective potential
-    energy, only forces that act where all rates vanish are rejected."""
+    """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. At least one coordinate
+    must remain. Reject momenta of another Lagrangian, momenta that are given twice, and forces outside L that act along
+    the remaining coordinates. For an effective potential energy, only forces that act where all rates vanish are
+    rejected."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -154,8 +155,9 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
     m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. With the rates
     substituted, R is T - U - sum of p q_dot, plus the sum of e v . A over charges e in magnetic fields.
-    Errors: no momentum is given; a momentum belongs to another Lagrangian; no coordinate remains; a force outside L
-    acts along a remaining coordinate.
+    Outcomes: one (one momentum is constant), several.
+    Errors: no momentum is given; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
+    force outside L acts along a remaining coordinate; also the errors of `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where R has the other sign.
     """
     if not constants:
@@ -242,8 +244,8 @@ EFFECTIVE_POTENTIAL = Rule(
 def effective_potential(
     of: Quantity, *constants: Quantity, symbol: str | None = None, key: str = "effective_potential"
 ) -> Quantity:
-    """Effective potential energy of the coordinates whose momenta are not given as constants, U_eff = sum of p q_dot -
-    L. The sum is over the coordinates with constant momenta, and the rates of all other coordinates are zero.
+    """Effective potential energy of the coordinates without constant momenta, U_eff = sum of p q_dot - L. The sum is
+    over the coordinates with constant momenta, and the rates of all other coordinates are zero.
 
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default the momenta of all cyclic coordinates
@@ -254,7 +256,8 @@ def effective_potential(
     rates.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
     (L is given, without cyclic coordinates).
-    Errors: L contains the time; no coordinate remains; a force outside L acts where the rates vanish.
+    Errors: L contains the time; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
+    force outside L acts where the rates vanish; also the errors of `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if depends_on_time(of.value):

@@ -1,4 +1,4 @@
-"""Facts that results, in addition to their values, pass to later steps."""
+"""Facts about motions in phase space that results pass to later steps, in addition to their values."""
 
 from __future__ import annotations
 

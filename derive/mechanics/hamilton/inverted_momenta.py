@@ -1,8 +1,8 @@
 """Rates v as functions of momenta p that are not linear in v, if L contains v in one quadratic form only.
 
-Then p_i - b_i = g(s) (A v)_i with s = v . A v, so v has the direction of w = A^-1 (p - b), and v = u w. The factor u
-follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle g = 1/sqrt(1 - s/(m c^2)), so
-u = 1/sqrt(1 + S/(m c^2)).
+Then p_i - b_i = g(s) (A v)_i with s = v . A v, where b is the value of p at v = 0. So v has the direction of
+w = A^-1 (p - b), and v = u w. The factor u follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle
+g = 1/sqrt(1 - s/(m c^2)), so u = 1/sqrt(1 + S/(m c^2)).
 
 Source: Landau, Lifshitz, *The Classical Theory of Fields*, section 9.
 """
@@ -22,8 +22,8 @@ MOST_OPERATIONS = 300  # greatest number of operations in the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Return each rate with its expression in the momenta, or None if L contains rates outside one quadratic form with
-    diagonal A, or if u is not found."""
+    """Return each rate with its expression in the momenta. The result is None if L contains rates outside one quadratic
+    form with diagonal A, or if u is not found."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]
     beside = [bound(p, at_rest) for p in values]

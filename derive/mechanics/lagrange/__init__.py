@@ -1,1 +1,1 @@
-"""Energies, Lagrangians, equations of motion, constraint forces, symmetries."""
+"""Energies, Lagrangians, momenta, equations of motion, applied forces, constraint forces, and symmetries."""

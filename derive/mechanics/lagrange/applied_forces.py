@@ -1,4 +1,4 @@
-"""Lagrange's equation with constraint forces and with forces that have no potential energy."""
+"""Lagrange's equation with constraint forces and with forces that have no potential energy, such as drag."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class WithForces(Protocol):
 
 
 def acting_on(system: WithForces) -> tuple[Fact, ...]:
-    """Return the facts that the Lagrangian of a system passes to its equations of motion."""
+    """Return facts about the constraints, given forces and dampers of a system; its equations of motion need them."""
     found: list[Fact] = [Constrained(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
         dissipated = dissipation_function(system) if system.dampers else None
@@ -87,8 +87,10 @@ DISSIPATION_FUNCTION = Rule(
 def dissipation_function(system: WithForces, symbol: str = "D", key: str = "dissipation_function") -> Quantity:
     """Rayleigh's dissipation function, D = sum of (1/2) c v^2 over the dampers of a system, in W.
 
-    system   the system with the dampers; c is in kg/s for a damped point, and in N m s for a damped angle
+    system   the system with the dampers; c is the force per velocity or, for a damped coordinate, the generalized force
+             per rate
     Second route: the power of the drag forces, sum of F . v, is -2 D.
+    Errors: the system has no dampers.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
     """
     moving = list(system.coordinates)
@@ -148,13 +150,14 @@ APPLIED_FORCE = Rule(
 
 def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized force of the forces without a potential energy, Q = sum of F . dr/dq - dD/dq_dot.
+    D is the dissipation function.
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of the coordinates of the system
     Second route: Q is the derivative of the power of all these forces, sum of F . v, with respect to q_dot, with F held
     constant.
     Outcomes: generic, zero.
-    Errors: all forces on the system have a potential energy.
+    Errors: all forces on the system have a potential energy; L contains neither q nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
     """
     required(of.coordinates, q, "applied_force", of)
@@ -240,7 +243,7 @@ FORCED_EQUATION = Rule(
 
 
 def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity], key: str) -> Quantity:
-    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq.
+    """Lagrange's equation, d/dt dL/dq_dot - dL/dq = Q + sum of lambda df/dq, with the constraints f = 0.
 
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
@@ -315,8 +318,8 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return the difference. If the second expression has several terms, they are in brackets; if all these terms are
-    negative, the opposite of this expression is added in brackets."""
+    """Return `first - second`. Several terms of `second` are in brackets; if all of them are negative, `-second` is
+    added in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first
@@ -325,8 +328,8 @@ def difference(first: Expr, second: Expr) -> Expr:
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Return what the constraints relate: "coordinates", "rates", or "both" if some relate coordinates and some
-    rates."""
+    """Return the quantities that the constraints relate: "coordinates", "rates", or "both" if some relate coordinates
+    and some rates."""
     in_rates = {c.in_rates for c in constraints}
     return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
 

@@ -37,7 +37,8 @@ from derive.steps.trial_numbers import Point, as_rational, assumptions_about, ev
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """Whether the momentum has its conserved value if the rate that the fact states is substituted."""
+    """Whether the fact names the momentum and the coordinate of the step, and the rate that the fact states gives the
+    momentum its conserved value."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -66,7 +67,7 @@ def _in_rates(facts: Judged) -> Expr:
 def _is_conserved(facts: Judged) -> bool:
     """Whether the rate of the result along the motion vanishes. D'Alembert's principle eliminates the accelerations.
 
-    A constraint force does no work for velocities that the constraint allows.
+    The terms lambda df/dt of the constraints f = 0 are also eliminated: they vanish along the motion.
     """
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
@@ -189,7 +190,7 @@ def free_bodies(facts: Judged) -> int:
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
     """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u. The
-    sentence must mention stretched springs exactly if one of these assumptions is about a spring."""
+    sentence must mention stretched springs if and only if one of these assumptions is about a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
@@ -226,9 +227,10 @@ def is_stretched(facts: Judged) -> bool:
     """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
-    length `gradient`, which is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a, where J contains
-    the derivatives of r with respect to the coordinates, and a contains those of f. The length of this gradient is
-    computed numerically. If the position or the condition is not given, the symbol is taken to be the force.
+    length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
+    contains the derivatives of r with respect to the coordinates, and a contains those of f. The length of this
+    gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
+    force.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
@@ -280,12 +282,11 @@ def a_second_rate(facts: Judged, outcome: str) -> bool:
 def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
-    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation
-    or, if the function contains rates, with respect to the rate of this coordinate. If the sentence
-    also states a multiplier in terms of a force, the factor of this force is that derivative times the ratio of the
-    multiplier to the force. Friction terms in the generalized force, which are proportional to a constraint force, are
-    not counted. The term `between` of the sentence must be "coordinates", "rates" or "both", as the stated functions
-    require.
+    The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
+    If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
+    multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
+    Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The word
+    under `between` must be "coordinates", "rates" or "both", as the stated functions require.
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -313,7 +314,7 @@ def multiplier_of(i: int) -> Naming:
     """Return the predicate for the multiplier of the i-th function in a sentence.
 
     The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
-    of the equation, or to the rate of this coordinate.
+    of the equation, or to its rate.
     """
 
     def is_so(facts: Judged, letter: Any) -> bool:
@@ -371,8 +372,8 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
-    """Whether the constraint is enforced by what the sentence names, such as a string; friction must enforce a
-    constraint on velocities. A sentence with the word "formula" names nothing, so it is accepted."""
+    """Whether the object that the sentence names, such as a string, enforces the constraint; friction must enforce a
+    constraint on velocities. A sentence with the word "formula" names no object, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True
@@ -410,7 +411,7 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 
 
 def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
-    """Whether the equations that the sentence names, if it names any, give the result together with earlier unknowns.
+    """Whether the named equations and the earlier unknowns give the result; true if the sentence names no equations.
 
     With trial numbers for the other symbols, these equations are linear in the unknowns. They are solved for the
     unknown of the step, without the formula of the step.
@@ -484,8 +485,8 @@ multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 
 
 def multiplier_negative(facts: Judged) -> bool:
-    """Whether the symbol of the result is a force that is negative at trial numbers, and that acts on the body in the
-    direction that the sentence states."""
+    """Whether the symbol of the result is a force that is negative at trial numbers, and acts on the body in the stated
+    direction."""
     x, y = facts.inputs["positive"]
     word, of_slope, _ = facts.words["sense"].partition("_slope")
     across, beside, wanted = {"up": (y, x, 1), "down": (y, x, -1), "right": (x, y, 1), "left": (x, y, -1)}[word]

@@ -149,7 +149,9 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     eliminated (from these equations, after other unknowns are eliminated), zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
     for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
-    Errors: an equation is missing; the constraints contradict or repeat one another; a coordinate has no inertia.
+    Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are more than
+    nine unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have
+    to pull, or a string would have to push.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)
@@ -157,12 +159,12 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
 
 
 def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tuple[Quantity, ...]:
-    """Constraint forces or multipliers lambda, from the equations of motion and the constraints.
+    """Constraint forces or multipliers lambda, from the equations of motion and the constraints f = 0.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
-    Second route: as `accelerations`.
+    Second route: d'Alembert's principle, as for `accelerations`.
     Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force and is
     always negative; the sentence states the direction in which it acts), multiplier (the gradient of f with respect to
     the position of the particle does not have length 1; the sentence states the length), isolated and eliminated (as
@@ -225,12 +227,14 @@ FORMULA = "formula"  # the word for any other enforcer
 
 
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
-    """A constraint, differentiated until it contains accelerations, d^2 f/dt^2 = 0.
+    """A constraint f = 0, differentiated until it contains accelerations, d^2 f/dt^2 = 0. If f contains rates, this is
+    df/dt = 0.
 
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate).
     Check: differentiate with each coordinate as its Taylor series in t.
+    Errors: there is no constraint with this index.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     constraints = of.needed(Constrained).constraints
@@ -483,7 +487,7 @@ def _check_one_sided(each: Constraint, value: Expr | None) -> None:
 
 
 def _places(problem: _Problem) -> tuple[Expr, ...]:
-    """Return the position of the only mass point; empty if there are several."""
+    """Return the position of the only mass point; empty if there is not exactly one."""
     points = problem.lagrangian.needed(Matter).points
     return points[0].place if len(points) == 1 else ()
 
@@ -505,14 +509,16 @@ def constraint_force(
     forces: Sequence[Quantity], along: Mapping[Any, Expr], symbol: str = "N", key: str = "constraint_force"
 ) -> Quantity:
     """Component of constraint forces along a displacement, N = sum of lambda df/dq dq, per unit of the displacement.
+    The constraints are f = 0.
 
     forces   results of `multipliers` for one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
     symbol   the symbol of the component, which is a force if the displacement is a length
-    Second route: Newton's law along the displacement: N is the sum of m a . dr over the mass points, minus the work of
-    all other forces.
+    Second route: by Newton's law along the displacement, N is the sum of m a . dr over the mass points, minus the work
+    of all other forces.
     Outcomes: generic, zero.
-    Errors: the forces belong to different systems; a constraint force that is not among `forces` does work in this
+    Errors: no force is given; the forces belong to different systems; `along` names something that is not a coordinate
+    of the system; a constraint force that is not among `forces` does work in this
     displacement.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
     """
@@ -570,7 +576,7 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
     """Return the two sides of d'Alembert's principle: the virtual work of m a - F, and zero.
 
-    The symbols of the displacements of the coordinates differ, so the terms of two coordinates cannot cancel.
+    The displacement of each coordinate has its own symbol, so the terms of two coordinates cannot cancel.
     """
     matter = problem.lagrangian.needed(Matter)
     marks = [stand_in(f"delta_{q.name}") for q in problem.solved]
@@ -629,8 +635,8 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
-    """Return the matrix with symbols in place of sines, cosines and roots, so that its entries are rational, and
-    a mapping from the replaced functions to these symbols."""
+    """Return the matrix with symbols in place of sines, cosines and roots, and a mapping from the replaced functions to
+    these symbols. The entries of the result are rational functions."""
     found = sorted(matrix.atoms(Function), key=str)
     roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}

@@ -21,7 +21,7 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ForceOf(Fact):
-    """The constraint of a constraint force, and the linear equations from which the force was solved."""
+    """The constraint of a constraint force, and the linear equations that were solved for the force."""
 
     missing = "is not the force of a constraint"
     constraint: Constraint
@@ -58,7 +58,7 @@ class FromLagrangian(Fact):
 
 @dataclass(frozen=True)
 class Energies(Fact):
-    """The two energies whose difference is a Lagrangian, and its term for magnetic fields, if there is one."""
+    """The kinetic and the potential energy of a Lagrangian, and its term for magnetic fields, if there is one."""
 
     missing = "is not a Lagrangian from `lagrangian`"
     kinetic: Quantity
@@ -115,8 +115,8 @@ class Varied(Matter):
     def further_routes(self, q: Symbol) -> dict[str, Route]:
         """Return the second route by the energy identity, which needs no derivative of L with respect to q.
 
-        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate that L would have if q and its rate
-        were constant, is the power of the forces along q.
+        The energy of q alone is q_dot p - L. The rate of this energy, plus the rate of L at constant q and q_dot, is
+        the power of the forces along q.
         """
 
         def power(found: Any) -> tuple[Any, Any]:

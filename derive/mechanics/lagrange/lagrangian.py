@@ -61,6 +61,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U. If a magnetic field acts, or if a position
     or U depends explicitly on the time, the second route is instead: L + U - sum of q v . A is the kinetic energy of
     the mass points.
+    Outcomes: generic, in_field (a charge is in a magnetic field).
     Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
     """
@@ -260,8 +261,8 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step, which is the name. If the Lagrangian does not have the default key, the key of the
-    Lagrangian is a prefix."""
+    """Return the key of a step: the name, or the key of the Lagrangian and the name if the Lagrangian does not have the
+    default key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

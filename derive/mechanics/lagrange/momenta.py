@@ -46,6 +46,7 @@ def conjugate(of: Coordinate) -> Coordinate:
     """Return the symbol p_q of the momentum of a coordinate, for functions in phase space: `x*p_y - y*p_x`.
 
     of   the coordinate, such as an angle or a length
+    Errors: no kind of quantity is the momentum of this coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     kind = kind_of_momentum(of.kind)

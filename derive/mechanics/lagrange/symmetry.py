@@ -53,11 +53,12 @@ def noether(
     shift    coordinate -> xi, a formula in coordinates and time: each q becomes q + epsilon xi
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
     Steps show that L is invariant up to dF/dt, and derive the momenta.
-    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f,
-    which vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr and q A . dr, where epsilon dr is the
-    displacement of a mass point by the shift.
+    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
+    sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
+    over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Outcomes: symmetry, with_gain (F is not zero).
-    Errors: L is not invariant (the message shows the difference); the shift contains a rate; the shift is zero.
+    Errors: L is not invariant (the message shows the difference); the shift or F contains a rate; the shift is zero, or
+    L contains neither a coordinate of the shift nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)
@@ -158,7 +159,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
     def by_places(found: Relation) -> tuple[Any, Any]:
         """Return the change of L from mass points and forces: the change of (1/2) m v.v, the work of the forces, and
-        the rate of q A . dr for charges in magnetic fields."""
+        the rate of e A . dr for charges e in magnetic fields."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])

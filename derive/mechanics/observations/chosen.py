@@ -42,7 +42,7 @@ class Observation:
 
     name    the name by which an author chooses it
     found   a function that yields the steps of this kind about the answers of a part
-    at_end  whether the last part with such a step states it, instead of the first part
+    at_end  whether the page states the observation in the last part that has one, instead of the first
     """
 
     name: str
@@ -100,5 +100,5 @@ def confirmed(kind: Observation, view: View) -> Observed:
 
 
 def of_kinds(view: View, names: Collection[str]) -> dict[str, Steps]:
-    """Return every observation of these kinds about the answers of a part."""
+    """Return, for each of these kinds, every observation about the answers of a part."""
     return {kind.name: list(kind.found(view)) for kind in OBSERVATIONS if kind.name in names}

@@ -65,8 +65,8 @@ def numbers(values: Iterable[Any], *more: Any, tried: int = 12) -> list[Point]:
 
 
 def for_each_form(quantity: Quantity, is_so: Callable[[Expr, Point], bool | None], *others: Any) -> bool:
-    """Whether a statement about a quantity is true of its value and, at points where the first line of its derivation
-    can be evaluated, also of this line."""
+    """Whether a statement about a quantity is true of its value. At points where the first line of its derivation can
+    be evaluated, the statement must also be true of this line."""
     value, *lines = forms(quantity)
     points = numbers([value], *others)
     return everywhere(points, lambda point: is_so(value, point)) and all(
@@ -105,8 +105,8 @@ def swings_like_a_pendulum(facts: Judged) -> bool:
 
 
 def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
-    """Whether the stated length is the result, which must then not contain g, or a symbol. If it is a symbol, another
-    predicate checks its value, or the outcome checks the acceleration that is stated with it."""
+    """Whether the stated length is the result and does not contain g, or is a symbol. If the length is a symbol,
+    another predicate checks its value, or the outcome checks the acceleration that is stated with it."""
     if told == facts.result:
         return facts.inputs["g"] not in told.free_symbols
     return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
@@ -157,7 +157,7 @@ def orbital(facts: Judged, ratio: Expr, at: Mapping[Any, Expr] | None = None) ->
 
 
 def orbital_ratio(wanted: Callable[[Expr], bool]) -> Predicate:
-    """Judge the ratio of the radial frequency and the orbital rate."""
+    """Judge whether the result is the ratio of the radial frequency to the orbital rate, and satisfies `wanted`."""
 
     def is_so(facts: Judged) -> bool:
         return wanted(facts.result) and orbital(facts, facts.result)
@@ -166,7 +166,7 @@ def orbital_ratio(wanted: Callable[[Expr], bool]) -> Predicate:
 
 
 def closes_for(ratio: int) -> Naming:
-    """Judge a special value of a symbol for which the radial frequency is this multiple of the orbital rate."""
+    """Judge whether the radial frequency is this multiple of the orbital rate for the stated value of a symbol."""
 
     def is_so(facts: Judged, told: Relation) -> bool:
         return orbital(facts, Integer(ratio), {told.left: told.right})
@@ -175,16 +175,17 @@ def closes_for(ratio: int) -> Naming:
 
 
 def rate_on_the_circle(facts: Judged, told: Any) -> bool:
-    """Whether the rate in letters, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
+    """Whether the rate in symbols, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in q.named_values)
     letters = told.right if isinstance(told, Relation) else told
     return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
-    """Judge the ratio of two frequencies: its minimal polynomial has degree 1 if the ratio is a rational number.
+    """Judge whether the ratio of two frequencies is a rational number if and only if `rational` is true.
 
-    Both must be frequencies of the linear equations. For a rational ratio, there must be no third mode.
+    The minimal polynomial of a rational number has degree 1. Both numbers must be frequencies of the linear equations.
+    For a rational ratio, there must be no third mode.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -213,7 +214,7 @@ def _is_a_frequency(facts: Judged, number: Expr, point: Point) -> bool:
 
 
 def is_ratio_of(above: str, below: str) -> Naming:
-    """Judge an equation whose left side is the ratio of two answers and whose right side is the result."""
+    """Judge whether the left side of an equation is the ratio of two answers, and the right side is the result."""
 
     def is_so(facts: Judged, told: Relation) -> bool:
         ratio = explicit(told.left)
@@ -226,7 +227,7 @@ def is_ratio_of(above: str, below: str) -> Naming:
 def all_frequencies_are_equal(facts: Judged) -> bool:
     """Whether the equations of motion are linear without any approximation and have only one frequency.
 
-    M^-1 K is then a multiple of the unit matrix at all trial points, and the second derivatives of the equations with
+    M^-1 K is then a multiple of the unit matrix at all trial points. The second derivatives of the equations with
     respect to coordinates, rates and accelerations vanish.
     """
     linear, of = facts.inputs["system"], facts.quantities["of"]
@@ -250,7 +251,7 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
 
 
 def isochronous(facts: Judged) -> bool:
-    """Whether T = mu q_dot^2/2 and U have d^2U/ds^2 = omega^2 with ds = sqrt(mu) dq, at all trial points.
+    """Whether d^2U/ds^2 = omega^2 at all trial points, where T = mu q_dot^2/2 and ds = sqrt(mu) dq.
 
     The derivatives are difference quotients of the energies. Also, mu must depend on q: with a constant mu, the
     equation of motion would be linear anyway.
@@ -371,8 +372,8 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, with or without a change
-    of sign."""
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign there if and
+    only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
         of, place = facts.quantities["of"], facts.result
@@ -407,7 +408,7 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable exactly where the others do not exist, and the others are stable where they
+    """Whether an equilibrium is stable if and only if the others do not exist, and the others are stable where they
     exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
@@ -759,8 +760,8 @@ def longer_by(facts: Judged, told: Expr) -> bool:
 
 
 def stays_below_and_approaches(facts: Judged) -> bool:
-    """Whether the frequency, where it is real, is below the given angular velocity, and approaches it if this is
-    large."""
+    """Whether the frequency, where it is real, is below the given angular velocity, and their ratio approaches 1 as the
+    velocity grows."""
     of, letter = facts.quantities["of"], facts.inputs["letter"]
 
     def is_so(line: Expr, point: Point) -> bool | None:

@@ -30,7 +30,7 @@ MULTIPLE = Rule(
 
 
 def multiple(view: View) -> Observed:
-    """Two velocities of one part whose ratio is a rational number other than 1 and -1."""
+    """Two velocities among the answers of one part, if their ratio is a rational number other than 1 and -1."""
     found = [q for q in view.values() if _is_rate(q) and not is_zero(q.value)]
     for pair in combinations(found, 2):
         ratios = [tidied(explicit(of.value) / explicit(other.value)) for of, other in (pair, pair[::-1])]
@@ -130,7 +130,7 @@ FAMILIAR = Rule(
 
 
 def familiar(view: View) -> Observed:
-    """Acceleration that is a fixed fraction of that of free fall, or of a block on an incline without friction."""
+    """Acceleration that is a fixed fraction of the acceleration in free fall, or on an incline without friction."""
     for of in view.values("acceleration"):
         angles = [s for s in view.of_kind("angle") if s in explicit(of.value).free_symbols]
         for g in view.gravity if of.step.rule == "lagrange.acceleration" and len(angles) < 2 else ():
@@ -218,7 +218,7 @@ CIRCLING = Rule(
 
 
 def circling(view: View) -> Observed:
-    """Accelerations that are the velocity turned by a right angle: the motion is uniform in a circle."""
+    """Acceleration that is a constant times the velocity turned by a right angle: the motion is uniform in a circle."""
     moving = {q.symbol: q for q in view.values("acceleration")}
     coordinates = dict.fromkeys(q for each in moving.values() for q in each.coordinates if rate(q, 2) in moving)
     for x, y in combinations(sorted(coordinates, key=str), 2):

@@ -1,4 +1,4 @@
-"""Observations about symbols: what an answer does not depend on, where it vanishes, and where solutions branch off."""
+"""Observations about symbols, such as what an answer does not depend on, where it vanishes or where it diverges."""
 
 from __future__ import annotations
 
@@ -343,7 +343,7 @@ RESONANCE = Rule(
 
 
 def resonance(view: View) -> Observed:
-    """Driving frequency at which the amplitude without damping grows without bound: that of the free oscillation."""
+    """Driving frequency at which the undamped amplitude grows without bound: the frequency of the free oscillation."""
     for of in view.answers:
         if (of.step.rule, of.step.outcome) == ("vibrations.steady_amplitude", "undamped"):
             below, square = tidied(of.value).as_numer_denom()[1], _free_frequency(of)
@@ -464,8 +464,8 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle, and the entry is sin(angle) cos(angle) times factors that
-    have one sign for all angles in this range."""
+    """Whether 0 and 90 degrees are in the range of the angle. The entry must be sin(angle) cos(angle) times factors
+    that have one sign for all angles in this range."""
     lies = range_of(angle)
     if lies is not None and not (lies.holds(Integer(0)) and lies.holds(pi / 2)):
         return False
@@ -497,7 +497,7 @@ BELOW = Rule(
 
 
 def below(view: View) -> Observed:
-    """Frequency of oscillation that is always below a given angular velocity, and approaches it if this is large."""
+    """Frequency of oscillation below a given angular velocity; their ratio approaches 1 as the velocity grows."""
     for of in view.values("angular speed"):
         value = explicit(of.value)
         for letter in [s for s in view.of_kind("angular speed") if s in value.free_symbols]:

@@ -1,4 +1,4 @@
-"""Observations about frequencies: an equivalent pendulum, closed orbits, periodic motions, exact oscillations."""
+"""Observations about frequencies and periods, such as an equivalent pendulum, closed orbits and exact oscillations."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def _has_polar_coordinates(view: View) -> bool:
 
 
 def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, Quantity]]:
-    """Yield the orbital rate on the circular orbit, the same in letters, and the step that introduces these letters."""
+    """Yield the orbital rate on the circular orbit, this rate in symbols, and the step that introduces the symbols."""
     turning = [q for q in view.shown if q.step.rule == "hamilton.rate_by_momenta" and q.step.kind == "angular speed"]
     rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.symbol, Symbol)]
     if len(turning) == len(rests) == 1:

@@ -46,7 +46,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     point   a point on the axis
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
     of the part. The distance between the two axes is d. The result is None if some part has no body axis parallel to
-    `axis`, or if some part is composite and its parallel body axis has another name.
+    `axis`. It is also None if the parallel axis of a composite part has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
     Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
@@ -188,7 +188,7 @@ def _of_whole(called: str) -> dict[str, str]:
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
-    """Return the squared distance from axis k, as a sum of squares of the other components."""
+    """Return the squared distance of a point from axis k, as a sum of squares of the other components."""
     squares = [Pow(x, 2, evaluate=not x.is_Mul) for i, x in enumerate(way) if i != k and x != 0]
     return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)
 

@@ -71,8 +71,8 @@ def entry(*pairs: str, round_body: bool = False) -> Predicate:
 
 
 def is_mirrored(facts: Judged) -> bool:
-    """Whether the result is a diagonal entry, and every function that is odd in x, y or z has a zero integral over the
-    mass of the body. One such function is tested for each axis."""
+    """Whether the result is a diagonal entry, and every function that is odd in x, y or z integrates to zero over the
+    mass. One such function is tested for each axis."""
     body, point = facts.subject.body, facts.subject.point
     odd = [body.over_mass(lambda r, k=k: r[k] * (1 + 7 * r[k - 1] + 11 * r[k - 2]) ** 2, point) for k in range(3)]
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
@@ -261,7 +261,8 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Judge whether the rate in space vanishes exactly if `in_space`, and the rate in the body exactly if `in_body`.
+    """Judge whether the rate in space vanishes if and only if `in_space` is true. The rate in the body must vanish if
+    and only if `in_body` is true.
 
     For `in_body=None`, the rate in the body may have any value. For `in_space=None`, judge whether the rate in the body
     is not among the inputs.
@@ -314,8 +315,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced exactly if `moved`, and its axes differ from the axes of the whole body
-    exactly if `turned`."""
+    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from those
+    of the whole body if and only if `turned` is true."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -409,8 +410,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Judge whether the square of the rate is negative exactly if `grows`, and the step of the square has one of these
-    outcomes. A square of unknown sign counts as not negative."""
+    """Judge whether the square of the rate is negative if and only if `grows` is true, and the step of the square has
+    one of these outcomes. A square of unknown sign counts as not negative."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome
@@ -449,8 +450,8 @@ def rate_of_the_component(facts: Judged, outcome: str) -> bool:
 
 
 def inward_or_outward(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point from which the centre is measured, and the outcome is "outward" exactly if
-    the shift begins at the centre of mass."""
+    """Whether the sentence names the point from which the centre is measured, and the outcome is "outward" if and only
+    if the shift begins at the centre of mass."""
     if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
         return False
     if "entry" not in facts.quantities:  # no step derives the entry: a product of inertia that is zero
@@ -461,7 +462,8 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
-    to the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis."""
+    to the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis; it
+    may mention a position map only if a position map defines the body."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

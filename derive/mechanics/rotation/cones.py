@@ -1,8 +1,9 @@
 """A free symmetric body at one instant: its symmetry axis, the cones of its angular velocity, and its precession.
 
-The angular velocity is w = (L/I) L/|L| - Omega_b e, where e is along the symmetry axis. In the body, w rotates about e
-on the body cone, at the rate Omega_b. In space, w rotates about the constant angular momentum L on the space cone, and
-e also rotates about L, at the rate L/I.
+The angular velocity is w = L/I - Omega_b e. Here I is the moment about every axis perpendicular to the symmetry axis,
+and e is the unit vector along the symmetry axis. In the body, w rotates about e on the body cone, at the rate Omega_b.
+In space, w rotates about the constant angular momentum L on the space cone, and e also rotates about L, at the rate
+|L|/I.
 """
 
 from __future__ import annotations
@@ -115,7 +116,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     Second route: the length of the component of b perpendicular to a, divided by the component of b along a; the
     lengths are found by rotating the vectors onto an axis.
     Outcomes: generic, parallel (the tangent vanishes).
-    Errors: a or b vanishes; a and b are perpendicular.
+    Errors: a or b vanishes; a and b are perpendicular, or belong to different bodies.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4.
     """
     for v in (a, b):
@@ -175,7 +176,8 @@ def precession_rate(
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
     Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e. Also, with u = w -
     Omega_p L/|L|, the integral of r x (u x r) dm over the body is along the axis.
-    Errors: the body has no symmetry axis; L is along this axis, whose direction is then constant.
+    Errors: the body has no symmetry axis; L changes in the body, or is along this axis, whose direction is then
+    constant; `inertia` is not an inertia tensor, or `momentum` is not an angular momentum.
     Source: Landau, Lifshitz, *Mechanics*, section 33.
     """
     require_kind("precession_rate", "inertia", inertia, "moment of inertia")

@@ -79,6 +79,8 @@ class RigidBody(Placeable, OfParticles):
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
               centre of mass if `centre` is zero, otherwise the pivot
     look      a body whose shape is drawn for this body, with the centre of the shape at the centre of mass
+    Errors: there are neither three moments nor one; `about` is not one of the two points; the mass or a moment is not
+    constant; a moment is greater than the sum of the other two.
     """
 
     mass: Expr | None = None
@@ -134,7 +136,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def central_second_moments(self) -> ImmutableMatrix:
-        """The integrals of r_i r_j over the mass, where r is from the centre of mass.
+        """The integrals of r_i r_j over the mass, where r is measured from the centre of mass.
 
         If the moments are about the pivot, M c_i c_j is subtracted from the integrals about the pivot.
         """

@@ -80,8 +80,8 @@ def inertia_tensor(
     parts are added instead.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
     mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
-    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; for a
-    body that is round about z, round or round_isotropic.
+    Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; round
+    or round_isotropic, if steps derive only two entries.
     Errors: the body has no such point or no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -178,9 +178,9 @@ def moment_seen(
 ) -> Moment:
     """Moment of inertia about an axis, with words that specify how the sentence names this axis.
 
-    seen   words of the sentence by name. Its entry "seen" names the axis: "own" for a body axis, "mapped" for an axis
-           of a body that a position map defines, "across_plane" for the normal of the plane of motion, "part" for an
-           axis of a part. Its entry "whole", for a part only, is the parallel axis of the whole body
+    seen   words for the sentence, by name. The word under "seen" specifies the axis: "own" for a body axis, "mapped"
+           for an axis of a body that a position map defines, "across_plane" for the normal of the plane of motion,
+           "part" for an axis of a part. The word under "whole", for a part only, is the parallel axis of the whole body
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Source: the same as for `moment_of_inertia`.
     """
@@ -242,7 +242,7 @@ INERTIA_DEFINITION = Rule(
 
 
 def _definition(body: Body, point: Point, region: Region, name: str, key: str) -> Quantity:
-    """Define the symbol J = integral of (r.r 1 - r r) dm, where r is from the point."""
+    """Define the symbol J = integral of (r.r 1 - r r) dm, where r is measured from the point."""
     return establish(
         INERTIA_DEFINITION,
         tensor(name),

@@ -39,7 +39,7 @@ def linearised_rotation(
     Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations; half of
     the difference contains the terms of first order.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
-    no such axis.
+    no such axis; the rate is not constant; one of the three equations is missing.
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:

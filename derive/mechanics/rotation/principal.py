@@ -58,7 +58,8 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor. For a diagonal
     tensor, also I e = I_k e for the unit vector e of each axis.
     Outcomes: isotropic (all equal), two_equal, distinct; if the tensor is not diagonal, two_equal_roots, roots.
-    Errors: the characteristic polynomial is a cubic without a rational factor, so its roots have no useful closed form.
+    Errors: the characteristic polynomial is a cubic without a rational factor, so its roots have no useful closed form;
+    `inertia` is not an inertia tensor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     require_kind("principal_moments", "inertia", inertia, "moment of inertia")

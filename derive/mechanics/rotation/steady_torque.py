@@ -50,7 +50,8 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     Second route: rotate L about omega by a rotation matrix and differentiate.
     Outcomes: zero (omega is along a principal axis), generic (the torque is never zero), in_general (the torque may be
     zero for some values of the symbols).
-    Errors: omega or L changes in the body; omega is known at one instant only; L belongs to another rotation.
+    Errors: omega or L changes in the body; omega is known at one instant only; L belongs to another rotation;
+    `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     require_kind("torque", "omega", omega, "angular speed")

@@ -49,7 +49,8 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
     symbol   the symbol of the moments: I_x and I_z if I_x = I_y, otherwise I_x, I_y and I_z
     Only a composite body gets a symbol for its mass; any other body keeps its own mass. Each moment is also compared
     with the sum over equimomental particles, in addition to the second route of its step.
-    Errors: the axes through the point are not principal axes; the centre of mass is not on the z axis.
+    Errors: the body has no such point; the axes through the point are not principal axes; the centre of mass is not on
+    the z axis.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     point = body.point(about)

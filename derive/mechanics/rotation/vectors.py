@@ -168,6 +168,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
     times |d|.
     Outcomes: left_handed (the rate is known to be negative), right_handed (any other rate).
+    Errors: the body has no point of this name.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
     """
     body = along.subject.body
@@ -303,7 +304,7 @@ def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return the line of the kinetic energy with an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
     The list is empty unless the axes are principal axes with moments that are not all equal. The moments must also be
-    numbers up to a common factor, and so must the components. At least two components must be nonzero.
+    numbers up to a common factor, and so must the components of omega. At least two components must be nonzero.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]

@@ -39,7 +39,7 @@ class ForEach(Generic[T]):
 
     pattern   the names, with `{}` in place of the coordinate, axis or symbol
     each      a function that returns the coordinates, axes or symbols
-    method    derives the answer for one coordinate, axis or symbol
+    method    a function that derives the answer for one coordinate, axis or symbol
     """
 
     def __init__(self, pattern: str, each: Callable[[Any], Iterable[str]], method: Callable[[Any, str], T]):

@@ -41,8 +41,8 @@ class ByName:
     what          the kind of description: "a rotation"
     results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
-    again         makes a second object for the same answers, in which nothing is derived yet
-    elsewhere     derives an answer of a body about a point or axis other than the given one
+    again         a function that makes a second object for the same answers, in which nothing is derived yet
+    elsewhere     a function that derives an answer of a body about a point or axis other than the given one
     surfaces      the surfaces of a system, by name
     """
 

@@ -92,7 +92,8 @@ class ImpactAnswers(Answers[DescribedImpact]):
     def after(self) -> tuple[Quantity, ...]:
         """Return all rates just after the impact, and the impulses of its collisions.
 
-        If the laws of momentum that contain no unknown impulse suffice for the rates, only the rates are returned.
+        If the laws of momentum without unknown impulses, together with the conditions of the collisions, determine the
+        rates, only the rates are returned.
         """
         letters = {meeting.letter for meeting in self.impact.meetings}
         without = [law for law in self.jumps if not explicit(law.value).free_symbols & letters]

@@ -1,4 +1,4 @@
-"""`plot` under `drawings:`: the curve of one answer, or the path of two answers or formulas."""
+"""`plot` under `drawings:`: the curve of one answer, the path of two answers or formulas, or a phase portrait."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Shown:
 class Plotted:
     """A plot that a problem requests.
 
-    named         returns the steps that a name denotes
+    named         a function that returns the steps that a name denotes
     coordinates   the coordinates of the system, by name
     """
 
@@ -49,7 +49,7 @@ class Plotted:
     coordinates: Mapping[str, Coordinate]
 
     def draw(self, against: Word, ends: Range) -> None:
-        """Draw the plot against a coordinate, the time or a declared letter."""
+        """Draw the plot against a coordinate, the time or a declared symbol."""
         if len(self.drawing.plot) == 1:
             self._curve(self.drawing.plot[0], against, ends)
         else:
@@ -136,7 +136,7 @@ class Plotted:
         return {**self.drawing.letters, TIME.name: Declared(TIME.name, TIME, "time")}
 
     def _shown(self, node: Scalar) -> Shown:
-        """Return an answer or a formula of answers, in the letters of the problem."""
+        """Return an answer or a formula of answers, in the symbols of the problem."""
         formula = Formula(node, self._letters)
         expression, dimension, found = formula.with_dimension(self._one)
         label = expression.xreplace({mark: quantity.symbol for mark, quantity in found.items()})
@@ -146,13 +146,13 @@ class Plotted:
         return Shown(label, explicit(expr), kind or "number", unit, tuple(q.key for q in found.values()))
 
     def _kind(self, expression: Expr, found: Mapping[Any, Quantity]) -> str | None:
-        """Return the kind of an answer or of a letter; a formula has none."""
+        """Return the kind of an answer or of a symbol; None for any other formula."""
         if expression in found:
             return found[expression].step.kind
         return next((letter.kind for letter in self._letters.values() if letter.symbol == expression), None)
 
     def _range(self, ends: Range, kind: str) -> tuple[list[Expr], tuple[str, ...]]:
-        """Return the two ends, which may contain letters and answers, and the keys of these answers."""
+        """Return the two ends, which may contain symbols and answers, and the keys of these answers."""
         found, keys = [], []
         for node in ends.ends:
             end, own = self._end(node.scalar, kind)

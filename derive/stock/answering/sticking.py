@@ -21,7 +21,8 @@ SLIPS, DERIVED = "motion.slips", {"lagrange.multiplier", "lagrange.acceleration"
 def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quantity]) -> None:
     """Assume |F| <= mu_s N for a contact with static friction, if no step of the page derives this condition.
 
-    answer   a function of the name of an answer and of the key of one of its steps; it returns this step
+    contact   the constraint of a contact with static friction
+    answer    a function of the name of an answer and of the key of one of its steps; it returns this step
     If the page derives the accelerations or the forces, and the forces are constant, the condition is solved for mu_s.
     Errors: the condition is known to be false.
     """

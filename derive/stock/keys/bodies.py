@@ -127,7 +127,7 @@ class QuotedKeys(ShapeKeys):
 class PartKeys(QuotedKeys):
     """The keys of a part of a body."""
 
-    at: tuple[Tree, ...] = key("the position of its centre of mass, or of its point `of`", PLACE)
+    at: tuple[Tree, ...] = key("the position of its centre of mass or, with `of`, of that point", PLACE)
     of: Word | None = key("the point of the part whose position is `at`: `end`, `corner`, `base`", TEXT)
     turned: Mapping[Word, Tree] = key("the angles by which it is rotated: `{x: pi/2}`", mapping_of(SCALAR))
     cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)
@@ -270,7 +270,9 @@ class Bodies:
             with told_at(written.places["at"]):
                 part = part.at(*place, of=of)
         elif written.of:
-            rejected("missing-key", f"`{name}` needs `at`, the position of its point `of`", written.of.place)
+            rejected(
+                "missing-key", f"`{name}` has `of`, so it needs `at`, the position of that point", written.of.place
+            )
         for axis, node in written.turned.items():
             angle = self.letters.constant(node, f"the angle of {name}", "angle")
             with told_at(axis.place):

@@ -1,4 +1,5 @@
-"""Surfaces, contacts, strings and massless rods, as `given:` describes them."""
+"""Surfaces, contacts, pulleys, wires, strings, massless rods, joints, motors and dashpots, as `given:` describes
+them."""
 
 from __future__ import annotations
 
@@ -54,7 +55,7 @@ RIGHT_OR_LEFT = one_of(("right", "left"))
 
 @dataclass(frozen=True)
 class Connected:
-    """What connections may refer to: bodies and particles by name, described surfaces and pulleys, places, symbols."""
+    """The objects to which connections may refer: bodies and particles by name, surfaces, pulleys, places, symbols."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
@@ -68,8 +69,8 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body `of` "
-        "or, without `of`, the origin",
+        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body "
+        "that `of` names or, without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
@@ -98,7 +99,12 @@ class SurfaceKeys(Record):
         named: dict[str, Any] = {"moves": self._motion(places, letters), "is_two_sided": self.side == "both"}
         carried = {"of": named_bodies("of", [self.of], bodies, "")}
         if self.of and named["moves"] is not None:
-            rejected("twice", "the body `of` determines the motion of the surface", self.of.place, "leave `of` out")
+            rejected(
+                "twice",
+                "the body that `of` names determines the motion of the surface",
+                self.of.place,
+                "leave `of` out",
+            )
         if self.y is not None:
             return Deferred(curve, self._curve(self.y, places, letters), named, carried, self.places[""])
         if self.centre is not None and self.radius is not None and not (self.through or self.along or self.normal):
@@ -239,7 +245,7 @@ class ContactKeys(Record):
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body that touches the surface, `block` or that of `ladder.end`; empty for a place."""
+        """Return the name of the body that touches the surface, `ladder` for `ladder.end`; empty for a place."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
@@ -316,7 +322,7 @@ class StringKeys(Record):
         TEXT,
     )
     over: tuple[WrittenPlace, ...] = key(
-        "the pulleys or holes between the ends, in order: pulleys, or places, particles or points of bodies",
+        "the pulleys, places, particles or points of bodies over which the string runs, in order from `from` to `to`",
         list_of(PLACE, "a list of places"),
     )
     length: Tree | None = key(
@@ -348,11 +354,11 @@ class StringKeys(Record):
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
         for name in ("to", "over", "length", "mass_of"):
             if name in self.values_at:
-                message = f"`{name}` has no effect on a string that is `wound_on` a body"
+                message = f"`{name}` has no effect on a string with `wound_on`"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
         if self.tension is None:
             rejected(
-                "missing-key", "a string that is `wound_on` a body needs the symbol of its `tension`", self.places[""]
+                "missing-key", "a string with `wound_on` needs `tension`, the symbol of its tension", self.places[""]
             )
         tension = force_letter(self.tension, known.letters)
         of = (_end(self.start, known, "from"), material(on, known))
@@ -385,8 +391,14 @@ class JointKeys(Record):
 
     of: WrittenPlace = key("a point of a body, or a particle", PLACE, required=True)
     to: WrittenPlace = key("a point of another body, a particle, or a place in space", PLACE, required=True)
-    force: Word = key("the symbol R of the force on `of`, with the components R_x, R_y and R_z", TEXT, required=True)
-    torque: Word | None = key("for a rigid joint in a plane: the symbol of the couple on `of`", TEXT)
+    force: Word = key(
+        "the symbol R of the force on the body that `of` names; its components are R_x and R_y, in space also R_z",
+        TEXT,
+        required=True,
+    )
+    torque: Word | None = key(
+        "for a rigid joint in a plane: the symbol of the couple on the body that `of` names", TEXT
+    )
 
     def symbols(self) -> list[Word]:
         components = [Word.at(f"{self.force}_{axis}", self.force.place) for axis in "xyz"]

@@ -36,7 +36,7 @@ class ImpulseKeys(Record):
     at: WrittenPlace | None = key("the place where it acts", PLACE)
     of: Word | None = key("the body or particle on which the impulse acts, if `at` does not move with it", TEXT)
     angular: Tree | None = key("in place of `components` and `at`, an angular impulse", SCALAR)
-    on: Tree | None = key("the angle whose rate it changes", SCALAR)
+    on: Tree | None = key("the angle whose rate the angular impulse changes", SCALAR)
 
     def act(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Impulse]:
         if self.components and self.at and not (self.angular or self.on):

@@ -37,7 +37,8 @@ def observations_of(
 ) -> list[list[Quantity]]:
     """Return the observations of each part; report the chosen kinds that no answer has.
 
-    By default these are the most valuable ones. An author may choose kinds for the problem or for a part, or `none`.
+    By default, the most valuable observations are returned. An author may choose kinds for the problem or for a part,
+    or `none`.
     """
     problem = with_known_observations(problem, faults)
     chosen, everywhere = [_names(part.observations) for part in problem.parts], _names(problem.observations)

@@ -22,7 +22,7 @@ def drawn(body: Body, about: str = "", is_named: bool = False) -> None:
     """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane.
 
     about      the name of the point at which the axes begin, if it is known to be the centre of a body with faces
-    is_named   whether `about` is a point that the problem names, such as a pivot; then a small circle shows it
+    is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
     """
     if marks := seen_outline(body, "centre" if about == "centre" and _has_known_centre(body) else None):
         key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
@@ -92,6 +92,6 @@ def drawn_turning(answers: Any, has_angle: bool) -> None:
 
 
 def drawn_free(answers: Any, turns: bool) -> None:
-    """Draw a body with known principal moments; if `turns`, also draw its angular velocity and its angular momentum."""
+    """Draw a body with known principal moments; if `turns` is true, also its angular velocity and angular momentum."""
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))

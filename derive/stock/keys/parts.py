@@ -1,4 +1,5 @@
-"""The parts of a system, as `given:` describes them: particles, springs, forces, charges, constraints."""
+"""The parts of a system, as `given:` describes them: particles, springs, central forces, given forces, damping, charges
+and constraints."""
 
 from __future__ import annotations
 
@@ -73,7 +74,7 @@ class CentralKeys(Record):
 
     energy: Tree = key("the energy, such as `-G*M*m/d`", SCALAR, required=True)
     distance: Word = key("the symbol for the distance in `energy`", TEXT, required=True)
-    start: WrittenPlace = key("one of the places", PLACE, called="from", required=True)
+    start: WrittenPlace = key("one of the two places", PLACE, called="from", required=True)
     end: WrittenPlace = key("the other place", PLACE, called="to", required=True)
     massless: bool = key("`true` if one of the places may be a massless joint", YES_OR_NO)
 
@@ -186,7 +187,7 @@ class ConstraintKeys(Record):
     condition: Tree = key(
         "a formula in the coordinates, or a formula that is linear in their rates", SCALAR, required=True
     )
-    equals: Tree | None = key("its value; by default zero", SCALAR)
+    equals: Tree | None = key("the value of the formula; by default zero", SCALAR)
     force: Word | None = key("the symbol of the constraint force, a multiplier; by default `lambda`", TEXT)
 
     def part(self, places: Places, letters: InLetters) -> Deferred[Any]:

@@ -72,7 +72,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
     )
     centre: WrittenPlace | None = key("the position of its centre of mass", PLACE)
     held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
-    on: WrittenPlace | None = key("the place at which this point is held; by default the origin", PLACE)
+    on: WrittenPlace | None = key("with `held`, the place at which that point is held; by default the origin", PLACE)
     start: WrittenPlace | None = key(
         "for a rod, the place of its end, in place of `held: end` and `on`", PLACE, called="from"
     )

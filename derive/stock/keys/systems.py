@@ -125,7 +125,7 @@ class SystemKeys(Record):
     central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
     lagrangian: Tree | None = key(
         "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples and drag `on` coordinates may be added",
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples, and drag with `on`, may be added",
         SCALAR,
     )
     potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
@@ -177,6 +177,7 @@ class DescribedSystem(Described):
     particles, bodies   the particles and the bodies by name, in the order of the file
     acting        all other parts of the system, grouped by kind
     surfaces      the surfaces by name
+    gravity       the acceleration of free fall; None if nothing has weight
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
     at, at_rest   the state about which motions are linearised: values of coordinates, or the name of an equilibrium
@@ -303,13 +304,15 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names, unless one of them names something that is not
+    """Report a surface that no contact and no flight names, unless a contact or a flight names something that is not
     described."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
             if name not in used:
-                help_line = "describe the contact under `contacts`, let a flight end `on` it, or leave the surface out"
+                help_line = (
+                    "describe the contact under `contacts`, name it under `on` of `lands`, or leave the surface out"
+                )
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
 
@@ -322,7 +325,7 @@ def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
             message = f"`{name}` is the name of a pulley and of a body, a particle or a place"
             faults.error("twice", message, name.place, help="give the pulley another name")
         elif name not in over and {each.partition(".")[0] for each in over} <= known:
-            help_line = "let a string run `over` it, or leave the pulley out"
+            help_line = "name it under `over` of a string, or leave the pulley out"
             faults.error("unused-key", f"no string runs over the pulley `{name}`", name.place, help=help_line)
 
 

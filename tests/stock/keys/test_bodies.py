@@ -168,7 +168,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ("{parts: {rod: {shape: rod, length: h, mass: M, at: [0, 0, 0], of: ned}}}", "5: a rod has no point `ned`"),
         (
             "{parts: {rod: {shape: rod, length: h, mass: M, of: end}}}",
-            "5: `rod` needs `at`, the position of its point `of`",
+            "5: `rod` has `of`, so it needs `at`, the position of that point",
         ),
         (
             "{parts: {rod: {shape: rod, length: h, mass: M, turned: {w: pi}}}}",
