@@ -91,7 +91,7 @@ def document_of(
         document = writer.document([c for c in compared if c.here], evidence)
         more = needed.with_more(*writer.needs(document))
         if more == needed:
-            return document, writer.faults
+            return document, [*writer.faults, *writer.without_number(document)]
         needed = more
 
 
@@ -206,6 +206,20 @@ class _Writer:
         numbers = (references_in(whole) | self.references.named) & set(self.symbols) - set(self.numbers)
         could_stand = self.selection.could_stand
         return set(filter(could_stand, letters)), set(filter(could_stand, numbers))
+
+    def without_number(self, document: Document) -> list[Complaint]:
+        """Return an error for each equation that the author hides although the sentence of another step refers to it."""
+        wanted = references_in((document.parts, document.limits)) - {*self.numbers} - self.references.named
+        return [
+            Complaint(
+                "not-shown",
+                f"a sentence of the page refers to the equation of `{key}`, which is hidden",
+                self.problem.place_of("show", key),
+                help=f"write `{key}: result`, or change that sentence under `wording`",
+            )
+            for key in sorted(wanted)
+            if self.problem.show.get(key) == "hidden"
+        ]
 
     def _told(
         self,
