@@ -208,7 +208,7 @@ class _Writer:
         return set(filter(could_stand, letters)), set(filter(could_stand, numbers))
 
     def without_number(self, document: Document) -> list[Complaint]:
-        """Return an error for each equation that the author hides although the sentence of another step refers to it."""
+        """Return an error for each hidden equation to which the sentence of another step refers."""
         wanted = references_in((document.parts, document.limits)) - {*self.numbers} - self.references.named
         return [
             Complaint(
