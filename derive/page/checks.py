@@ -80,7 +80,7 @@ class Checks:
         return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
-        """Return the counts for the table on the last page, each under the name of its column."""
+        """Return the counts for the tables of the report and of `derive check`, each under its name."""
         return {
             **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),

@@ -166,8 +166,9 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether the line shows a result: it contains no symbol of an earlier step, and no integral or
-        derivative unless the result of the step contains one too; or its right side is the result of some step."""
+        """Return whether the line shows a result. This is so if its right side is the result of some step. It is also
+        so if nothing is left to do: no symbol of another step to replace, and no integral or derivative to evaluate,
+        except those in the result."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

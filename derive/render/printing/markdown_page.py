@@ -157,5 +157,5 @@ def formula_markdown(tex: str) -> str:
 
 
 def _in_text(text: str) -> str:
-    """Return text for use in the braces of `\\text`."""
+    """Return text for use in the braces of `\\text`; special characters become spaces."""
     return re.sub(r"[\\{}$#%&_^~]", " ", text)
