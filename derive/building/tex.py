@@ -130,7 +130,7 @@ def typeset(
 
     timeout    the limit of the processor time of each run, in seconds
     log        the folder for the source and the log of a failed run; default: `log` next to `target`
-    numbers    the page numbers of the last build; if they are still right, one run is enough
+    numbers    the store of the page numbers; if the stored numbers are still right, one run is enough
     included   the files that the source includes, such as its drawings
     formats    the cache that stores the common beginning of documents as a format
     """

@@ -69,6 +69,9 @@ def same(a: Location, b: Location) -> bool:
 def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link | None:
     """Return the link to a particle from the other end of its rod, or from the origin of its polar coordinates.
 
+    index   the index of the particle
+    named   points that count as known, in addition to earlier particles and the ends of central forces
+
     Known and fixed points are preferred as start. The result is None if there is no such link.
     """
     end = system.particles[index].at

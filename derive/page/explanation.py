@@ -121,8 +121,8 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield each answer that depends on the step without another answer between, with the shortest path of steps to
-    this answer."""
+    """Yield each answer that depends on the step directly or through steps that are not answers, with the shortest path
+    of such steps."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

@@ -244,7 +244,7 @@ def _unquotable(formula: TexFormula, error: Any) -> Complaint:
 def _compare(left: Side, right: Side) -> None:
     """Reject two sides of a chain that differ in shape or in dimension; zero and infinity fit every dimension."""
     if left.shape != right.shape:
-        message = f"`{left.text}` and `{right.text}` are not both scalars, or not both vectors or matrices of one size"
+        message = f"`{left.text}` and `{right.text}` must both be scalars, or vectors or matrices of the same size"
         raise Rejected(Complaint("dimension", message, right.place))
     for mine, others in zip(left.branches[0], right.branches[0], strict=True):
         (one, dimension), (other, its_dimension) = mine, others

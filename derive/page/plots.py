@@ -170,7 +170,7 @@ def _curve(
     if any(each.has(nan, zoo, oo) for each in (*across, expr)):
         message = f"the plot `{plot.key}` has no curve for these numbers, because a denominator vanishes"
         place = _place(problem, placement)
-        raise Rejected(Complaint("drawing", message, place, help="change a number, for example at a resonance"))
+        raise Rejected(Complaint("drawing", message, place, help="change a number: avoid a resonance, for example"))
     lower, upper = (float(end) for end in ends)
     with told_at(_place(problem, placement)):
         if plot.levels is not None:

@@ -25,7 +25,7 @@ LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering a
 HEAVY_ENOUGH = 20.0
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # in points: a wider line is represented by its two edges
-OWN = 1.5  # in points; drawn points that are closer to the line that a label names belong to this line
+OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line
 ROUNDS = 3
 
 
