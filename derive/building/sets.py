@@ -80,7 +80,8 @@ class Ended:
 
 @dataclass
 class Report:
-    """The results of a build: the number of problems that it derived, the files that changed, the errors."""
+    """The results of a build: the number of its problems and of those that it derived, the files that changed, the
+    errors, the warnings and the time."""
 
     set_id: str
     problems: int = 0

@@ -68,7 +68,7 @@ class _Single(Mark):
 
 @dataclass(frozen=True)
 class Line(_Between):
-    """A line, drawn with the pen `edge`, `construction`, `hidden` or `axis`."""
+    """A line, drawn with a pen such as `edge`, `construction` or `hidden`."""
 
     pen: str = "construction"
 

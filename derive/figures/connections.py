@@ -63,7 +63,7 @@ ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a body on a 
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
-AXIS = Rational(4, 5)  # the length of the axes on a table, relative to its radius
+AXIS = Rational(4, 5)  # the length of the axes on a table, relative to the radius of the table
 TABLE = 3  # the radius of a table in space, relative to the largest body on it
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the distance of the contacts from its middle
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
@@ -576,7 +576,7 @@ class Connections:
         return tuple(k for k, each in enumerate(line.through) if 0 < k < last and not isinstance(each, Pulley))
 
     def _loose_ends(self, line: Line) -> Iterator[tuple[Location, Location]]:
-        """Yield each end of a line that has no support yet, with the place next to it."""
+        """Yield the ends of a line that have no support yet, each with the place next to it."""
         for k, beside in ((0, 1), (-1, -2)):
             if not (self._small_pulleys(line) and is_fixed(self.system, line.places[k])):
                 yield line.places[k], line.places[beside]

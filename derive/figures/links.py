@@ -24,7 +24,7 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A vector between two points whose length does not depend on an angle or on time.
+    """A vector between two points, with a length that does not depend on an angle or on time.
 
     The length may depend on coordinates that are lengths; then `is_constant` is false.
     """
