@@ -24,8 +24,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Consecutive steps of one rule, of the same grade and checked by the same methods, with their inputs and the number
-    of their lines.
+    """Consecutive steps of one rule, of the same grade and checked by the same methods, with their inputs and the
+    number of their lines.
 
     `routes` names the second routes and, at the end, the motion if the witness simulated it numerically. `checks` names
     the checks.
