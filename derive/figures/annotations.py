@@ -1,4 +1,4 @@
-"""Marks that are drawn over the bodies: axes, arrows, arcs, rotation arrows, dimension lines, points and supports."""
+"""Marks drawn over the bodies: lines, axes, arrows, arcs, rotation arrows, dimension lines, points and supports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
+"""The marks of the connections in a system: surfaces, strings, pulleys, rods, joints, wires, motors and dashpots.
 
 A connection is drawn only if the description of the system contains it. No connection is guessed from a formula or
 from the name of a symbol.

@@ -1,8 +1,8 @@
 """Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
-that it covers, and a smaller cost that grows with the distance from the position that the mark prefers. The position
-with the lowest total cost is used. Labels on the things that they name choose first; labels of lines, which can slide,
+that it covers. A smaller cost grows with the distance from the position that the mark prefers. The position with the
+lowest total cost is used. Labels on the things that they name choose first; labels of lines, which can slide,
 choose last. Then each label chooses again, now that the other labels have positions. If labels still cover something,
 a second search lets labels with few positions choose earlier, and the better result is used.
 """
