@@ -111,7 +111,7 @@ class Opened:
         )
 
     def drawing(self, key: str) -> Drawn:
-        """Return the drawing of the page with this key."""
+        """Return the drawing with this key, as the page shows it."""
         name = f"{self._problem.id.rpartition('/')[2]}-{key}.svg"
         if name not in self._drawings:
             keys = [file.partition("-")[2].removesuffix(".svg") for file in self._drawings]

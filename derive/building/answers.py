@@ -25,8 +25,11 @@ Rows = list[tuple[str, ...]]
 
 
 def answers_of(root: Path, problem_id: str) -> Rows:
-    """Return a row of headings and a row for each name. The answers that the description offers or the script returns
-    come first, with the results of the problem, and then the steps on which these answers depend."""
+    """Return a row of headings and a row for each name.
+
+    The first names are the answers that the description offers, with the results of the problem, or the answers that
+    the script returns. Then come the steps on which these answers depend.
+    """
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     record = Run()
     with solving(problem, record):

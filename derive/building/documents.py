@@ -23,7 +23,7 @@ def with_asked(documents: Documents, asked: Collection[str]) -> list[list[str]]:
 
 
 def still_there(documents: Documents, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Return the documents, except those that an earlier `--only` requested and whose PDF has since been removed."""
+    """Return the documents, except those that only an earlier `--only` requested and whose PDF has been removed."""
     earlier = {*record.asked} - {*asked}
     return [list(pair) for pair in documents if pair[0] not in earlier or (record.folder / f"{pair[1]}.pdf").exists()]
 

@@ -22,6 +22,8 @@ _OF_POINTS = ("points", "extra", "rubric")
 def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
     """Return a problem's points and title; a step that the title mentions is named by its key.
 
+    path   the problem's file, relative to `root`; by default it is found from the id
+
     If the title mentions nothing and the file has no error, only the title and the points are read. Otherwise the whole
     file is read, and the modules for mathematics are loaded if they are needed.
     """

@@ -131,7 +131,7 @@ class Manifest:
 
     @property
     def document_files(self) -> list[str]:
-        """The names of the files of the documents of the whole set."""
+        """The file names, without suffixes, of the documents of the whole set and of its page for a browser."""
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:
@@ -196,7 +196,7 @@ def _is_plain(output: str) -> bool:
 
 
 def outputs_of(name: str) -> list[str]:
-    """Return the outputs of a problem."""
+    """Return the outputs of a problem, except its drawings."""
     return [f"{name}.{suffix}" for suffix in ("pdf", "tex", "html", *(f.suffix for f in built_formats().values()))]
 
 

@@ -67,9 +67,11 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """Return errors and warnings. It is an error if a form asks for a number that does not exist. Two things are only
-    warnings. First, an answer has no number although a number is given that no other answer or plot uses. Second, the
-    sheet does not state a number that an answer needs.
+    """Return errors and warnings.
+
+    It is an error if a form asks for a number that does not exist. There are two kinds of warnings. First, an answer
+    has no number, although all its symbols have numbers, or one of them has a number that nothing else uses. Second,
+    the sheet does not state a number that an answer needs.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem: a plot needs numbers too
@@ -115,8 +117,12 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of answers without a number, because the author may have forgotten the number of a letter. There is no
-    warning if a letter without a number is a coordinate or another letter that the problem does not declare."""
+    """Warn of an answer without a number if all its letters have numbers, or if one of them has a number that no plot
+    and no answer with a number uses. The author may have forgotten a number.
+
+    There is no warning if a letter without a number is a coordinate or another letter that the problem does not
+    declare.
+    """
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}

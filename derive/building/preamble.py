@@ -28,7 +28,7 @@ __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # the format's name in the folder where TeX runs
 PACKED = b"\x1f\x8b"
-ROOM = 64 * 1024 * 1024  # required free bytes on the disk; a format takes a third of this
+ROOM = 64 * 1024 * 1024  # with fewer free bytes, the disk counts as full; a format takes a third of this
 CANNOT = b""  # stored in place of a format if the engine cannot dump this preamble, so that it is not tried again
 
 Environment = Mapping[str, str]
@@ -55,9 +55,8 @@ def without_preamble(
 ) -> str | None:
     """Return a source with its preamble turned into comments, and put the preamble's format into `place`.
 
-    The result is None if there is no format.
-
-    The engine makes the format, unless this process or the cache has it already.
+    The engine makes the format, unless this process or the cache has it already. The result is None if there is no
+    format.
     """
     above, differs, below = tex.partition(DIFFERS)
     if not differs or cache.folder is None:

@@ -53,7 +53,7 @@ class Wanted:
     draws       whether the files of the drawings are also requested
     only        the formats; default: all formats of a build
     evidence    how much the page shows about its checks
-    documents   other documents: the key, hints, a rubric
+    documents   other documents, such as the key, hints or a rubric
     """
 
     detail: str | None = None

@@ -70,7 +70,8 @@ def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[byt
 
 
 def _commit(root: Path, revision: str) -> str:
-    """Return the full name of the commit of a revision; raise an error if the revision does not exist."""
+    """Return the full name of the commit of a revision; raise `Misused` if git, the repository or the revision does not
+    exist."""
     if not shutil.which("git"):
         message = "`--rev` compares with a revision of git, but git is not installed"
         raise Misused(

@@ -1,5 +1,4 @@
-"""Whole documents from solved problems: one solution, the solutions of a set, its sheet for students, its report, and
-the pages of a set for a browser."""
+"""Whole documents from solved problems: one solution, all documents of a set, and the pages of a set for a browser."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class Options:
     jobs: int = 0  # jobs at once; 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
-    documents: tuple[str, ...] = ()  # documents to make; empty: those that the set lists
+    documents: tuple[str, ...] = ()  # documents to make; empty: those of the set, see `derive.building.documents`
     evidence: str | None = None  # how much solutions show of their checks; default: what the set says
 
 
@@ -80,7 +80,8 @@ class Ended:
 
 @dataclass
 class Report:
-    """The results of a build: the number of problems that it derived, the files that changed, the errors."""
+    """The results of a build: the number of its problems and of those that it derived, the files that changed, the
+    errors, the warnings and the time."""
 
     set_id: str
     problems: int = 0
@@ -451,8 +452,8 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Record for `make` the outputs, the options and the input files from other sets; set the time of `.built` to
-        the beginning of this build."""
+        """Record for `make` the outputs, the options and the input files outside the set's folder; set the time of
+        `.built` to the beginning of this build."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         read = {path for inputs in self.manifest.inputs.values() for path in inputs}

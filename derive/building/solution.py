@@ -213,8 +213,8 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the unit and to the significant figures that the part asks for; report units
-    that do not fit, and leave them out.
+    """Return the number of an answer, in the units and to the significant figures that the part asks for; None if the
+    answer has no number. Units that do not fit are reported and left out.
 
     amounts, case   the numbers of one case of the part, and the label of the case; default: the numbers of the problem
     """

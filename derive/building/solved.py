@@ -1,10 +1,14 @@
 """A derivation as stored between builds, so that a page with new wording is not derived again.
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
-reference. From the problem it depends on the given values, the description, and the symbols and their numbers. It also
-depends on the limiting cases (`limits:`, with `why:` and its line in the file), on the chosen observations, on the
-quantities of plots, and on the answers, forms and cases that parts ask for. It does not depend on any other prose, on
-the marks (`points:`) or on templates.
+reference. It also depends on these entries of the problem:
+
+    the given values, the description, the symbols and their numbers, the number of significant figures
+    the answers, forms and cases that parts ask for, and the chosen observations
+    the limiting cases, with their `why:` and its line in the file
+    the quantities, ranges and curves of plots
+
+It does not depend on any other prose, on the points of the parts or on templates.
 """
 
 from __future__ import annotations

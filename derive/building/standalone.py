@@ -25,8 +25,8 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return the report of each set by its path; if only one problem of a set was checked, the report is about this
-    problem."""
+    """Return path -> PDF for the report of each set, which contains only the checked problems. If this is only one of
+    several problems of the set, the path contains its name."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

@@ -128,9 +128,11 @@ def typeset(
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
-    `numbers` stores the page numbers from one build to the next; if the stored page numbers are still right, one run is
-    enough. `included` are the files that the source includes, such as its drawings. `formats` stores the common
-    beginning of documents as a format.
+    timeout    the limit of the processor time of each run, in seconds
+    log        the folder for the source and the log of a failed run; default: `log` next to `target`
+    numbers    the store of the page numbers; if the stored numbers are still right, one run is enough
+    included   the files that the source includes, such as its drawings
+    formats    the cache that stores the common beginning of documents as a format
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
@@ -185,7 +187,8 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """Typeset with a format of the preamble, and restore the source; return the engine's output if this fails.
+    """Typeset with a format of the preamble, and restore the source. Return None, or if this fails a text: the engine's
+    output or "no format".
 
     If page numbers are needed but unknown, first make a run that only finds the page numbers.
     """

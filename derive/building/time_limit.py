@@ -20,13 +20,14 @@ __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
 IDLE = 0.02  # share of processor time below which work counts as waiting
-PATIENCE = 10  # work is stopped after this many times the limit in wall-clock time, on a busy machine too
+PATIENCE = 10  # even on a busy machine, work is stopped after this many times (limit + 6 s) of wall-clock time
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; if the system ends it, write the running lines to `trace`."""
+    """Limit the time of the work in the `with` block; if the system ends the process, write the running lines to
+    `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:

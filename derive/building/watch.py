@@ -1,9 +1,9 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
 The times and sizes of the files that authors write are compared many times a second. The comparison takes 1 % of the
-time of one processor, needs no package and no thread (forking a process with threads is not safe), and detects edits
-over a network. An edit stops the build under way, but finished work is stored. So if you save several files together,
-only the last build is completed.
+time of one processor, needs no package, and detects edits over a network. It needs no thread either, because forking a
+process with threads is not safe. An edit stops the build under way, but finished work is stored. So if you save several
+files together, only the last build is completed.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Shown:
     """The functions that inform an author who edits.
 
     under_way  a function that shows the work that is being done
-    wrote      reports that a PDF has changed, and after how many seconds
+    wrote      a function that reports that a PDF has changed, and after how many seconds
     built      a function that shows the report of a finished build
     refused    a function that shows the errors that prevented a build
     ended      a function that reports a finished piece of work

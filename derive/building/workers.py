@@ -239,8 +239,8 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker without an answer. Its place is the running line of the script, else the
-    reference file if the worker used this file, else the problem's file."""
+    """Return the error about a worker without an answer. The place of the error is the running line of the script, else
+    the reference file if the worker used this file, else the problem's file."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what it states about {job.name}"
@@ -288,7 +288,7 @@ def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
     if what == TOO_DEEP:
         help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
         return _stopped(job, TOO_DEEP, f"{job.name} is nested deeper than Python allows", help_, trace)
-    message = f"{job.name} took over {memory_limit() / GIB:g} GiB of memory"
+    message = f"{job.name} took more than {memory_limit() / GIB:g} GiB of memory"
     help_ = "look for a value that grows without bound, or set DERIVE_MEMORY to more GiB"
     return _stopped(job, MEMORY, message, help_, trace)
 

@@ -40,7 +40,7 @@ def root_of(arguments: argparse.Namespace) -> Path:
     if root is None:
         where = f"in `{arguments.root}`" if arguments.root else "here or above"
         raise Misused(
-            Complaint("no-root", f"no folder `problems` was found {where}", help="name its folder with `--root`")
+            Complaint("no-root", f"no folder `problems` was found {where}", help="name its parent folder with `--root`")
         )
     return root
 

@@ -176,7 +176,8 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
 
 
 def named(action: argparse.Action, names: str) -> None:
-    """Let the shell complete an operand with names from the course; `derive/cli/completing.py` finds these names."""
+    """Let the shell complete an operand or option with names from the course, which `derive/cli/completing.py`
+    finds."""
 
     def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
         from derive.cli.completing import offered

@@ -71,8 +71,8 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Wrap a text without shortening it, because the error that it shows may be at its end. Replace control codes by
-    blanks."""
+    """Wrap a text without shortening it, because the error of the source may be at the end of the text. Replace control
+    codes by blanks."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 

@@ -1,4 +1,4 @@
-"""Marks that are drawn over the bodies: axes, arrows, arcs, rotation arrows, dimension lines, points and supports."""
+"""Marks drawn over the bodies: lines, axes, arrows, arcs, rotation arrows, dimension lines, points and supports."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class _Single(Mark):
 
 @dataclass(frozen=True)
 class Line(_Between):
-    """A line, drawn with the pen `edge`, `construction`, `hidden` or `axis`."""
+    """A line, drawn with a pen such as `edge`, `construction` or `hidden`."""
 
     pen: str = "construction"
 
@@ -199,7 +199,7 @@ class LengthMark(_Between):
 class Arrow(Mark):
     """A vector, drawn in its true direction; a zero vector is not drawn.
 
-    start    the point at which the arrow starts
+    start    the point at which the arrow starts, or its tip if `pushes`
     size     the drawn length relative to the size of the body, because vectors of different kinds have no common scale
     asked    whether the problem asks for the vector; then the arrow is emphasised
     pushes   whether the tip of the arrow is at `start`
@@ -414,8 +414,8 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector as numbers. The result is None for the zero vector, and unless all symbols of
-    the vector are in a common factor of known sign."""
+    """Return the direction of a vector as numbers, if all symbols of the vector are in a common factor of known sign.
+    The result is None for any other vector and for the zero vector."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

@@ -40,7 +40,7 @@ THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its ra
 EDGE = 32  # number of steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # height and thickness of a slice, relative to the height of the body
 BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
-CURVED = 48  # number of circles for a curved side; they are closer together at the ends, which may be tips
+CURVED = 48  # number of steps along a curved side; the steps are shorter at the ends, which may be tips
 
 
 def outline(body: Any, about: str | None = None, named: bool = True, sliced: bool = False) -> list[Mark]:
@@ -50,6 +50,8 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
     about   the name of the point; by default the origin of the body's own axes
     named   whether to label the measures of the body and to draw its axes
     sliced  whether to mark a slice perpendicular to the axis of a round solid, as for an integral over the height
+
+    Raise `Rejected` if the outline is unknown.
     """
     found = seen_outline(body, about, named) if isinstance(body, Body) else []
     if sliced and found and isinstance(body.boundary, Round) and body.filling == "volume":
@@ -240,8 +242,8 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return the lines that show the sizes of a round body, a rod or a flat body with a curved edge, in any
-    orientation; an empty list for any other body."""
+    """Return the lines that show the sizes of a body in any orientation. The body is a rod, a flat body with a curved
+    edge, or a round body, which may be hollow. The list is empty for any other body."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)

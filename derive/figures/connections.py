@@ -1,4 +1,4 @@
-"""The marks of the connections in a system: surfaces, contacts, strings, rods, joints, wires and dashpots.
+"""The marks of the connections in a system: surfaces, strings, pulleys, rods, joints, wires, motors and dashpots.
 
 A connection is drawn only if the description of the system contains it. No connection is guessed from a formula or
 from the name of a symbol.
@@ -60,10 +60,10 @@ ACROSS = column(0, 0, 1)
 # Values of coordinates that no constraint determines, relative to the largest body.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a body on a table in space, away from the axes
-WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the length of the strings
-HANGER = Rational(1, 8)  # the drawn distance of a pulley from the ceiling, relative to the length of the strings
+WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
+HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to the largest body in it
-AXIS = Rational(4, 5)  # the length of the axes on a table, relative to its radius
+AXIS = Rational(4, 5)  # the length of the axes on a table, relative to the radius of the table
 TABLE = 3  # the radius of a table in space, relative to the largest body on it
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the distance of the contacts from its middle
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
@@ -315,8 +315,8 @@ class Connections:
         return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
 
     def _table(self, plane: Plane) -> Iterable[Mark]:
-        """Yield a fixed horizontal plane in space as a round table, the axis about which the table rotates, if it does,
-        and the marks of the bodies on it."""
+        """Yield the marks of a fixed horizontal plane in space: a round table, the axis of a rotating table, and the
+        marks of the bodies on the table."""
         if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
@@ -576,7 +576,7 @@ class Connections:
         return tuple(k for k, each in enumerate(line.through) if 0 < k < last and not isinstance(each, Pulley))
 
     def _loose_ends(self, line: Line) -> Iterator[tuple[Location, Location]]:
-        """Yield each end of a line that has no support yet, with the place next to it."""
+        """Yield the ends of a line that have no support yet, each with the place next to it."""
         for k, beside in ((0, 1), (-1, -2)):
             if not (self._small_pulleys(line) and is_fixed(self.system, line.places[k])):
                 yield line.places[k], line.places[beside]
@@ -622,7 +622,7 @@ class Connections:
             yield FixedEnd(column_of(above), downwards(2))
 
     def _end(self, line: Line, place: Location, other: Location) -> Iterable[Mark]:
-        """Yield the support of an end of a string or of a rod that is fixed, or has a prescribed motion."""
+        """Yield the support of an end of a string or rod, if the end is fixed or has a prescribed motion."""
         holds = any(same(place, at) for _, at in self.system.masses) or any(
             same(place, each.at) for each in connections_of(self.system, Pulley)
         )
@@ -709,7 +709,7 @@ class Connections:
         return any(line.rope is not None and line.rope == particle for line in self.lines)
 
     def rope_piece(self, length: Expr) -> tuple[Location, Location] | None:
-        """Return the ends of the straight piece of a rope that has this length; None if there is no such piece."""
+        """Return the ends of a straight piece of rope with this length; None if there is no such piece."""
         pieces = (piece for line in self.lines if line.rope is not None for piece in pairwise(line.places))
         return next((piece for piece in pieces if distance_of(*piece) == length), None)
 
@@ -732,8 +732,8 @@ class Connections:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance between two places. If they differ only in x by an expression of unknown sign, the result
-    contains the absolute value of this expression."""
+    """Return the distance between two places. If they differ only in one component, by an expression of unknown sign,
+    the result contains the absolute value of this expression."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 

@@ -32,7 +32,8 @@ ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 def contact_marks(system: System) -> Iterable[Mark]:
     """Yield, for each body that rolls on a fixed surface, the marks of this surface and of the point of contact.
 
-    The surface is drawn only if it is a cylinder seen along its axis, or a horizontal plane through a fixed point.
+    The surface is drawn only if it is a cylinder seen along its axis, or a horizontal plane through a fixed
+    point of the body.
     """
     for condition in system.conditions:
         rolling = condition.fact(Rolling)

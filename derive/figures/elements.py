@@ -113,7 +113,7 @@ def block(
     """A block that slides along a direction.
 
     at              the centre of the block; if `stands` is true, the centre of its base
-    label           the mass, written on the block if it is short
+    label           the mass; a short symbol is written on the block
     along           the direction of the base: a vector, or "right", "up", ...
     width, height   lengths; by default a readable size
     """

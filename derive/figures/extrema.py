@@ -30,7 +30,7 @@ class Extremum:
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
-    """Return evenly spaced points of the curve; a curve that is not real and finite at all these points is rejected."""
+    """Return evenly spaced points of the curve; raise `Rejected` if one of the values is not real or not finite."""
     f = lambdify([variable], expr, "math")
     points = [lower + (upper - lower) * i / steps for i in range(steps + 1)]
     try:

@@ -24,7 +24,7 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A vector between two points whose length does not depend on an angle or on time.
+    """A vector between two points, with a length that does not depend on an angle or on time.
 
     The length may depend on coordinates that are lengths; then `is_constant` is false.
     """
@@ -68,6 +68,9 @@ def same(a: Location, b: Location) -> bool:
 
 def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link | None:
     """Return the link to a particle from the other end of its rod, or from the origin of its polar coordinates.
+
+    index   the index of the particle
+    named   points that count as known, in addition to earlier particles and the ends of central forces
 
     Known and fixed points are preferred as start. The result is None if there is no such link.
     """

@@ -1,4 +1,4 @@
-"""The parts of machines: particles, rods, ropes, springs, blocks, carts, wheels and wedges.
+"""The parts of machines: particles, rods, ropes, springs, dashpots, blocks, carts, wheels, wedges and planks.
 
 Particles, springs, and blocks and wheels without given lengths have a size in points, so they are readable in drawings
 of any scale.
@@ -25,7 +25,7 @@ BLOCK = (22.0, 18.0)  # width and height of a block
 CART = (38.0, 13.0)  # width and height of a cart
 CASTER = 3.6  # radius of the wheels of a cart
 COIL = 4.6  # half the width of a spring
-PITCH = 5.0  # distance between two turns of a spring
+PITCH = 5.0  # usual length of a half turn of a spring
 FEWEST = 4  # least number of half turns of a spring
 LEAD = 7.0  # length of each straight end of a spring
 
@@ -374,7 +374,9 @@ class CartMark(BlockMark):
 class WheelMark(_Piecewise):
     """A disc or hoop seen along its axis: a pulley or a rolling wheel.
 
+    radius    a length, or None for the radius of a small pulley
     pointer   a direction that rotates with the disc, drawn as a radius
+    is_ring   whether the mark is a hoop
     """
 
     centre: Position

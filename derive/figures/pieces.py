@@ -15,8 +15,11 @@ from derive.figures.space import NOUGHT, Spot, Stance, Vector, plus, size_of
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`; `head` and `tail` are true for an
-    arrowhead at its end or at its start."""
+    """A line on the paper, drawn with a pen of `derive.render.drawing.canvas`.
+
+    head   whether there is an arrowhead at the end of the line
+    tail   whether there is an arrowhead at the start of the line
+    """
 
     spots: tuple[Spot, ...]
     pen: str

@@ -30,7 +30,8 @@ class LevelLine:
 
 @dataclass(frozen=True)
 class Portrait:
-    """The range of the vertical axis, the value on each curve, and the curves of all values."""
+    """The range of the vertical axis, the values, each with whether its curves are thick, and the curves of all
+    values."""
 
     low: float
     high: float
@@ -46,8 +47,9 @@ def portrait_of(
 ) -> Portrait:
     """Return the curves on which the expression has these values.
 
-    plane   the coordinate and the momentum
-    box     the ends of their ranges: left, right, below, above
+    plane    the coordinate and the momentum
+    box      the ends of their ranges: left, right, below, above
+    values   pairs of a value and whether its curves are thick
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)
@@ -104,8 +106,8 @@ def _along(
 
 
 def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:
-    """Return the index of the arrowhead: where the coordinate changes fastest, away from the ends of the axis. A curve
-    that is close to an end has it in its middle."""
+    """Return the index of the arrowhead: where the coordinate changes fastest, away from the ends of the axis. If no
+    point of the curve is away from the ends, the arrowhead is in the middle of the curve."""
     away = (across > inner[0]) & (across < inner[1])
     if not np.any(away):
         return len(across) // 2

@@ -42,7 +42,7 @@ class PulleyRopeMark(RopeMark):
     def circles(self, paper: Paper) -> list[tuple[Spot, float]]:
         spots = list(paper.spots(*self.places(paper.numbers)))
         radii = [paper.numbers.of(radius) * paper.scale for radius in self.radii]
-        pieces = list(pairwise(spots))  # the ends of each piece; a piece at a pulley on which it returns is shifted
+        pieces = list(pairwise(spots))  # the ends of each piece; where the string returns, its pieces are shifted
         found: dict[int, tuple[Spot, float]] = {}
         for k in (k for k in self.corners if _returns(spots[k - 1], spots[k], spots[k + 1])):
             sense = _sense(spots, k)
@@ -98,7 +98,8 @@ def _returns(a: Spot, b: Spot, c: Spot) -> bool:
 
 
 def _inside(a: Spot, b: Spot, c: Spot, radius: float) -> Spot:
-    """Return the centre of a circle that touches both lines of the corner b from inside; below a straight line."""
+    """Return the centre of a circle that touches both lines of the corner b from inside. If the lines are one straight
+    line, the circle is below this line."""
     (x, y), (u, v) = direction(b, a), direction(b, c)
     far = hypot(x + u, y + v)
     if far < 1e-3:
@@ -113,7 +114,7 @@ class SmallPulleyMark(Surface):
 
     string   the string
     corner   the index of the place of the pulley
-    hanger   the distance of the ceiling above the place, if the pulley is fixed to it
+    hanger   the distance of the ceiling above the place, if the pulley hangs from the ceiling
     """
 
     string: PulleyRopeMark

@@ -1,4 +1,4 @@
-"""The surfaces of bodies: bodies of revolution, bodies with flat faces, and thin bodies."""
+"""The surfaces of bodies: bodies of revolution, ellipsoids, tori, bodies with flat faces, thin bodies, and holes."""
 
 from __future__ import annotations
 

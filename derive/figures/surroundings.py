@@ -14,10 +14,10 @@ from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
 from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 # Lengths in points.
-HATCH = 4.0  # distance between two hatches, and length of a hatch
+HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 UNDER = 20.0  # half the length of the piece of a surface under a particle
-ARC = (11.0, 27.0)  # least and greatest radius of an arc
+ARC = (11.0, 27.0)  # least and greatest radius of an arc, unless its angle is small
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
 ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
@@ -107,7 +107,7 @@ def _across(start: Spot, end: Spot, side: Spot) -> Spot:
 class FixedEnd(Surface):
     """A point fixed to a piece of wall behind it.
 
-    away    the direction from the wall to the point; if it is zero, no wall is drawn
+    away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
     """
 
@@ -280,8 +280,8 @@ class UprightAngle(AngleBetween):
 
 @dataclass(frozen=True)
 class DistanceMark(Mark):
-    """A dimension line between two points, shifted to the side `aside`, or by default away from the centre of the
-    drawing."""
+    """A dimension line between two points, shifted by `off` points to the side `aside`, or by default away from the
+    centre of the drawing."""
 
     start: Position
     end: Position

@@ -1,4 +1,4 @@
-"""Bodies with Euler angles about a fixed point: the line of nodes and axes along it, rotation arrows, dimensions."""
+"""Bodies with Euler angles: rotation arrows, angles, dimensions, and the axes that follow the line of nodes."""
 
 from __future__ import annotations
 
@@ -130,8 +130,8 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 
 
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
-    """Yield the dimensions of a symmetric body with Euler angles: the radii of its round parts, if these are measures
-    of the parts, the distances of the ends of these parts from the fixed point, and the centre of mass."""
+    """Yield the dimensions of a symmetric body with Euler angles, and its centre of mass. The dimensions are the
+    distances of the ends of its round parts from the fixed point, and the radii that are measures of these parts."""
     if not follows_nodes(placed):
         return
     _, across, along = following_axes(placed)

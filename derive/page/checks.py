@@ -24,7 +24,8 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Consecutive steps of one rule, checked by the same methods, with all inputs and the number of lines.
+    """Consecutive steps of one rule, of the same grade and checked by the same methods, with their inputs and the
+    number of their lines.
 
     `routes` names the second routes and, at the end, the motion if the witness simulated it numerically. `checks` names
     the checks.
@@ -80,7 +81,7 @@ class Checks:
         return sum(bool(erratum.answer) for erratum in self.errata)
 
     def counts(self) -> dict[str, int]:
-        """Return the counts for the table on the last page, each under the name of its column."""
+        """Return the counts for the tables of the report and of `derive check`, each under its name."""
         return {
             **{f"steps_{grade.value}": self.steps.get(grade, 0) for grade in LEAST_SURE_FIRST[1:]},
             "lines": sum(self.lines.values()),

@@ -49,7 +49,8 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions has a caption, which states these conditions; so has a force diagram.
+    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram has a caption
+    too.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _is_of_forces(d)]
@@ -167,8 +168,8 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each case of a plot that repeats an earlier case, and for each number that a case gives for
-    the symbol that varies along the horizontal axis or along a path."""
+    """Return an error for each case of a plot that repeats an earlier case. A number for the symbol that varies along
+    the horizontal axis or along a path is also an error."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):
@@ -293,7 +294,8 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
 
 
 def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the part with the drawing, or -1 for the statement; None if the drawing is hidden."""
+    """Return the index of the part with the drawing, or -1 for the statement; None if the drawing is hidden, or if no
+    part can show it."""
     placement = placement_of(problem, drawing.key)
     if placement is None or placement.at is None:
         return _earliest(drawing, derivation)

@@ -30,7 +30,8 @@ class Need:
 class Explanation:
     """The explanation of a step in `part`; `own_words` is the place where the problem rewords the `sentence`.
 
-    A rewording may mention `names`. The names are empty for the number of an answer, which cannot be reworded.
+    A rewording may mention `names`. The names are empty if no part shows the step. The number of an answer, for
+    example, cannot be reworded.
     """
 
     step: Step
@@ -121,8 +122,8 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield each answer that depends on the step, with the shortest path of steps that passes through no other
-    answer."""
+    """Yield each answer that depends on the step directly or through steps that are not answers, with the shortest path
+    of such steps."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

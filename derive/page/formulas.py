@@ -3,8 +3,8 @@
 A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. But an
 equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results must hold for the results of the
 page. If it does not, for example because the problem was changed and the equation was not, the author is warned. A
-formula that cannot be parsed is printed, with a warning for the author, if it
-contains only commands that derive can print.
+formula that cannot be parsed is printed, with a warning for the author, if it contains only commands that derive can
+print.
 """
 
 from __future__ import annotations
@@ -102,8 +102,8 @@ class Formulas:
         return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
 
     def _letter(self, symbol: Symbol, is_vector: bool) -> Any:
-        """Return a lone letter as the page prints it; the vector of that name if it is written as a vector, or if no
-        scalar has the name."""
+        """Return a lone letter as the page prints it. The result is the vector of that name if the author wrote a
+        vector, or if no scalar has the name."""
         vector = self.vectors.get(symbol.name)
         return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
@@ -166,7 +166,7 @@ class Formulas:
         """Warn if an equation between two formulas does not hold for the results of the page.
 
         There is no warning if the equation contains fewer than two results, because it may be a condition, such as
-        v^2 = g R; nor if it contains a symbol that is neither given nor derived.
+        v^2 = g R. Nor is there a warning if it contains a symbol that is neither given nor derived.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
@@ -182,8 +182,8 @@ class Formulas:
         self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
 
     def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
-        """Yield a value with the symbols of results replaced by each combination of their values, and the symbols in
-        these values in the same way."""
+        """Yield a value for each combination of values of the results in it: their symbols are replaced by these
+        values. Symbols of results in these values are replaced in the same way, up to `depth` times in all."""
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
         if not symbols or not depth:
             yield explicit(value)
@@ -244,7 +244,7 @@ def _unquotable(formula: TexFormula, error: Any) -> Complaint:
 def _compare(left: Side, right: Side) -> None:
     """Reject two sides of a chain that differ in shape or in dimension; zero and infinity fit every dimension."""
     if left.shape != right.shape:
-        message = f"`{left.text}` and `{right.text}` are not both scalars, or not both vectors or matrices of one size"
+        message = f"`{left.text}` and `{right.text}` must both be scalars, or vectors or matrices of the same size"
         raise Rejected(Complaint("dimension", message, right.place))
     for mine, others in zip(left.branches[0], right.branches[0], strict=True):
         (one, dimension), (other, its_dimension) = mine, others

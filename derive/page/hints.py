@@ -115,7 +115,7 @@ class _Hints:
         return (*shown, Text(f" ({name})")) if name else shown
 
     def _laws(self, sentence: Sentence) -> list[Block]:
-        """Return the laws of a sentence after its words, unless the words contain an answer."""
+        """Return the laws of a sentence, after its words if the words contain no answer."""
         words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
         is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
         laws = self._cut(sentence, slice(1))
@@ -166,8 +166,9 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether the line shows a result: it contains no symbol of an earlier step, and no integral or
-        derivative unless the result of the step contains one too; or its right side is the result of some step."""
+        """Return whether the line shows a result. This is so if its right side is the result of some step. It is also
+        so if nothing is left to do: no symbol of another step to replace, and no integral or derivative to evaluate,
+        except those in the result."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

@@ -30,7 +30,8 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign the number after the largest in use; if the last equation was removed, its number is used again."""
+        """Assign a number greater than all numbers in use: the number on the page `like`, if it is greater, else the
+        next number. If the last equation was removed, its number is used again."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 

@@ -16,8 +16,10 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 
 
 def numbers_left(problem: Problem, shown: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return a sentence with the numbers that the statement and the questions, `shown`, do not give; () if none is
-    left."""
+    """Return a sentence with the numbers that `shown` does not give; () if it gives all of them.
+
+    shown   the statement and the questions
+    """
     left = _untold(problem.measured, shown)
     return take(joined(map(_stated, left), words.labels["and"]), words) if left else ()
 

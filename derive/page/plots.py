@@ -1,7 +1,7 @@
 """The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states only the numbers that differ from the first case. If no case has a number for a symbol of the curves, the
-problem must have a number for this symbol.
+A case states only the numbers that differ from the first case. If neither a case nor the first case has a number for a
+symbol of the curve, the problem must have a number for this symbol.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Path: TypeAlias = tuple[tuple[float, float], ...]
 
 DEGREE, DEGREES = pi / 180, "°"
 
-PATH_STEPS = 720  # the points of a path, which may go round many times
+PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
 
 
@@ -74,7 +74,8 @@ class Curves:
 
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
-    """Return every curve of the plot with its extrema; raise `Rejected` if symbols lack a number."""
+    """Return every curve of the plot with its extrema; raise `Rejected` if a curve cannot be drawn, for example because
+    a symbol has no number."""
     written = _ends(plot, placement)
     letters = letters_in((*plot.shown, *written, *plot.values))
     given = placement.cases if placement and placement.cases else ((),)
@@ -107,7 +108,8 @@ def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
 def _numbers(
     problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
 ) -> dict[Any, Expr]:
-    """Return the number of each symbol; the symbol that varies has none. Each of `letters` needs a number."""
+    """Return the number of each symbol; a symbol that varies has none. Every other symbol in `letters` needs a
+    number."""
     numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     numbers |= {measured.symbol: measured.si for measured in known}
     missing = sorted(s.name for s in letters - {*numbers, *plot.varies})
@@ -168,7 +170,7 @@ def _curve(
     if any(each.has(nan, zoo, oo) for each in (*across, expr)):
         message = f"the plot `{plot.key}` has no curve for these numbers, because a denominator vanishes"
         place = _place(problem, placement)
-        raise Rejected(Complaint("drawing", message, place, help="change a number, for example at a resonance"))
+        raise Rejected(Complaint("drawing", message, place, help="change a number: avoid a resonance, for example"))
     lower, upper = (float(end) for end in ends)
     with told_at(_place(problem, placement)):
         if plot.levels is not None:

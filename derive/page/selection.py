@@ -196,7 +196,7 @@ class Selection:
 
 
 def _is_short(step: Step) -> bool:
-    """Return whether symbol and result of the step are short enough for a sentence: `rho = M/V`."""
+    """Return whether the step has a symbol and a result that is short enough for a sentence: `rho = M/V`."""
     value = step.result
     if step.symbol is None or isinstance(value, Relation | MatrixBase) and not _is_row(value):
         return False

@@ -12,8 +12,8 @@ _BY_REASON = {"rounded": "approx", "series": "approx", "limit": "tends"}
 
 
 def sign_before(form: Form) -> str:
-    """Return the name of the sign before a line: `approx` before a rounded number or a series, `tends` before a
-    limit."""
+    """Return the name of the sign before a line: `approx` before a rounded number or a series, `tends` before a limit,
+    `equals` before any other line."""
     return _BY_REASON.get(form.because, "equals")
 
 

@@ -53,8 +53,15 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Illustration:
-    """A drawing of the script: the stem of its file names, alternative text, caption, number, the steps that it
-    shows, and the steps before which it is placed."""
+    """A drawing on the page.
+
+    stem       the name of its files, without a suffix
+    alt        the alternative text
+    number     the figure number, if the drawing has a caption
+    at         the label of its part, or `statement`
+    rests_on   the keys of the steps that the drawing uses
+    leads_to   the keys of the steps before which the drawing is placed
+    """
 
     key: str
     stem: str

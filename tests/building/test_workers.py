@@ -34,7 +34,7 @@ from tests.courses import ROOT
 
 def test_a_worker_that_takes_too_much_memory_is_told_with_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("DERIVE_MEMORY", "0.5")
-    with pytest.raises(BuildFailed, match=r"error\[memory-limit\]: `greedy` took over 0.5 GiB of memory"):
+    with pytest.raises(BuildFailed, match=r"error\[memory-limit\]: `greedy` took more than 0.5 GiB of memory"):
         done(Job("`greedy`", lambda: bytearray(10**9)))
 
 

@@ -67,7 +67,7 @@ def test_one_process_answers_one_question_after_another(warm: Warm) -> None:
     [
         (ENDLESS, "time-limit", "`hw9/block` took over 1 s"),
         (BUSY, "time-limit", "`hw9/block` took over 1 s of processor time"),
-        (GREEDY, "memory-limit", "`hw9/block` took over 0.5 GiB of memory"),
+        (GREEDY, "memory-limit", "`hw9/block` took more than 0.5 GiB of memory"),
         (DEEP, "script", "the script failed: RecursionError"),
         (DYING, "worker-died", "`hw9/block` ended without a message: exit code 1"),
     ],

@@ -48,4 +48,4 @@ def test_a_message_is_the_one_that_was_put_together_above() -> None:
     said = MADE["messages"]()
     assert said["no-erratum"] == ["the document is right about `…`, so this is not an erratum"]
     assert "unknown unit `…`…" in said["unknown-unit"]
-    assert "… took over … GiB of memory" in said["memory-limit"]
+    assert "… took more than … GiB of memory" in said["memory-limit"]

@@ -53,7 +53,7 @@ def solve(arguments: argparse.Namespace) -> int:
 
 
 def _deliver_drawings(output: str, files: Files) -> None:
-    """Write the drawings that a page refers to into its folder."""
+    """Write the drawings to which a page refers into the folder of the page."""
     for name, content in files:
         deliver(content, str(Path(output).parent / name))
 

@@ -129,10 +129,10 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the view of a drawing. Of several views in space, this is the one in which vectors are long and far apart
-    and do not end at corners; without vectors, it is the usual view.
+    """Return the view of a drawing. Of several views in space, it is the one in which vectors are long and far apart
+    and do not end at corners. Without vectors, or with a plane that moves in time, it is the usual view.
 
-    `reach` is the size of the body.
+    `reach` is the size of the bodies.
     """
     if drawing.view == PLANE:
         return FLAT

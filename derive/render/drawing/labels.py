@@ -1,8 +1,8 @@
 """Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
-that it covers, and a smaller cost that grows with the distance from the position that the mark prefers. The position
-with the lowest total cost is used. Labels on the things that they name choose first; labels of lines, which can slide,
+that it covers. A smaller cost grows with the distance from the position that the mark prefers. The position with the
+lowest total cost is used. Labels on the things that they name choose first; labels of lines, which can slide,
 choose last. Then each label chooses again, now that the other labels have positions. If labels still cover something,
 a second search lets labels with few positions choose earlier, and the better result is used.
 """
@@ -25,7 +25,7 @@ LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering a
 HEAVY_ENOUGH = 20.0
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # in points: a wider line is represented by its two edges
-OWN = 1.5  # in points; a point of a drawn line that is closer than this to the line of a label is a point of this line
+OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line
 ROUNDS = 3
 
 

@@ -13,8 +13,11 @@ SMALL_PART = 0.5  # a bracket narrower than this fraction of a line is not broke
 
 
 def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
-    """Return the lines of a layout: the first has the width `room`, the others have `room_after`; one line if the
-    layout cannot be broken."""
+    """Return the lines of a layout; one line if the layout cannot be broken.
+
+    room         the greatest width of the first line, if the terms allow this width
+    room_after   the same for the other lines
+    """
     pieces = _pieces(layout, min(room, room_after)) if width(layout) > room else [layout]
     lines = [pieces[0]]
     for piece in pieces[1:]:

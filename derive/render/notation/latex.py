@@ -306,7 +306,8 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """Return whether two factors need a thin space between them: after a fraction, before a bracket or a vector."""
+    """Return whether two factors need a thin space between them: after a fraction, a root or a vector, and before a
+    bracket or a vector."""
     apart = Operator | Sign
     if isinstance(item, apart) or isinstance(before, apart | IntegralSign) or begins_with_number(item):
         return False
@@ -404,7 +405,7 @@ def escaped(text: str) -> str:
 
 
 def unprintable(text: str) -> int | None:
-    """Return the index of the first character that the fonts of the page do not have."""
+    """Return the index of the first character that the fonts of the page do not have; None if they have all."""
     return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
 
 

@@ -101,7 +101,7 @@ class RootSign:
 
 @dataclass(frozen=True)
 class Fenced:
-    """Brackets of one kind, ( ), { } or | |, around a layout."""
+    """Brackets of one kind, ( ), [ ], { } or | |, around a layout."""
 
     inside: Layout
     kind: str = "("

@@ -24,7 +24,10 @@ RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
-    """Return the terms of a sum in the order of print; `moving` gives the index of each coordinate."""
+    """Return the terms of a sum in the order of print.
+
+    moving   name -> index, for all symbols; a symbol is a coordinate if its rate is one of these symbols
+    """
     terms = roots_last(expr.as_ordered_terms())
     if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), like R + a/2
         return positive_first(sorted(terms, key=lambda term: not isinstance(term, ex.Amount)))
@@ -34,8 +37,7 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions; a number precedes a term with
-    the time: 1 + omega_0 t.
+    Plain terms come before fractions, roots and functions; a number precedes a term with the time: 1 + omega_0 t.
     """
 
     is_timed = any(term.has(ex.TIME) for term in terms)
@@ -90,7 +92,8 @@ def _coordinate(letter: Symbol) -> str:
 def ordered_factors(
     factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str] = ()
 ) -> list[Expr]:
-    """Return the factors of a product in the order of print; `moving` has the names of the coordinates and rates."""
+    """Return the factors of a product in the order of print; `moving` has the names of all symbols, as in
+    `ordered_terms`."""
     ordered = _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
     return _coordinates_last(ordered, dimension_of, moving)
 
@@ -126,9 +129,8 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Return the rank by which factors are sorted: first symbols, sums and roots in the order of `Place`, then
-    functions, then groups.
-    """
+    """Return the rank by which factors are sorted: first symbols, sums, roots and exponentials in the order of `Place`,
+    then functions, then groups."""
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
     if is_root and not base.has(Function):

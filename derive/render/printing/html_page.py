@@ -213,7 +213,7 @@ class HtmlPage:
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str) -> str:
-        """Return a row; if the page repeats an equation with all its lines, the repetition has no number."""
+        """Return a row; it shows the number of the equation only if no earlier row shows this number."""
         left = "" if line.left is None else _side("start", line.left)
         cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
         if line.frames_all:

@@ -41,7 +41,7 @@ class MarkdownPage:
         self.document, self.words, self.notation = document, words, notation
 
     def head(self) -> Iterator[str | Illustration]:
-        """Yield the title, the statement and the strategy."""
+        """Yield the title, the statement with its drawings, and the strategy."""
         yield self._heading("#", self.inline(self.document.title), self.words.worth(self.document.points))
         yield self.paragraph(self.document.statement)
         yield from (drawing for drawing in self.document.illustrations if drawing.at == STATEMENT)
@@ -55,7 +55,7 @@ class MarkdownPage:
         yield from self._blocks(part.blocks)
 
     def end(self) -> Iterator[str | Illustration]:
-        """Yield the text after the last part."""
+        """Yield the note and the sentences about the checks."""
         if self.document.note:
             yield f"**{text_markdown(self.words.labels['note'])}** {self.inline(self.document.note)}"
         if self.document.closing:
@@ -157,5 +157,5 @@ def formula_markdown(tex: str) -> str:
 
 
 def _in_text(text: str) -> str:
-    """Return text for use in the braces of `\\text`."""
+    """Return text for use in the braces of `\\text`; special characters become spaces."""
     return re.sub(r"[\\{}$#%&_^~]", " ", text)
