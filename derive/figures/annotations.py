@@ -33,6 +33,7 @@ PAST = 0.3  # length of the part of an axis outside a body, relative to the size
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
 FORCE = 48.0  # length of the greatest force in force diagrams, in points
+APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
@@ -252,6 +253,26 @@ class ForceArrow(Arrow):
 
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * FORCE / paper.scale
+
+
+@dataclass(frozen=True)
+class AppliedForce(Arrow):
+    """A given force on a part of a system: an arrow of a fixed length that starts outside this part.
+
+    clear   the distance of its start from the point of action, in points
+    """
+
+    clear: float = 0.0
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, along = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.value))
+        if not size_of(along):
+            return []
+        (x, y), ahead = paper.spots(start, plus(start, along, paper.reach))
+        u, v = direction((x, y), ahead)
+        far = self.clear + APPLIED
+        spots = (x + self.clear * u, y + self.clear * v), (x + far * u, y + far * v)
+        return [Stroke(spots, "given", head=True), Tag(self.label, spots[1], (u, v))]
 
 
 @dataclass(frozen=True)

@@ -10,17 +10,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, Relation, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Axis, AxisOfRotation, LengthMark, PointMark, Weight
+from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, PointMark, Weight
 from derive.figures.connections import Connections
 from derive.figures.contacts import contact_marks
 from derive.figures.elements import CLEAR
 from derive.figures.links import Link, angle_of_link, is_fixed, is_spring, link_to, moving_in, same
 from derive.figures.marks import Drawing, Mark, Marks
-from derive.figures.parts import BLOCK, BlockMark, ConnectionMark, ParticleMark, SpringMark, WheelMark
+from derive.figures.parts import BLOCK, BOB, BlockMark, ConnectionMark, ParticleMark, SpringMark, WheelMark
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
@@ -222,6 +222,8 @@ class _Scene:
         elif self.system.weights:
             yield GravityMark(downwards(self.rows), label=self.system.gravity)
         yield from self._fields()
+        if self.impact is None:
+            yield from self._applied()
 
     def _rolling(self) -> Iterable[Mark]:
         """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing for motion in a plane if
@@ -447,6 +449,20 @@ class _Scene:
                     yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
                     beside += 1
 
+    def _applied(self) -> Iterable[Mark]:
+        """Yield the arrows of given forces at a place, except friction and forces whose magnitude contains a root. A
+        force that varies with the time is drawn at t = 0 or, if it vanishes then, just after t = 0."""
+        unknown = {each.force for each in self.system.constraints}
+        for each in self.system.given_forces:
+            if len(each.at) != self.rows or unknown & ImmutableDenseMatrix(each.components).free_symbols:
+                continue
+            at_start = [[diff(c, TIME, n).subs(TIME, 0) for c in each.components] for n in (0, 1)]
+            drawn = next((ImmutableDenseMatrix(way) for way in at_start if any(way)), None)
+            size = _magnitude(each.components)
+            if drawn is not None and size is not None:
+                place = Location(tuple(each.place))
+                yield AppliedForce(column_of(place), drawn, 1, False, label=size, clear=self._covered(place) or BOB)
+
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity
         for particle in self.system.particles:
@@ -498,3 +514,13 @@ class _Scene:
         size = link.length * (1 + ECCENTRICITY * cos(angle)) / (1 + ECCENTRICITY * cos(u))
         e = explicit(ImmutableDenseMatrix(tuple(tidied(c / link.length) for c in link.way.components)))
         yield WayMark(column_of(centre) + size * e.xreplace({angle: u}), u, -pi, pi)
+
+
+def _magnitude(components: Sequence[Expr]) -> Expr | None:
+    """Return the magnitude of a force, or for a force along an axis its component without a minus sign; None if the
+    magnitude contains a root."""
+    (first, *others) = [c for c in components if c != 0] or [ZERO]
+    if not others:
+        return -first if first.could_extract_minus_sign() else first
+    size = tidied(sqrt(tidied(Add(*(c**2 for c in components)))))
+    return None if size.has(Abs) or any(not power.exp.is_integer for power in size.atoms(Pow)) else size

@@ -11,7 +11,7 @@ from sympy import cos, pi, sin, symbols
 
 from derive.algebra.expressions import TIME, scalar
 from derive.figures import particle, sketch
-from derive.figures.annotations import Axis, AxisOfRotation, PointMark
+from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import PLANE, SPACE
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -24,6 +24,7 @@ from derive.mechanics import (
     central,
     charge,
     coordinate,
+    force,
     massless_rod,
     point,
     space,
@@ -39,7 +40,7 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.steps.record import recorded
 from tests.courses import ROOT
-from tests.figures.machines import SKETCHES, SYSTEMS, G, a, at, k, labels, m, m1, m2, of, omega, seen
+from tests.figures.machines import SKETCHES, SYSTEMS, G, a, at, g, k, labels, m, m1, m2, of, omega, seen
 from tests.figures.scenery import strokes
 
 
@@ -138,6 +139,36 @@ def test_uniform_fields_are_drawn_beside_a_charge() -> None:
         at = point(coordinate("x", "length"), coordinate("y", "length"), coordinate("z", "length"))
         found = sketch("ion", System(Particle(m, at), charge(q, at, (0, E, 0), (0, 0, B))))
     assert labels(found, FieldMark) == ["E", "B"]
+
+
+F, tilt = symbols("F alpha", positive=True)
+
+
+@pytest.mark.parametrize(
+    ("components", "label", "drawn"),
+    [
+        ((F, 0), F, (F, 0)),
+        ((-F, 0), F, (-F, 0)),
+        ((-F * cos(omega * TIME), 0), F * cos(omega * TIME), (-F, 0)),
+        ((0, F * sin(omega * TIME)), F * sin(omega * TIME), (0, F * omega)),
+        ((F * cos(tilt), F * sin(tilt)), F, (F * cos(tilt), F * sin(tilt))),
+    ],
+)
+def test_a_given_force_is_drawn_in_its_direction_at_the_start(
+    components: tuple[Any, ...], label: Any, drawn: tuple[Any, ...]
+) -> None:
+    with recorded():
+        place = point(coordinate("x", "length"), coordinate("y", "length"))
+        found = sketch("cart", System(Particle(m, place), force(components, place)))
+    (arrow,) = of(found, AppliedForce)
+    assert (arrow.label, tuple(arrow.value)) == (label, drawn)
+
+
+def test_a_force_whose_magnitude_has_a_root_is_not_drawn() -> None:
+    with recorded():
+        place = point(coordinate("x", "length"), coordinate("y", "length"))
+        found = sketch("cart", System(Particle(m, place), force((F, 2 * F / 3 + m * g), place), weight(g)))
+    assert of(found, AppliedForce) == []
 
 
 def on_a_turning_table() -> Any:
