@@ -60,7 +60,8 @@ def left_older(
     older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
     if not older:
         return []
-    message = f"older than the problems, but not made again: {', '.join(older)} in `{shown_path(record.folder)}`"
+    told = [*older[:MOST], *([f"and {len(older) - MOST} more"] if older[MOST:] else [])]
+    message = f"older than the problems, but not made again: {', '.join(told)} in `{shown_path(record.folder)}`"
     return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
 
 

@@ -348,8 +348,9 @@ class BlockMark(_Piecewise):
         """Return the label: on the block if it is a short name, otherwise above the block."""
         if not isinstance(self.label, Symbol) or len(self.label.name.replace("_", "")) > SHORT:
             return Tag(self.label, middle, (0.0, 1.0), self.usual[1] / 2 + 3.0)
-        (x, y), (u, v) = corners[:2]
-        return Tag(self.label, middle, ((u - x) * 0.3, (v - y) * 0.3), on=True)
+        (x, y), (u, v), (p, q), _ = corners
+        outside = hypot(p - u, q - v) / 2 + 3.0
+        return Tag(self.label, middle, ((u - x) * 0.3, (v - y) * 0.3), on=True, outside=outside)
 
 
 @dataclass(frozen=True)
@@ -438,13 +439,9 @@ class PlankMark(WedgeMark):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*self.places(paper.numbers))
-        left, right = midway(spots[0], spots[3]), midway(spots[1], spots[2])
-        return self._shown(spots, _near_end(left, right))
-
-
-def _near_end(left: Spot, right: Spot) -> Spot:
-    """Return the place of the label of a plank, near its right end and clear of dimension lines."""
-    return left[0] + 0.9 * (right[0] - left[0]), left[1] + 0.9 * (right[1] - left[1])
+        end = midway(spots[1], spots[2])  # the label is next to the right end, because the plank may be thin
+        beside = Tag(self.label, end, direction(midway(spots[0], spots[3]), end))
+        return [Patch(spots, "body"), Stroke((*spots, spots[0]), "edge"), beside]
 
 
 def _opening(before: Spot, corner: Spot, after: Spot) -> float:

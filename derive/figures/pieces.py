@@ -58,6 +58,8 @@ class Tag:
               other side
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
+    outside   for a label on a block, the distance from the spot at which the label is outside the block, in points; the
+              label is there if there is no room on the block
     """
 
     label: Any
@@ -66,6 +68,7 @@ class Tag:
     gap: float = 3.0
     way: Spot | None = None
     on: bool = False
+    outside: float = 0.0
 
     @property
     def spots(self) -> tuple[Spot, ...]:

@@ -150,3 +150,15 @@ def test_a_label_does_not_touch_the_edge_of_a_wide_line() -> None:
     rod, tag = Stroke(((-100.0, 0.0), (100.0, 0.0)), "rod"), Tag("a", (0.0, 10.0), (0.0, -1.0), 0.0)
     (label,) = placed((rod, tag), lambda _: (WIDTH, 6.0), lambda _: 8.0)
     assert label.extent[1] > 4.0 or label.extent[3] < -4.0
+
+
+def test_two_labels_in_one_row_are_so_far_apart_that_they_do_not_read_as_a_product() -> None:
+    one, other = labels(Tag("a", (0.0, 0.0), (1.0, 0.0)), Tag("b", (16.0, 0.0), (1.0, 0.0)))
+    apart = max(one.extent[0], other.extent[0]) - min(one.extent[2], other.extent[2])
+    assert apart >= 7.0 or abs(middle(one)[1] - middle(other)[1]) > HEIGHT / 2
+
+
+def test_a_label_that_has_no_room_on_its_block_is_above_the_block() -> None:
+    edges = [Stroke(((-11.0, y), (11.0, y)), "edge") for y in (-2.0, 2.0)]
+    (label,) = labels(*edges, Tag("M", (0.0, 0.0), (6.0, 0.0), on=True, outside=5.0))
+    assert label.extent[1] > 2.0

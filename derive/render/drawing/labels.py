@@ -22,6 +22,8 @@ Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, abo
 
 CLEAR = 1.5  # distance between a label and a line, in points
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
+OUTSIDE = 6.0  # cost of a position outside the thing that the label names
+BESIDE, TOGETHER = 7.0, 5.0  # two labels in one row closer than this distance, in points, read as a product; its cost
 HEAVY_ENOUGH = 20.0
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # in points: a wider line is represented by its two edges
@@ -127,9 +129,15 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
 
 
 def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes in the middle of the thing that the label names, or a little to one side."""
+    """Yield boxes in the middle of the thing that the label names, or a little to one side, then boxes outside it."""
     for share in (0.0, -0.5, 0.5, -1.0, 1.0):
         yield 4.0 * abs(share), _box(_moved(tag.spot, tag.towards, share), width, height)
+    (x, y), far = tag.towards, hypot(*tag.towards)
+    for side in (1.0, -1.0) if far and tag.outside else ():
+        away = side * (tag.outside + (abs(y) * width + abs(x) * height) / 2 / far)
+        for share in (0.0, -0.5, 0.5, -1.0, 1.0):
+            middle = _moved(_moved(tag.spot, tag.towards, share), (-y / far, x / far), away)
+            yield OUTSIDE + 2.0 * abs(share) + (side < 0) * 2.0, _box(middle, width, height)
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
@@ -157,7 +165,14 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
     left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
     lines = sum(left < x < right and below < y < above for x, y in drawn)
     labels = sum(left < o[2] and o[0] < right and below < o[3] and o[1] < above for o in others)
-    return lines * LINE + labels * HEAVY
+    return lines * LINE + labels * HEAVY + TOGETHER * sum(_reads_as_product(box, other) for other in others)
+
+
+def _reads_as_product(one: Extent, other: Extent) -> bool:
+    """Return whether two labels are so close in one row that they read as a product."""
+    common = min(one[3], other[3]) - max(one[1], other[1])
+    in_a_row = common > 0.5 * min(one[3] - one[1], other[3] - other[1])
+    return in_a_row and max(one[0], other[0]) - min(one[2], other[2]) < BESIDE
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
