@@ -310,8 +310,13 @@ class _Writer:
     def _observed(self, index: int) -> tuple[Inline, ...]:
         """Return the observations about the answers of a part, as one paragraph."""
         keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
-        said = [self._phrase(self.derivation.step(key)) for key in keys]
+        said = [self._without_lines(self._phrase(self.derivation.step(key))) for key in keys]
         return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
+
+    def _without_lines(self, nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
+        """Return the words for an observation, which has no lines."""
+        kept = [node for node in nodes if not isinstance(node, Chain)]
+        return (*kept[:-1], Text(kept[-1].text.rstrip())) if kept and isinstance(kept[-1], Text) else tuple(kept)
 
     def _limits(self) -> PartPage | None:
         """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
