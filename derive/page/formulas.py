@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from itertools import islice, pairwise, product
 from typing import TYPE_CHECKING, Any
 
-from sympy import Expr, Integer, MatrixBase, MatrixSymbol, Symbol, oo
+from sympy import Add, Expr, Integer, MatrixBase, MatrixSymbol, Pow, Symbol, oo
 
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.equality import equal
@@ -29,12 +29,14 @@ from derive.errors import Complaint, Rejected
 from derive.page.wording import Math, Text
 from derive.steps.chain import short
 from derive.steps.step import Step, is_zero
+from derive.steps.trial_numbers import assumptions_about, everywhere, trial_points
 
 if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
 FORCES = ("force", "torque")  # kinds of unknowns that vary in time as coordinates do, but have values in the equations
+TRIALS, DIGITS = 3, 30  # numbers of trial points and digits with which roots of sums are compared
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
@@ -175,7 +177,7 @@ class Formulas:
         used = self.results.keys() & apart.free_symbols
         values = [value for symbol in used for value in self.results[symbol]]
         known = {*self.results, *self.given, *self.varying}.union(*(value.free_symbols for value in values))
-        if len(used) < 2 or not apart.free_symbols <= known or any(map(is_zero, self._in_givens(apart))):
+        if len(used) < 2 or not apart.free_symbols <= known or any(map(_seems_zero, self._in_givens(apart))):
             return
         message = f"`{left.text} = {right.text}` is printed, but it does not hold for the results of the page"
         help_line = "correct the equation; if it is about a special case, you can ignore the warning"
@@ -268,3 +270,12 @@ def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[st
 
 def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:
     return _Derived(symbol.name, symbol, "", derived=dimension or NUMBER)
+
+
+def _seems_zero(value: Any) -> bool:
+    """Whether a value is zero or, with roots of sums that no normal form decides, vanishes at trial numbers."""
+    if is_zero(value):
+        return True
+    roots = any(not power.exp.is_integer and power.base.has(Pow, Add) for power in value.atoms(Pow))
+    points = trial_points(value.free_symbols, *assumptions_about(value.free_symbols), tried=TRIALS)
+    return roots and everywhere(points, lambda point: abs(value.xreplace(point).evalf(DIGITS)) < 10 ** (5 - DIGITS))

@@ -230,3 +230,25 @@ def test_an_equation_of_the_wording_that_remained_while_the_problem_changed_is_r
     assert f"`{typed}` is printed, but it does not hold for the results of the page" in said
     unchanged = rendered(course_with(tmp_path / "unchanged", MACHINE), "trial/one").warnings
     assert not [each for each in unchanged if each.code == "differs-from-result"]
+
+
+DOUBLE = """title: Two pendulums
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle, phi: angle}
+  places: {A: [l*sin(theta), -l*cos(theta)], B: {from: A, by: [l*sin(phi), -l*cos(phi)]}}
+  particles: {upper: {mass: m, at: A}, lower: {mass: m, at: B}}
+  gravity: g
+statement: A double pendulum.
+note: The ratio is $\\omega_2/\\omega_1 = 1 + \\sqrt{2}$.
+parts:
+  - {ask: Find the modes., answer: normal_modes}
+"""
+
+
+def test_a_ratio_of_roots_of_sums_is_compared_at_trial_numbers(tmp_path: Path) -> None:
+    assert not rendered(course_with(tmp_path, DOUBLE), "trial/one", only={"text"}).warnings
+    wrong = edited(DOUBLE, ("1 + ", "2 + "))
+    (warning,) = rendered(course_with(tmp_path / "wrong", wrong), "trial/one", only={"text"}).warnings
+    assert warning.code == "differs-from-result"
