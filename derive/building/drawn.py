@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
+OF_MODES = 3.6, 4.6  # the width of the drawing of a normal mode, and its width if it is low; so three are in a row
 
 
 def drawing_files(
@@ -116,7 +117,7 @@ def _drawn(
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
-    sizes = (width,) if width else (WIDTH, WIDE)
+    sizes = (width,) if width else OF_MODES if what.mode is not None else (WIDTH, WIDE)
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
         sheet = sheet_of(pieces, notation, alt, on_paper)

@@ -105,6 +105,32 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 
 
 @dataclass(frozen=True)
+class ShownMode:
+    """A normal mode that a drawing shows.
+
+    frequency   the symbol of its frequency, or of the rate at which it grows
+    sort        "oscillating", "growing" or "free"
+    degenerate  whether other modes have the same frequency
+    lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends on
+                letters without numbers; or "longer" if a small displacement has a longer arrow
+    letters     the letters on which the ratio depends
+    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"); a mass at
+                rest has none
+    hangs       whether the order is from top to bottom; otherwise it is from left to right
+    siblings    the keys of all modes that are found together, after which their drawings are placed
+    """
+
+    frequency: Any
+    sort: str
+    degenerate: bool
+    lengths: str
+    letters: tuple[Any, ...]
+    moves: tuple[tuple[Any, tuple[str, ...]], ...]
+    hangs: bool
+    siblings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Drawing:
     """A drawing.
 
@@ -115,6 +141,7 @@ class Drawing:
     left_out      conditions of the system that the drawing does not show
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
+    mode          the normal mode that the drawing shows; None in any other drawing
     """
 
     key: str
@@ -125,6 +152,7 @@ class Drawing:
     left_out: tuple[Any, ...] = ()
     leads_to: tuple[str, ...] = ()
     forces_on: Any = None
+    mode: ShownMode | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:
