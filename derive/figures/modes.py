@@ -25,7 +25,7 @@ from derive.figures.pieces import Paper, Piece, Stroke
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.sketches import things_of
-from derive.figures.space import Spot, numeric, plus, size_of
+from derive.figures.space import Spot, direction, numeric, size_of
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.mechanics.vibrations.facts import Linear, Mode
@@ -36,13 +36,15 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["draw_modes"]
 
-ANGLE = Rational(7, 20)  # about the greatest angle of displacement, in radians
+ANGLE = Rational(2, 5)  # about the greatest angle of displacement, in radians
 MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative to the least distance in the system
-LONGEST = 30.0  # the length of the longest arrow, in points
-SHORTEST = 9.0  # the length of the shortest arrow, in points
-FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ABOVE = 5.0  # the distance between a mass and an arrow next to it, in points
+# Lengths in points, before the drawing is reduced.
+SHORTEST = 14.0  # the length of the shortest arrow
+LONGEST = 42.0, 56.0  # the length of the longest arrow: usually, and if other arrows would be shorter than SHORTEST
+FREE = 0.8  # no length in points: the greatest length of an arrow next to its mass, relative to the least distance between two masses
+ABOVE = 6.0  # the distance between a mass and an arrow next to it
 ALONG = 0.45  # lines at a mass that make an angle with a smaller sine lie along its arrow
+SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: "free"}  # sign of omega^2 -> sort of the mode
 
@@ -56,7 +58,7 @@ class DisplacementArrow(Mark):
     others   the displacements of all masses, of which the greatest has the longest arrow
     side     the direction from the mass to the arrow, if the arrow is next to the mass; None if it starts at the mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
-    off      the other part of this distance, in points
+    off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses; None for a single mass
     """
 
@@ -70,25 +72,28 @@ class DisplacementArrow(Mark):
     layer: ClassVar[int] = 8
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        greatest = max(size_of(paper.numbers.vector(each)) for each in self.others)
-        way = paper.spot(paper.numbers.vector(self.value))
-        size = hypot(*way)
-        if size < 1e-9 * greatest * paper.scale or not greatest:
+        sizes = [size_of(paper.numbers.vector(each)) for each in self.others]
+        moving = [size for size in sizes if size > SLIGHT * max(sizes)]
+        way = paper.numbers.vector(self.value)
+        size = size_of(way)
+        if size <= SLIGHT * max(sizes):
             return []
-        share = size / (greatest * paper.scale)
-        length = max(share * self._longest(paper), SHORTEST)
-        along = way[0] / size, way[1] / size
+        length = max(size / max(sizes) * self._longest(paper, min(moving) / max(sizes)), SHORTEST)
+        along = direction((0.0, 0.0), paper.spot(way))
         x, y = paper.spot(paper.numbers.vector(self.at))
         if self.side is None:
-            return [Stroke(((x, y), (x + length * along[0], y + length * along[1])), "asked", head=True)]
+            ends = tuple((x + far * along[0], y + far * along[1]) for far in (self.off, self.off + length))
+            return [Stroke(ends, "asked", head=True)]
         u, v = self._beside(paper)
         ends = tuple((x + u + s * length * along[0], y + v + s * length * along[1]) for s in (-0.5, 0.5))
         return [Stroke(ends, "asked", head=True)]
 
-    def _longest(self, paper: Paper) -> float:
+    def _longest(self, paper: Paper, least: float) -> float:
+        """Return the length of the longest arrow; `least` is the ratio of the least to the greatest displacement."""
+        longest = min(max(LONGEST[0], SHORTEST / least), LONGEST[1])
         if self.side is None or self.room is None:
-            return LONGEST
-        return min(LONGEST, FREE * paper.numbers.of(self.room) * paper.scale)
+            return longest
+        return min(longest, FREE * paper.numbers.of(self.room) * paper.scale)
 
     def _beside(self, paper: Paper) -> Spot:
         x, y = paper.spot(paper.numbers.vector(self.side))
@@ -285,7 +290,7 @@ class _Displaced:
             return self._side(normal), Integer(0), off + ABOVE
         lines = list(self._lines(at))
         if not any(abs(x * v - y * u) < ALONG for u, v in lines):
-            return None, Integer(0), 0.0
+            return None, Integer(0), BOB if any(isinstance(mark, ParticleMark) for mark in own) else 0.0
         across = sum(normal[0] * u + normal[1] * v for u, v in lines if abs(x * v - y * u) >= ALONG)
         if across > 1e-6:
             normal = -normal[0], -normal[1]
@@ -340,7 +345,7 @@ class _Displaced:
 
     def _is_lengthened(self) -> bool:
         sizes = [hypot(*(self.number(c) for c in each)) for each, _ in self._moving]
-        return min(sizes) / max(sizes) < SHORTEST / LONGEST
+        return min(sizes) / max(sizes) < SHORTEST / LONGEST[1]
 
     def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...]], ...], bool]:
         """Return the masses in order with the directions of their displacements, and whether the order is from top to
