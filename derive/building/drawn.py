@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-OF_MODES = 3.4, 4.5  # the width of the drawing of a normal mode, and its width if it is low; so three are in a row
+OF_MODES = 3.6, 4.7  # the width of the drawing of a normal mode, and its width if it is low; so three are in a row
 
 
 def drawing_files(

@@ -39,8 +39,9 @@ def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> 
     if drawing.forces_on is not None and paper.is_of_a_point:
         return _pieces(drawing, paper)  # all lengths of the force diagram of a particle are in points
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
-    # The arrows of a mode do not change the scale, so that all modes of a system have almost the same scale.
-    measured = replace(drawing, marks=tuple(mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow)))
+    # Arrows that start at the masses of a mode do not change the scale, so that all modes have almost the same scale.
+    kept = (mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow) or mark.side is not None)
+    measured = replace(drawing, marks=tuple(kept))
     for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
         spots = [spot for piece in _pieces(measured, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
