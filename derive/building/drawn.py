@@ -141,8 +141,13 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
     """Return a number for each symbol of a problem and of a drawing: from the entry of the drawing in the problem, from
-    the given values, or a substitute number."""
+    the given values, or a substitute number. The drawing of a normal mode also uses the numbers of the sketch of the
+    system, except those of coordinates."""
     said = dict(placement.values) if placement else {}
+    if isinstance(drawing, Drawing) and drawing.mode is not None:
+        sketch = placement_of(problem, drawing.mode.like)
+        coordinates = dict(drawing.coordinates)
+        said = {s: e for s, e in (sketch.values if sketch else ()) if s not in coordinates} | said
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
     letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]

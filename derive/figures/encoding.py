@@ -19,4 +19,11 @@ def drawings_from_data(data: Any) -> tuple[Recorded, ...]:
 
 
 def _classes() -> dict[str, Any]:
-    return {**MARK_CLASSES, "Across": Across, "Drawing": Drawing, "Levels": Levels, "Plot": Plot, "ShownMode": ShownMode}
+    return {
+        **MARK_CLASSES,
+        "Across": Across,
+        "Drawing": Drawing,
+        "Levels": Levels,
+        "Plot": Plot,
+        "ShownMode": ShownMode,
+    }

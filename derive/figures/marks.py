@@ -24,6 +24,7 @@ Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
 InWords: TypeAlias = tuple[str, dict[str, Any]]  # the name of a phrase, and the values of its placeholders
 LAST = 99  # the layer of marks that are drawn last, because they are placed next to all other marks
 SPACE, PLANE = "space", "plane"
+SENSES = ("clockwise", "counterclockwise")
 
 BESIDE = {"beside": True}  # metadata of a field that is only a label: symbols in labels need no numbers
 MARK_CLASSES: dict[str, type[Mark]] = {}  # name -> class, for all classes of marks
@@ -111,13 +112,15 @@ class ShownMode:
     frequency   the symbol of its frequency, or of the rate at which it grows
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
-    lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends on
-                letters without numbers; or "longer" if a small displacement has a longer arrow
+    lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
+                on letters without numbers; "longer" if the arrow of a small displacement is longer than its ratio; or
+                "alone" for a single mass
     letters     the letters on which the ratio depends
-    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"); a mass at
-                rest has none
-    hangs       whether the order is from top to bottom; otherwise it is from left to right
+    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"), or with its
+                sense of rotation, ("clockwise",), if its centre of mass is at rest; a mass at rest has none
+    order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
     siblings    the keys of all modes that are found together, after which their drawings are placed
+    like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
     """
 
     frequency: Any
@@ -126,8 +129,19 @@ class ShownMode:
     lengths: str
     letters: tuple[Any, ...]
     moves: tuple[tuple[Any, tuple[str, ...]], ...]
-    hangs: bool
+    order: str
     siblings: tuple[str, ...]
+    like: str = ""
+
+    @property
+    def turns(self) -> bool:
+        """Whether a body rotates about its centre of mass, which is at rest."""
+        return any(ways and ways[0] in SENSES for _, ways in self.moves)
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether a mass is displaced."""
+        return any(ways and ways[0] not in SENSES for _, ways in self.moves)
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import hypot, isfinite
 from typing import Any, ClassVar
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
 from sympy.matrices import MatrixBase
 
-from derive.algebra.expressions import TIME, explicit
+from derive.algebra.expressions import TIME, column, explicit
 from derive.algebra.tidy import tidied
+from derive.figures.annotations import Turn
 from derive.figures.links import moving_in
-from derive.figures.marks import Drawing, Mark, Position, ShownMode
-from derive.figures.parts import BLOCK, BOB, BlockMark, ParticleMark, WheelMark
+from derive.figures.marks import SENSES, Drawing, Mark, Position, ShownMode
+from derive.figures.parts import BLOCK, BOB, BlockMark, ParticleMark, WedgeMark, WheelMark
 from derive.figures.pieces import Paper, Piece, Stroke
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
@@ -31,7 +32,7 @@ from derive.mechanics.model.system import System
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.mechanics.vibrations.modes import MODE_SHAPE
 from derive.steps.known_numbers import with_numbers
-from derive.steps.signs import sign_known
+from derive.steps.signs import sign_beside_root, sign_known
 from derive.steps.step import Quantity, is_zero
 
 __all__ = ["draw_modes"]
@@ -41,12 +42,15 @@ MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative 
 # Lengths in points, before the drawing is reduced.
 SHORTEST = 14.0  # the length of the shortest arrow
 LONGEST = 42.0, 56.0  # the length of the longest arrow: usually, and if other arrows would be shorter than SHORTEST
-FREE = 0.8  # no length in points: the greatest length of an arrow next to its mass, relative to the least distance between two masses
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
+
+FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
+ROUND = Rational(1, 4)  # the radius of the arrow of a rotation, relative to the size of the drawing
 ALONG = 0.45  # lines at a mass that make an angle with a smaller sine lie along its arrow
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
-SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: "free"}  # sign of omega^2 -> sort of the mode
+FREE_MOTION = "free"
+SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: FREE_MOTION}  # sign of omega^2 -> sort of the mode
 
 
 @dataclass(frozen=True)
@@ -101,15 +105,18 @@ class DisplacementArrow(Mark):
         return far * x, far * y
 
 
-def draw_modes(system: System, steps: Sequence[Quantity], named: Sequence[Location] = ()) -> list[Drawing]:
+def draw_modes(
+    system: System, steps: Sequence[Quantity], named: Sequence[Location] = (), like: str = ""
+) -> list[Drawing]:
     """Draw each normal mode of a system in a plane.
 
     steps   the established steps; the steps of the shapes of modes are drawn
     named   positions of further parts, as for `sketch`
+    like    the name of the sketch of the system, whose numbers are also used here
 
     The name of a drawing is the key of the shape. A system that a sketch cannot show, or that a prescribed motion
-    drives, has no such drawings. A mode is left out if the direction of a displacement depends on unknown numbers, or
-    if a body rotates about a centre of mass at rest.
+    drives, has no such drawings. A mode is left out if the direction of a displacement depends on unknown numbers. If
+    only free motions would be left, none is drawn.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -126,7 +133,12 @@ def draw_modes(system: System, steps: Sequence[Quantity], named: Sequence[Locati
         if {q.symbol for q, _ in linear.place} == {*system.coordinates}:
             siblings = tuple(each.key for each in own)
             modes = [_Displaced(system, linear, each, *things) for each in own]
-            found += [mode.drawn(siblings) for mode in modes if mode.is_known]
+            known = [mode for mode in modes if mode.is_known]
+            found += (
+                [mode.drawn(siblings, like) for mode in known]
+                if any(mode.sort != FREE_MOTION for mode in known)
+                else []
+            )
     return found
 
 
@@ -173,6 +185,22 @@ class _Displaced:
         return particles + [(each.body.mass, each.centre) for each in self.system.bodies]
 
     @cached_property
+    def rotations(self) -> list[Expr]:
+        """The rotations of the bodies whose centres of mass are at rest, counterclockwise, for each mass; zero for any
+        other mass."""
+        angles = [Integer(0)] * len(self.system.particles) + [each.turned for each in self.system.bodies]
+        turned = [self._change(ImmutableDenseMatrix([angle]))[0] for angle in angles]
+        return [Integer(0) if any(d) else rate for d, rate in zip(self.displacements, turned, strict=True)]
+
+    @property
+    def frequency(self) -> Quantity:
+        return next(each for each in self.shape.parents if each.fact(Mode) is not None)
+
+    @property
+    def sort(self) -> str:
+        return SORTS[self.frequency.needed(Mode).root.sign]
+
+    @cached_property
     def displacements(self) -> list[MatrixBase]:
         return [self._change(column_of(at)) for _, at in self.masses]
 
@@ -195,14 +223,14 @@ class _Displaced:
         """Whether the directions of all displacements are known for all allowed values of the symbols."""
         if not all(self._is_real(value) for value in self.rest.values()):
             return False
-        if not any(any(each) for each in self.displacements) or not all(map(self._is_number, self.displacements)):
+        if not all(map(self._is_number, (*self.displacements, ImmutableDenseMatrix(self.rotations)))):
             return False
-        if any(self._only_rotates(each) for each in self.system.bodies):
+        components: list[Expr | None] = [self._along(each, at) for each, (_, at) in self._moving]
+        components += [each for each in self.rotations if each != 0]
+        known = [each for each in components if each is not None]
+        if not known or len(known) < len(components):
             return False
-        first, *others = [self._along(each, at) for each, (_, at) in self._moving]
-        return first is not None and all(
-            each is not None and sign_known(tidied(each / first)) in (1, -1) for each in others
-        )
+        return all(sign_beside_root(tidied(each / known[0])) in (1, -1) for each in known[1:])
 
     @property
     def _moving(self) -> list[tuple[MatrixBase, tuple[Expr, Location]]]:
@@ -221,10 +249,6 @@ class _Displaced:
         except TypeError:  # a complex number
             return False
 
-    def _only_rotates(self, placed: Any) -> bool:
-        is_at_rest = not any(self._change(column_of(placed.centre)))
-        return is_at_rest and any(self._change(ImmutableDenseMatrix([placed.turned])))
-
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
         """Return the component of a displacement along a direction that does not depend on the mode or on unknown
         numbers; None if there is no such direction."""
@@ -239,13 +263,13 @@ class _Displaced:
 
     # --- the drawing ---
 
-    def drawn(self, siblings: tuple[str, ...]) -> Drawing:
+    def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
         values = {**self.values, **self._state()}
-        return drawing(self.shape.key, *self.things, *self._arrows(), values=values, mode=self._shown(siblings))
+        return drawing(self.shape.key, *self.things, *self._arrows(), values=values, mode=self._shown(siblings, like))
 
     def _state(self) -> dict[Symbol, Expr]:
         """Return the values of the coordinates in the drawing."""
-        least = self._least([place for place in self.system.places])
+        least = self._least(self.system.places)
         usual = {
             q: ANGLE if self.system.coordinates[q] == "angle" else MOVED * (least or Integer(1)) for q in self.rest
         }
@@ -269,10 +293,23 @@ class _Displaced:
     def _arrows(self) -> Iterator[Mark]:
         room = self._least([at for _, at in self.masses])
         moved = tuple(self.displacements)
-        for displacement, (_, at) in zip(self.displacements, self.masses, strict=True):
-            yield DisplacementArrow(
-                column_of(at), displacement, moved, *self._beside(displacement, at), room=room, keys=(self.shape.key,)
-            )
+        keys = (self.shape.key,)
+        for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
+            if turned != 0:
+                yield Turn(column_of(at), column(0, 0, turned), ROUND, column(0, 1, 0), keys=keys)
+            else:
+                beside = self._beside(displacement, at)
+                yield DisplacementArrow(self._start(at), displacement, moved, *beside, room=room, keys=keys)
+
+    def _start(self, at: Location) -> Position:
+        """Return the place at which the arrow of a mass starts: its place, or the middle of a wedge or plank."""
+        own = column_of(at)
+        for mark in self.things:
+            if isinstance(mark, WedgeMark):
+                places = [*mark.corners, (mark.corners[0] + mark.corners[1]) / 2]
+                if any(self._distance(place, own) < 1e-9 for place in places):
+                    return sum(mark.corners[1:], mark.corners[0]) / len(mark.corners)
+        return own
 
     def _beside(self, displacement: MatrixBase, at: Location) -> tuple[Position, Any, float]:
         """Return the side of the mass on which its arrow is drawn, and the distance from the mass, as a length and in
@@ -312,11 +349,10 @@ class _Displaced:
         """Yield the directions of the lines that start at a mass, such as springs and rods."""
         here = column_of(at)
         for mark in self.things:
-            ends = [getattr(mark, name, None) for name in ("start", "end")]
-            ends = list(getattr(mark, "along", ())) if isinstance(getattr(mark, "along", None), tuple) else ends
-            if any(end is None for end in ends):
-                continue
-            for one, other in (*zip(ends, ends[1:], strict=False), *zip(ends[1:], ends, strict=False)):
+            along = getattr(mark, "along", None)
+            ends = along if isinstance(along, tuple) else (getattr(mark, "start", None), getattr(mark, "end", None))
+            pairs = [pair for pair in pairwise(ends) if None not in pair]
+            for one, other in (*pairs, *(pair[::-1] for pair in pairs)):
                 far = self._distance(one, other)
                 if far > 1e-9 and self._distance(one, here) < 1e-9:
                     u, v = (self.number(c) for c in other - one)
@@ -327,37 +363,38 @@ class _Displaced:
 
     # --- what the caption and the description in words state ---
 
-    def _shown(self, siblings: tuple[str, ...]) -> ShownMode:
-        frequency = next(each for each in self.shape.parents if each.fact(Mode) is not None)
-        root = frequency.needed(Mode).root
-        letters = self._letters()
-        moves, hangs = self._moves()
+    def _shown(self, siblings: tuple[str, ...], like: str) -> ShownMode:
+        root, letters = self.frequency.needed(Mode).root, self._letters()
+        moves, order = self._moves()
         lengths = "of_letters" if letters else "longer" if self._is_lengthened() else "to_scale"
-        sort, degenerate = SORTS[root.sign], root.times > 1
-        return ShownMode(frequency.symbol, sort, degenerate, lengths, letters, moves, hangs, siblings)
+        lengths = lengths if len(self.masses) > 1 else "alone"
+        return ShownMode(
+            self.frequency.symbol, self.sort, root.times > 1, lengths, letters, moves, order, siblings, like
+        )
 
     def _letters(self) -> tuple[Symbol, ...]:
         """Return the symbols without numbers on which the ratio of the displacements depends."""
-        (first, _), *others = self._moving
-        squares = [tidied(each.dot(each) / first.dot(first)) for each, _ in others]
-        found = set().union(*(explicit(with_numbers(each)).free_symbols for each in squares)) if squares else set()
-        return tuple(sorted(found, key=str))
+        squares = [each.dot(each) for each, _ in self._moving]
+        ratios = [explicit(with_numbers(tidied(each / squares[0]))) for each in squares[1:]]
+        return tuple(sorted(set[Symbol]().union(*(ratio.free_symbols for ratio in ratios)), key=str))
 
     def _is_lengthened(self) -> bool:
         sizes = [hypot(*(self.number(c) for c in each)) for each, _ in self._moving]
-        return min(sizes) / max(sizes) < SHORTEST / LONGEST[1]
+        return bool(sizes) and min(sizes) / max(sizes) < SHORTEST / LONGEST[1]
 
-    def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...]], ...], bool]:
-        """Return the masses in order with the directions of their displacements, and whether the order is from top to
-        bottom."""
+    def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...]], ...], str]:
+        """Return the masses in order with the directions of their displacements or rotations, and the name of the
+        order."""
         places = [tuple(self.number(c) for c in at.components) for _, at in self.masses]
         wide, high = (max(p[k] for p in places) - min(p[k] for p in places) for k in (0, 1))
-        hangs = high > wide
-        order = sorted(range(len(places)), key=lambda i: -places[i][1] if hangs else places[i][0])
-        moves = tuple((explicit(self.masses[i][0]), self._words(self.displacements[i])) for i in order)
-        return moves, hangs
+        name = "" if len(places) < 2 else "down" if high > wide else "across"
+        order = sorted(range(len(places)), key=lambda i: -places[i][1] if name == "down" else places[i][0])
+        words = [self._words(*each) for each in zip(self.displacements, self.rotations, strict=True)]
+        return tuple((explicit(self.masses[i][0]), words[i]) for i in order), name
 
-    def _words(self, displacement: MatrixBase) -> tuple[str, ...]:
+    def _words(self, displacement: MatrixBase, turned: Expr) -> tuple[str, ...]:
+        if turned != 0:
+            return (SENSES[int(self.number(turned) > 0)],)
         x, y = (self.number(c) for c in displacement)
         size = hypot(x, y)
         if not size:

@@ -49,8 +49,8 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram and the drawing of
-    a normal mode also have captions.
+    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram and the drawing
+    of a normal mode also have captions.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
@@ -115,12 +115,15 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
     if (mode := drawing.mode) is None:
         return ()
     letters = joined([(Math(each),) for each in mode.letters], words.labels["and"])
-    about = filled(words.drawings["arrows_of_mode"], {"lengths": mode.lengths, "letters": letters})
-    is_new = str(about) not in said
-    said.add(str(about))
     names = {"frequency": (Math(mode.frequency),), "sort": mode.sort, "degenerate": mode.degenerate}
-    caption = filled(words.drawings["mode"], names)
-    return (*caption, Text(" "), *about) if is_new else caption
+    told = [filled(words.drawings["mode"], names)]
+    if mode.is_straight:
+        told.append(filled(words.drawings["arrows_of_mode"], {"lengths": mode.lengths, "letters": letters}))
+    if mode.turns:
+        told.append(filled(words.drawings["turns_of_mode"], {}))
+    caption = _spaced([each for each in told if str(each) not in said])
+    said.update(map(str, told[1:]))
+    return caption
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
@@ -287,8 +290,8 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that it shows. The
-    drawings of normal modes follow the last mode, so that they are side by side."""
+    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that it shows.
+    The drawings of normal modes follow the last mode, so that they are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 
@@ -388,11 +391,12 @@ def alternative(
 def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
     """Return words for the directions in which the masses are displaced in a normal mode."""
     last = words.labels["and"]
-    told = [
-        filled(words.drawings["moves"], {"mass": _named(mass), "ways": joined([(Text(words.drawings[way]),) for way in ways], last)})
-        for mass, ways in mode.moves
-    ]
-    return filled(words.drawings["drawn_mode"], {"hangs": mode.hangs, "moves": joined(told, last)})
+    told = []
+    for mass, ways in mode.moves:
+        named = joined([(Text(words.drawings[way]),) for way in ways], last)
+        turns = bool(ways) and ways[0] in m.SENSES
+        told.append(filled(words.drawings["moves"], {"mass": _named(mass), "ways": named, "turns": turns}))
+    return filled(words.drawings["drawn_mode"], {"order": mode.order, "moves": joined(told, last)})
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:

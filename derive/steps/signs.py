@@ -17,7 +17,7 @@ from __future__ import annotations
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, factor_list, nan
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, expand, factor, factor_list, nan, together
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import TIME, Relation, explicit, rate
@@ -31,7 +31,7 @@ from derive.steps.record import assume, assumed, named_coordinates
 from derive.steps.rule import Doubt
 from derive.steps.step import is_zero
 
-DIGITS, SHORT = 30, 20
+DIGITS, SHORT, HALF = 30, 20, Rational(1, 2)
 # relation sign -> signs of (left - right) for which the relation holds
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
 DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
@@ -46,6 +46,26 @@ def sign_known(value: Expr) -> int | None:
     """Return the sign, 1, -1 or 0; None if unknown. The numbers that the problem gives are used if the assumptions on
     the symbols do not decide the sign."""
     return _sign_of_product(tidied(value), by_numbers=True)
+
+
+def sign_beside_root(value: Expr) -> int | None:
+    """Return the sign of (P + Q sqrt(D))/R as `sign_known` does; if this sign is unknown, compare P^2 with Q^2 D.
+
+    The caller knows that the square root is real. If P^2 < Q^2 D, the sign is that of Q/R, otherwise that of P/R.
+    """
+    own = sign_known(value)
+    above, below = together(value).as_numer_denom()
+    roots = [each for each in above.atoms(Pow) if each.exp == HALF and not each.base.is_number]
+    if own is not None or len(roots) != 1:
+        return own
+    (root,) = roots
+    mark = Dummy("s")
+    linear = above.xreplace({root: mark}).as_poly(mark)
+    if linear is None or linear.degree() != 1:
+        return None
+    q, p = linear.all_coeffs()
+    which = sign_known(factor(expand(p**2 - q**2 * root.base)))
+    return sign_known(factor(p if which == 1 else q) / below) if which in (1, -1) else None
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:

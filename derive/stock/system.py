@@ -111,7 +111,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if self.described.given is None:
             self._draw_forces()
             run = current_run.get()
-            draw_modes(self.system, run.established if run is not None else (), self._named)
+            draw_modes(self.system, run.established if run is not None else (), self._named, SYSTEM)
             self._state_static_friction()
         return answers
 
@@ -137,7 +137,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @cached_property
     def _named(self) -> list[Any]:
         """Return the places of `places:`, which drawings prefer as starts of lines."""
-        return made(self.described.named, self.parts_by_name)
+        return list(made(self.described.named, self.parts_by_name))
 
     def _state_static_friction(self) -> None:
         """State the conditions under which static friction suffices, unless steps of the answers derive these

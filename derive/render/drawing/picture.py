@@ -31,7 +31,9 @@ def _reduced(piece: Piece) -> Piece:
         return replace(piece, spots=tuple((REDUCED * x, REDUCED * y) for x, y in piece.spots))
     x, y = piece.spot
     spot = REDUCED * x, REDUCED * y
-    return replace(piece, spot=spot, size=REDUCED * piece.size) if isinstance(piece, Bullet) else replace(piece, spot=spot)
+    return (
+        replace(piece, spot=spot, size=REDUCED * piece.size) if isinstance(piece, Bullet) else replace(piece, spot=spot)
+    )
 
 
 def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
