@@ -7,18 +7,17 @@ amplitudes of the mode. The lengths of the arrows are in the ratio of the displa
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from math import hypot, isfinite
+from math import cos, hypot, isfinite, pi, sin
 from typing import Any, ClassVar
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
 from sympy.matrices import MatrixBase
 
-from derive.algebra.expressions import TIME, column, explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Turn
 from derive.figures.links import moving_in
 from derive.figures.marks import SENSES, Drawing, Mark, Position, ShownMode
 from derive.figures.parts import BLOCK, BOB, BlockMark, ParticleMark, WedgeMark, WheelMark
@@ -27,6 +26,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.sketches import things_of
 from derive.figures.space import Spot, direction, numeric, size_of
+from derive.figures.surroundings import FixedEnd
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.mechanics.vibrations.facts import Linear, Mode
@@ -43,9 +43,10 @@ MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative 
 SHORTEST = 14.0  # the length of the shortest arrow
 LONGEST = 42.0, 56.0  # the length of the longest arrow: usually, and if other arrows would be shorter than SHORTEST
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
+ROUND = 24.0  # the radius of the arrow of a rotation
+OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ROUND = Rational(1, 4)  # the radius of the arrow of a rotation, relative to the size of the drawing
 ALONG = 0.45  # lines at a mass that make an angle with a smaller sine lie along its arrow
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
@@ -103,6 +104,26 @@ class DisplacementArrow(Mark):
         x, y = paper.spot(paper.numbers.vector(self.side))
         far = (paper.numbers.of(self.clear) * paper.scale + self.off) / (hypot(x, y) or 1.0)
         return far * x, far * y
+
+
+@dataclass(frozen=True)
+class RotationArrow(Mark):
+    """The rotation of a body about its centre of mass, which is at rest in a normal mode: an arc above the centre.
+
+    rotation   the angle of rotation, counterclockwise, up to a factor
+    """
+
+    at: Position
+    rotation: Any
+    layer: ClassVar[int] = 8
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        turned = paper.numbers.of(self.rotation)
+        sense = 1 if turned > 0 else -1
+        angles = [pi / 2 + sense * OPEN * (i / 24 - 0.5) for i in range(25)]
+        spots = tuple((x + ROUND * cos(t), y + ROUND * sin(t)) for t in angles)
+        return [Stroke(spots, "asked", head=True)] if turned else []
 
 
 def draw_modes(
@@ -265,7 +286,12 @@ class _Displaced:
 
     def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
         values = {**self.values, **self._state()}
-        return drawing(self.shape.key, *self.things, *self._arrows(), values=values, mode=self._shown(siblings, like))
+        things = [self._with_wall(mark) for mark in self.things]
+        return drawing(self.shape.key, *things, *self._arrows(), values=values, mode=self._shown(siblings, like))
+
+    def _with_wall(self, mark: Mark) -> Mark:
+        """Return the mark; a wall at the end of a spring has its direction at equilibrium."""
+        return replace(mark, away=self._at_rest(mark.away)) if isinstance(mark, FixedEnd) else mark
 
     def _state(self) -> dict[Symbol, Expr]:
         """Return the values of the coordinates in the drawing."""
@@ -296,7 +322,7 @@ class _Displaced:
         keys = (self.shape.key,)
         for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
             if turned != 0:
-                yield Turn(column_of(at), column(0, 0, turned), ROUND, column(0, 1, 0), keys=keys)
+                yield RotationArrow(column_of(at), turned, keys=keys)
             else:
                 beside = self._beside(displacement, at)
                 yield DisplacementArrow(self._start(at), displacement, moved, *beside, room=room, keys=keys)
