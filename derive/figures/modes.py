@@ -50,7 +50,7 @@ FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the 
 ALONG = 0.45  # lines at a mass that make an angle with a smaller sine lie along its arrow
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
-FREE_MOTION = "free"
+FREE_MOTION, TO_SCALE = "free", "to_scale"
 SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: FREE_MOTION}  # sign of omega^2 -> sort of the mode
 
 
@@ -65,6 +65,7 @@ class DisplacementArrow(Mark):
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses; None for a single mass
+    exact    whether the lengths of all arrows are in the ratio of the displacements; otherwise a short arrow is longer
     """
 
     at: Position
@@ -74,6 +75,7 @@ class DisplacementArrow(Mark):
     clear: Any = 0
     off: float = 0.0
     room: Any = None
+    exact: bool = False
     layer: ClassVar[int] = 8
 
     def pieces(self, paper: Paper) -> list[Piece]:
@@ -83,7 +85,8 @@ class DisplacementArrow(Mark):
         size = size_of(way)
         if size <= SLIGHT * max(sizes):
             return []
-        length = max(size / max(sizes) * self._longest(paper, min(moving) / max(sizes)), SHORTEST)
+        length = size / max(sizes) * self._longest(paper, min(moving) / max(sizes))
+        length = length if self.exact else max(length, SHORTEST)
         along = direction((0.0, 0.0), paper.spot(way))
         x, y = paper.spot(paper.numbers.vector(self.at))
         if self.side is None:
@@ -235,7 +238,7 @@ class _Displaced:
 
     def number(self, value: Expr) -> float:
         fixed = {s: v for s, v in self.values.items() if s not in self.rest}
-        return numeric(explicit(self._at_rest(value)), fixed)
+        return numeric(explicit(with_numbers(self._at_rest(value))), fixed)
 
     # --- what is known ---
 
@@ -319,13 +322,13 @@ class _Displaced:
     def _arrows(self) -> Iterator[Mark]:
         room = self._least([at for _, at in self.masses])
         moved = tuple(self.displacements)
-        keys = (self.shape.key,)
+        keys, exact = (self.shape.key,), self.lengths == TO_SCALE
         for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
             if turned != 0:
                 yield RotationArrow(column_of(at), turned, keys=keys)
             else:
                 beside = self._beside(displacement, at)
-                yield DisplacementArrow(self._start(at), displacement, moved, *beside, room=room, keys=keys)
+                yield DisplacementArrow(self._start(at), displacement, moved, *beside, room, exact, keys=keys)
 
     def _start(self, at: Location) -> Position:
         """Return the place at which the arrow of a mass starts: its place, or the middle of a wedge or plank."""

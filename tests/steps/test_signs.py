@@ -120,8 +120,7 @@ def test_the_truth_of_a_relation_is_known_from_the_numbers() -> None:
 
 
 def test_a_root_does_not_hide_a_sign() -> None:
-    p, q = (scalar(name, positive=True) for name in "pq")
-    assert sign_beside_root(p - sqrt(p**2 + q)) == -1
-    assert sign_beside_root((p - q + sqrt((p - q) ** 2 + p * q)) / p) == 1
-    assert sign_beside_root(p + q - sqrt(p**2 + q**2)) == 1
-    assert sign_beside_root(p - sqrt(q)) is None
+    assert sign_beside_root(a - sqrt(a**2 + b)) == -1
+    assert sign_beside_root((a - b + sqrt((a - b) ** 2 + a * b)) / a) == 1
+    assert sign_beside_root(a + b - sqrt(a**2 + b**2)) == 1
+    assert sign_beside_root(a - sqrt(b)) is None
