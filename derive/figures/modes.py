@@ -393,16 +393,21 @@ class _Displaced:
     # --- what the caption and the description in words state ---
 
     def _shown(self, siblings: tuple[str, ...], like: str) -> ShownMode:
-        root, letters = self.frequency.needed(Mode).root, self._letters()
+        root = self.frequency.needed(Mode).root
         moves, order = self._moves()
-        lengths = "of_letters" if letters else "longer" if self._is_lengthened() else "to_scale"
-        lengths = lengths if len(self.masses) > 1 else "alone"
-        return ShownMode(
-            self.frequency.symbol, self.sort, root.times > 1, lengths, letters, moves, order, siblings, like
-        )
+        symbol, several = self.frequency.symbol, root.times > 1
+        return ShownMode(symbol, self.sort, several, self.lengths, self.letters, moves, order, siblings, like)
 
-    def _letters(self) -> tuple[Symbol, ...]:
-        """Return the symbols without numbers on which the ratio of the displacements depends."""
+    @cached_property
+    def lengths(self) -> str:
+        """What the lengths of the arrows show, as in `ShownMode`."""
+        if len(self.masses) == 1:
+            return "alone"
+        return "of_letters" if self.letters else "longer" if self._is_lengthened() else TO_SCALE
+
+    @cached_property
+    def letters(self) -> tuple[Symbol, ...]:
+        """The symbols without numbers on which the ratio of the displacements depends."""
         squares = [each.dot(each) for each, _ in self._moving]
         ratios = [explicit(with_numbers(tidied(each / squares[0]))) for each in squares[1:]]
         return tuple(sorted(set[Symbol]().union(*(ratio.free_symbols for ratio in ratios)), key=str))
