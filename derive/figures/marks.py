@@ -116,8 +116,8 @@ class ShownMode:
                 on letters without numbers; "longer" if the arrow of a small displacement is longer than its ratio; or
                 "alone" for a single mass
     letters     the letters on which the ratio depends
-    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"), or with its
-                sense of rotation, ("clockwise",), if its centre of mass is at rest; a mass at rest has none
+    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"), which are
+                empty at rest, and with the sense of rotation of a body, an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
     siblings    the keys of all modes that are found together, after which their drawings are placed
     like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
@@ -128,7 +128,7 @@ class ShownMode:
     degenerate: bool
     lengths: str
     letters: tuple[Any, ...]
-    moves: tuple[tuple[Any, tuple[str, ...]], ...]
+    moves: tuple[tuple[Any, tuple[str, ...], str], ...]
     order: str
     siblings: tuple[str, ...]
     like: str = ""
@@ -136,12 +136,12 @@ class ShownMode:
     @property
     def turns(self) -> bool:
         """Whether a body rotates about its centre of mass, which is at rest."""
-        return any(ways and ways[0] in SENSES for _, ways in self.moves)
+        return any(sense and not ways for _, ways, sense in self.moves)
 
     @property
     def is_straight(self) -> bool:
         """Whether a mass is displaced."""
-        return any(ways and ways[0] not in SENSES for _, ways in self.moves)
+        return any(ways for _, ways, _ in self.moves)
 
 
 @dataclass(frozen=True)

@@ -210,11 +210,9 @@ class _Displaced:
 
     @cached_property
     def rotations(self) -> list[Expr]:
-        """The rotations of the bodies whose centres of mass are at rest, counterclockwise, for each mass; zero for any
-        other mass."""
+        """The rotation of each mass, counterclockwise; zero for a particle."""
         angles = [Integer(0)] * len(self.system.particles) + [each.turned for each in self.system.bodies]
-        turned = [self._change(ImmutableDenseMatrix([angle]))[0] for angle in angles]
-        return [Integer(0) if any(d) else rate for d, rate in zip(self.displacements, turned, strict=True)]
+        return [self._change(ImmutableDenseMatrix([angle]))[0] for angle in angles]
 
     @property
     def frequency(self) -> Quantity:
@@ -244,7 +242,7 @@ class _Displaced:
 
     @cached_property
     def is_known(self) -> bool:
-        """Whether the directions of all displacements are known for all allowed values of the symbols."""
+        """Whether the directions of all displacements and rotations are known for all allowed values of the symbols."""
         if not all(self._is_real(value) for value in self.rest.values()):
             return False
         if not all(map(self._is_number, (*self.displacements, ImmutableDenseMatrix(self.rotations)))):
@@ -324,7 +322,7 @@ class _Displaced:
         moved = tuple(self.displacements)
         keys, exact = (self.shape.key,), self.lengths == TO_SCALE
         for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
-            if turned != 0:
+            if turned != 0 and not any(displacement):
                 yield RotationArrow(column_of(at), turned, keys=keys)
             else:
                 beside = self._beside(displacement, at)
@@ -416,19 +414,18 @@ class _Displaced:
         sizes = [hypot(*(self.number(c) for c in each)) for each, _ in self._moving]
         return bool(sizes) and min(sizes) / max(sizes) < SHORTEST / LONGEST[1]
 
-    def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...]], ...], str]:
-        """Return the masses in order with the directions of their displacements or rotations, and the name of the
+    def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...], str], ...], str]:
+        """Return the masses in order with the directions of their displacements and rotations, and the name of the
         order."""
         places = [tuple(self.number(c) for c in at.components) for _, at in self.masses]
         wide, high = (max(p[k] for p in places) - min(p[k] for p in places) for k in (0, 1))
         name = "" if len(places) < 2 else "down" if high > wide else "across"
         order = sorted(range(len(places)), key=lambda i: -places[i][1] if name == "down" else places[i][0])
-        words = [self._words(*each) for each in zip(self.displacements, self.rotations, strict=True)]
-        return tuple((explicit(self.masses[i][0]), words[i]) for i in order), name
+        words = [self._words(each) for each in self.displacements]
+        senses = ["" if each == 0 else SENSES[int(self.number(each) > 0)] for each in self.rotations]
+        return tuple((explicit(self.masses[i][0]), words[i], senses[i]) for i in order), name
 
-    def _words(self, displacement: MatrixBase, turned: Expr) -> tuple[str, ...]:
-        if turned != 0:
-            return (SENSES[int(self.number(turned) > 0)],)
+    def _words(self, displacement: MatrixBase) -> tuple[str, ...]:
         x, y = (self.number(c) for c in displacement)
         size = hypot(x, y)
         if not size:

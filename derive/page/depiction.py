@@ -392,10 +392,10 @@ def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
     """Return words for the directions in which the masses are displaced in a normal mode."""
     last = words.labels["and"]
     told = []
-    for mass, ways in mode.moves:
+    for mass, ways, sense in mode.moves:
         named = joined([(Text(words.drawings[way]),) for way in ways], last)
-        turns = bool(ways) and ways[0] in m.SENSES
-        told.append(filled(words.drawings["moves"], {"mass": _named(mass), "ways": named, "turns": turns}))
+        turned = (Text(words.drawings[sense]),) if sense else ()
+        told.append(filled(words.drawings["moves"], {"mass": _named(mass), "ways": named, "turned": turned}))
     return filled(words.drawings["drawn_mode"], {"order": mode.order, "moves": joined(told, last)})
 
 

@@ -49,23 +49,34 @@ def sign_known(value: Expr) -> int | None:
 
 
 def sign_beside_root(value: Expr) -> int | None:
-    """Return the sign of (P + Q sqrt(D))/R as `sign_known` does; if this sign is unknown, compare P^2 with Q^2 D.
+    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with
+    Q^2 D.
 
-    The caller knows that the square root is real. If P^2 < Q^2 D, the sign is that of Q/R, otherwise that of P/R.
+    The caller knows that the square roots are real. If P^2 < Q^2 D, the sign of the sum is that of Q, otherwise that of
+    P. The root may be a product of square roots.
     """
     own = sign_known(value)
-    above, below = together(value).as_numer_denom()
-    roots = [each for each in above.atoms(Pow) if each.exp == HALF and not each.base.is_number]
-    if own is not None or len(roots) != 1:
+    if own is not None:
         return own
-    (root,) = roots
-    mark = Dummy("s")
-    linear = above.xreplace({root: mark}).as_poly(mark)
-    if linear is None or linear.degree() != 1:
+    signs = [_sign_of_sum_with_root(part) for part in together(value).as_numer_denom()]
+    return None if None in signs else prod(sign for sign in signs if sign is not None)
+
+
+def _sign_of_sum_with_root(value: Expr) -> int | None:
+    own = sign_known(value)
+    roots = [each for each in value.atoms(Pow) if each.exp == HALF and not each.base.is_number]
+    if own is not None or not roots:
+        return own
+    marks = {root: Dummy("s") for root in roots}
+    terms = value.xreplace(marks).as_poly(*marks.values())
+    powers = terms.as_dict() if terms is not None else {}
+    p = powers.pop((0,) * len(roots), None)
+    if p is None or len(powers) != 1:
         return None
-    q, p = linear.all_coeffs()
-    which = sign_known(factor(expand(p**2 - q**2 * root.base)))
-    return sign_known(factor(p if which == 1 else q) / below) if which in (1, -1) else None
+    ((exponents, q),) = powers.items()
+    square = Mul(*(root.base**n for root, n in zip(roots, exponents, strict=True)))
+    greater = sign_known(factor(expand(p**2 - q**2 * square)))
+    return sign_known(factor(p if greater == 1 else q)) if greater in (1, -1) and max(exponents) == 1 else None
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:

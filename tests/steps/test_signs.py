@@ -123,4 +123,5 @@ def test_a_root_does_not_hide_a_sign() -> None:
     assert sign_beside_root(a - sqrt(a**2 + b)) == -1
     assert sign_beside_root((a - b + sqrt((a - b) ** 2 + a * b)) / a) == 1
     assert sign_beside_root(a + b - sqrt(a**2 + b**2)) == 1
+    assert sign_beside_root(a / (a - sqrt(a) * sqrt(a + b))) == -1
     assert sign_beside_root(a - sqrt(b)) is None
