@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-OF_MODES = 3.6, 4.7  # the width of the drawing of a normal mode, and its width if it is low; so three are in a row
+# The width of the drawing of a normal mode of at most FEW masses, and its width if it is low: three are in a row.
+OF_MODES, FEW = (3.6, 4.7), 4
 
 
 def drawing_files(
@@ -117,7 +118,9 @@ def _drawn(
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture
 
-    sizes = (width,) if width else OF_MODES if what.mode is not None else (WIDTH, WIDE)
+    sizes = (width,) if width else (WIDTH, WIDE)
+    if what.mode is not None and not width and len(what.mode.moves) <= FEW:
+        sizes = OF_MODES
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
         sheet = sheet_of(pieces, notation, alt, on_paper)

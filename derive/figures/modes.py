@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
 from sympy.matrices import MatrixBase
 
-from derive.algebra.expressions import TIME, explicit
+from derive.algebra.expressions import TIME, as_expr, explicit
 from derive.algebra.tidy import tidied
 from derive.figures.links import moving_in
 from derive.figures.marks import SENSES, Drawing, Mark, Position, ShownMode
@@ -26,7 +26,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.sketches import things_of
 from derive.figures.space import Spot, direction, numeric, size_of
-from derive.figures.surroundings import FixedEnd
+from derive.figures.surroundings import FixedEnd, WayMark
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.mechanics.vibrations.facts import Linear, Mode
@@ -287,12 +287,18 @@ class _Displaced:
 
     def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
         values = {**self.values, **self._state()}
-        things = [self._with_wall(mark) for mark in self.things]
+        things = [self._as_in_sketch(mark) for mark in self.things]
         return drawing(self.shape.key, *things, *self._arrows(), values=values, mode=self._shown(siblings, like))
 
-    def _with_wall(self, mark: Mark) -> Mark:
-        """Return the mark; a wall at the end of a spring has its direction at equilibrium."""
-        return replace(mark, away=self._at_rest(mark.away)) if isinstance(mark, FixedEnd) else mark
+    def _as_in_sketch(self, mark: Mark) -> Mark:
+        """Return the mark; a wall at the end of a spring has its direction at equilibrium, and a wire is as long as in
+        the sketch."""
+        if isinstance(mark, FixedEnd):
+            return replace(mark, away=self._at_rest(mark.away))
+        if isinstance(mark, WayMark):
+            drawn = {q: value for q, value in self.values.items() if q in self.rest}
+            return replace(mark, lower=as_expr(mark.lower).xreplace(drawn), upper=as_expr(mark.upper).xreplace(drawn))
+        return mark
 
     def _state(self) -> dict[Symbol, Expr]:
         """Return the values of the coordinates in the drawing."""
