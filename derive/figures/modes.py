@@ -245,7 +245,8 @@ class _Displaced:
         """Whether the directions of all displacements and rotations are known for all allowed values of the symbols."""
         if not all(self._is_real(value) for value in self.rest.values()):
             return False
-        if not all(map(self._is_number, (*self.displacements, ImmutableDenseMatrix(self.rotations)))):
+        places = [self._at_rest(column_of(place)) for place in self.system.places]
+        if not all(map(self._is_number, (*places, *self.displacements, ImmutableDenseMatrix(self.rotations)))):
             return False
         components: list[Expr | None] = [self._along(each, at) for each, (_, at) in self._moving]
         components += [each for each in self.rotations if each != 0]

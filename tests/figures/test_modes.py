@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import hypot
@@ -287,6 +288,13 @@ def test_the_drawings_follow_the_last_mode(tmp_path: Path) -> None:
     assert text.count("[figure: A plane drawing of the system displaced") == 2
     after = text.split("Figure 1.")[0]
     assert "a⃗_1" in after and "a⃗_2" in after
+
+
+def test_the_drawings_of_three_modes_are_in_one_row(tmp_path: Path) -> None:
+    found = rendered(course_with(tmp_path, MOLECULE), "trial/one")
+    (row,) = re.findall(r'<div class="figures">.*?</div>', found.html, flags=re.S)
+    assert row.count("<figcaption>") == 3
+    assert found.latex.count(r"\begin{drawings}\narrowcaptions") == 1
 
 
 def test_a_drawing_of_a_mode_is_reduced_and_kept(tmp_path: Path) -> None:
