@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
+# The width of the drawing of a normal mode of at most FEW masses, and its width if it is low: three are in a row.
+OF_MODES, FEW = (3.6, 4.7), 4
 
 
 def drawing_files(
@@ -117,6 +119,8 @@ def _drawn(
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
+    if what.mode is not None and not width and len(what.mode.moves) <= FEW:
+        sizes = OF_MODES
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
         sheet = sheet_of(pieces, notation, alt, on_paper)
@@ -140,8 +144,13 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
     """Return a number for each symbol of a problem and of a drawing: from the entry of the drawing in the problem, from
-    the given values, or a substitute number."""
+    the given values, or a substitute number. The drawing of a normal mode also uses the numbers of the sketch of the
+    system, except those of coordinates."""
     said = dict(placement.values) if placement else {}
+    if isinstance(drawing, Drawing) and drawing.mode is not None:
+        sketch = placement_of(problem, drawing.mode.like)
+        coordinates = dict(drawing.coordinates)
+        said = {s: e for s, e in (sketch.values if sketch else ()) if s not in coordinates} | said
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
     letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]

@@ -76,7 +76,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
     """
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
-    known += [place for place in named if not same(place, end)]
+    known += [place for place in named if not any(same(place, each.at) for each in system.particles)]
     moving = moving_in(system, *end.components)
     if all(system.coordinates.get(q) == "length" for q in moving):
         return None  # this particle does not rotate, although another particle may rotate about it

@@ -24,6 +24,7 @@ Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
 InWords: TypeAlias = tuple[str, dict[str, Any]]  # the name of a phrase, and the values of its placeholders
 LAST = 99  # the layer of marks that are drawn last, because they are placed next to all other marks
 SPACE, PLANE = "space", "plane"
+SENSES = ("clockwise", "counterclockwise")
 
 BESIDE = {"beside": True}  # metadata of a field that is only a label: symbols in labels need no numbers
 MARK_CLASSES: dict[str, type[Mark]] = {}  # name -> class, for all classes of marks
@@ -105,6 +106,45 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 
 
 @dataclass(frozen=True)
+class ShownMode:
+    """A normal mode that a drawing shows.
+
+    frequency   the symbol of its frequency, or of the rate at which it grows
+    sort        "oscillating", "growing" or "free"
+    degenerate  whether other modes have the same frequency
+    lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
+                on letters without numbers; "longer" if the arrow of a small displacement is longer than its ratio; or
+                "alone" for a single mass
+    letters     the letters on which the ratio depends
+    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"), which are
+                empty at rest, and with the sense of rotation of a body, an element of SENSES, or "" without a rotation
+    order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
+    siblings    the keys of all modes that are found together, after which their drawings are placed
+    like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
+    """
+
+    frequency: Any
+    sort: str
+    degenerate: bool
+    lengths: str
+    letters: tuple[Any, ...]
+    moves: tuple[tuple[Any, tuple[str, ...], str], ...]
+    order: str
+    siblings: tuple[str, ...]
+    like: str = ""
+
+    @property
+    def turns(self) -> bool:
+        """Whether a body rotates about its centre of mass, which is at rest."""
+        return any(sense and not ways for _, ways, sense in self.moves)
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether a mass is displaced."""
+        return any(ways for _, ways, _ in self.moves)
+
+
+@dataclass(frozen=True)
 class Drawing:
     """A drawing.
 
@@ -115,6 +155,7 @@ class Drawing:
     left_out      conditions of the system that the drawing does not show
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
+    mode          the normal mode that the drawing shows; None in any other drawing
     """
 
     key: str
@@ -125,6 +166,7 @@ class Drawing:
     left_out: tuple[Any, ...] = ()
     leads_to: tuple[str, ...] = ()
     forces_on: Any = None
+    mode: ShownMode | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:

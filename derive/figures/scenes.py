@@ -25,6 +25,7 @@ from derive.figures.marks import (
     Mark,
     Marks,
     Plot,
+    ShownMode,
     components_in,
     flat,
     letters_in,
@@ -48,6 +49,7 @@ def drawing(
     left_out: Sequence[Any] = (),
     leads_to: Sequence[str] = (),
     forces_on: Any = None,
+    mode: ShownMode | None = None,
 ) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
@@ -61,6 +63,7 @@ def drawing(
     leads_to   the keys of steps before which the drawing is placed; by default it is placed after the steps whose
                results it shows
     forces_on  the mass of the body whose forces the drawing shows; the caption names this mass
+    mode       the normal mode that the drawing shows; the caption names its frequency
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -71,9 +74,8 @@ def drawing(
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
-    found = Drawing(
-        key, shown, seen, tuple(moving.items()), tuple(chosen.items()), tuple(left_out), tuple(leads_to), forces_on
-    )
+    placed = tuple(left_out), tuple(leads_to), forces_on, mode
+    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), *placed)
     noted(found)
     return found
 

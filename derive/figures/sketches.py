@@ -7,6 +7,7 @@ part holds is a small disc, with the lines of its coordinates and the curve on w
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,12 +15,12 @@ from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, 
 
 from derive.algebra.expressions import TIME, Relation, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, PointMark, Weight
+from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, Line, PointMark, Weight
 from derive.figures.connections import Connections
 from derive.figures.contacts import contact_marks
 from derive.figures.elements import CLEAR
 from derive.figures.links import Link, angle_of_link, is_fixed, is_spring, link_to, moving_in, same
-from derive.figures.marks import Drawing, Mark, Marks
+from derive.figures.marks import Drawing, Mark, Marks, Surface
 from derive.figures.parts import BLOCK, BOB, BlockMark, ConnectionMark, ParticleMark, SpringMark, WheelMark
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
@@ -73,6 +74,18 @@ def sketch(
     if not more and not scene.is_whole:
         return None
     return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})}, left_out=scene.left_out)
+
+
+def things_of(system: System, named: Sequence[Location] = ()) -> tuple[list[Mark], Mapping[Symbol, Any]] | None:
+    """Return the marks of the sketch that show things, without their labels, and the numbers that replace symbols; None
+    if a sketch would not show the whole system.
+
+    Dimension lines, axes, angles, and the arrows of gravity and of fields are left out.
+    """
+    scene = _Scene(system, named)
+    if not scene.is_whole or scene.left_out:
+        return None
+    return [replace(mark, label=None) for mark in scene.marks if scene.is_thing(mark)], scene.values
 
 
 class _Scene:
@@ -235,6 +248,17 @@ class _Scene:
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
+
+    def is_thing(self, mark: Mark) -> bool:
+        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or the line from a point to a
+        particle that replaces a rod."""
+        if isinstance(mark, Line):
+            return mark.pen == "edge"
+        if isinstance(mark, ConnectionMark):
+            return mark.label is not None and not moving_in(self.system, mark.label)
+        if isinstance(mark, WayMark):
+            return mark.pen != "trace"
+        return isinstance(mark, Surface | PointMark)
 
     # --- particles ---
 

@@ -49,11 +49,11 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram has a caption
-    too.
+    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram and the drawing
+    of a normal mode also have captions.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
-    shown = [d for d in drawings if d.key in captioned or _left_out(d) or _is_of_forces(d)]
+    shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
     placed = [(index, d) for d in shown if (index := _index(problem, d, derivation)) is not None]
     return {d.key: n for n, (_, d) in enumerate(sorted(placed, key=lambda entry: entry[0]), 1)}
 
@@ -71,6 +71,7 @@ def depictions(
     faults += [f for drawing in drawings for f in _outside_its_case(problem, drawing, derivation)]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
+    said: set[str] = set()
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
         fault = _given_away(problem, drawing, placement, derivation)
@@ -79,7 +80,7 @@ def depictions(
             faults.append(fault)
         elif index is not None:
             own = placement.caption if placement else None
-            caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words)
+            caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words, said)
             caption += _not_shown(drawing, words, bool(caption))
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
@@ -98,15 +99,31 @@ def _left_out(drawing: m.Recorded) -> Sequence[Any]:
     return drawing.left_out if isinstance(drawing, m.Drawing) else ()
 
 
-def _is_of_forces(drawing: m.Recorded) -> bool:
-    return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
+def _has_standard_caption(drawing: m.Recorded) -> bool:
+    return isinstance(drawing, m.Drawing) and (drawing.forces_on is not None or drawing.mode is not None)
 
 
-def _standard_caption(drawing: m.Recorded, words: Phrases) -> tuple[Inline, ...]:
-    """Return the caption of a force diagram to which the problem gives no caption."""
-    if not isinstance(drawing, m.Drawing) or drawing.forces_on is None:
+def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
+    """Return the caption of a force diagram, or of the drawing of a normal mode, to which the problem gives no caption.
+
+    said   the sentences about the arrows of modes that earlier captions contain; a new sentence is added
+    """
+    if not isinstance(drawing, m.Drawing):
         return ()
-    return filled(words.drawings["forces"], {"mass": (Math(drawing.forces_on),)})
+    if drawing.forces_on is not None:
+        return filled(words.drawings["forces"], {"mass": (Math(drawing.forces_on),)})
+    if (mode := drawing.mode) is None:
+        return ()
+    letters = joined([(Math(each),) for each in mode.letters], words.labels["and"])
+    names = {"frequency": (Math(mode.frequency),), "sort": mode.sort, "degenerate": mode.degenerate}
+    told = [filled(words.drawings["mode"], names)]
+    if mode.is_straight:
+        told.append(filled(words.drawings["arrows_of_mode"], {"lengths": mode.lengths, "letters": letters}))
+    if mode.turns:
+        told.append(filled(words.drawings["turns_of_mode"], {}))
+    caption = _spaced([each for each in told if str(each) not in said])
+    said.update(map(str, told[1:]))
+    return caption
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
@@ -272,6 +289,13 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
     return found
 
 
+def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
+    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that it shows.
+    The drawings of normal modes follow the last mode, so that they are side by side."""
+    siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
+    return (*drawing.keys, *siblings)
+
+
 def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
     """Return the keys of the steps before which a drawing is placed; a plot has none."""
     return drawing.leads_to if isinstance(drawing, m.Drawing) else ()
@@ -354,6 +378,8 @@ def alternative(
     """Return the alternative text of a drawing."""
     if isinstance(drawing, m.Plot):
         return _curves(problem, drawing, placement, words)
+    if drawing.mode is not None:
+        return _moves(drawing.mode, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
     for phrase in dict.fromkeys(mark.together for mark in drawing.marks if mark.together and mark.label is not None):
         names = [_named(mark.label) for mark in drawing.marks if mark.together == phrase and mark.label is not None]
@@ -361,6 +387,17 @@ def alternative(
         told.append(filled(words.drawings[phrase], joint))
     items = joined(told, words.labels["and"])
     return filled(words.drawings[drawing.view], {"marks": items})
+
+
+def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
+    """Return words for the directions in which the masses are displaced in a normal mode."""
+    last = words.labels["and"]
+    told = []
+    for mass, ways, sense in mode.moves:
+        named = joined([(Text(words.drawings[way]),) for way in ways], last)
+        turned = (Text(words.drawings[sense]),) if sense else ()
+        told.append(filled(words.drawings["moves"], {"mass": _named(mass), "ways": named, "turned": turned}))
+    return filled(words.drawings["drawn_mode"], {"order": mode.order, "moves": joined(told, last)})
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:

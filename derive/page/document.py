@@ -30,7 +30,7 @@ from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
 from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
-from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn
+from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn, placed_after
 from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
@@ -257,7 +257,7 @@ class _Writer:
         here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
         return [
             Illustration(
-                d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, d.drawing.keys, leads_to(d.drawing)
+                d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, placed_after(d.drawing), leads_to(d.drawing)
             )
             for d in here
         ]

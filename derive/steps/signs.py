@@ -17,7 +17,7 @@ from __future__ import annotations
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, factor_list, nan
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, expand, factor, factor_list, nan, together
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import TIME, Relation, explicit, rate
@@ -31,7 +31,7 @@ from derive.steps.record import assume, assumed, named_coordinates
 from derive.steps.rule import Doubt
 from derive.steps.step import is_zero
 
-DIGITS, SHORT = 30, 20
+DIGITS, SHORT, HALF = 30, 20, Rational(1, 2)
 # relation sign -> signs of (left - right) for which the relation holds
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
 DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
@@ -46,6 +46,37 @@ def sign_known(value: Expr) -> int | None:
     """Return the sign, 1, -1 or 0; None if unknown. The numbers that the problem gives are used if the assumptions on
     the symbols do not decide the sign."""
     return _sign_of_product(tidied(value), by_numbers=True)
+
+
+def sign_beside_root(value: Expr) -> int | None:
+    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with
+    Q^2 D.
+
+    The caller knows that the square roots are real. If P^2 < Q^2 D, the sign of the sum is that of Q, otherwise that of
+    P. The root may be a product of square roots.
+    """
+    own = sign_known(value)
+    if own is not None:
+        return own
+    signs = [_sign_of_sum_with_root(part) for part in together(value).as_numer_denom()]
+    return None if None in signs else prod(sign for sign in signs if sign is not None)
+
+
+def _sign_of_sum_with_root(value: Expr) -> int | None:
+    own = sign_known(value)
+    roots = [each for each in value.atoms(Pow) if each.exp == HALF and not each.base.is_number]
+    if own is not None or not roots:
+        return own
+    marks = {root: Dummy("s") for root in roots}
+    terms = value.xreplace(marks).as_poly(*marks.values())
+    powers = terms.as_dict() if terms is not None else {}
+    p = powers.pop((0,) * len(roots), None)
+    if p is None or len(powers) != 1:
+        return None
+    ((exponents, q),) = powers.items()
+    square = Mul(*(root.base**n for root, n in zip(roots, exponents, strict=True)))
+    greater = sign_known(factor(expand(p**2 - q**2 * square)))
+    return sign_known(factor(p if greater == 1 else q)) if greater in (1, -1) and max(exponents) == 1 else None
 
 
 def sign_where(value: Expr, exists: Relation | None) -> int | None:

@@ -17,7 +17,7 @@ from derive.course.placement import Placement
 from derive.course.stock import Methods, Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
-from derive.figures import draw_alone, forces_as_named, forces_in_state, sketch
+from derive.figures import draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
 from derive.mechanics import (
     Coordinate,
     System,
@@ -98,8 +98,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             with told_at(self.described.place):
                 start = started(self.described.results, self.system)
                 impact = struck(self.of_impact.impact) if self.of_impact is not None else None
-                named = made(self.described.named, self.parts_by_name)
-                sketch(SYSTEM, self.system, named=named, start=start, impact=impact)
+                sketch(SYSTEM, self.system, named=self._named, start=start, impact=impact)
             sliding = next((part.place for part in self.described.acting if "sliding" in part.named), None)
             if sliding is not None:
                 with told_at(sliding):
@@ -111,6 +110,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
+            run = current_run.get()
+            draw_modes(self.system, run.established if run is not None else (), self._named, SYSTEM)
             self._state_static_friction()
         return answers
 
@@ -132,6 +133,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             found |= answers
         check_one_law_for_each_key(found, methods.stated)
         return {str(name): found[str(name)] for name in asked}
+
+    @cached_property
+    def _named(self) -> list[Any]:
+        """Return the places of `places:`, which drawings prefer as starts of lines."""
+        return list(made(self.described.named, self.parts_by_name))
 
     def _state_static_friction(self) -> None:
         """State the conditions under which static friction suffices, unless steps of the answers derive these

@@ -8,7 +8,7 @@ from sympy import Expr, Rational, cos, pi, sin, sqrt, symbols
 from derive.algebra.expressions import Relation
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import Run, recorded
-from derive.steps.signs import holds, sign_for_all, sign_known, sign_where, truth_known
+from derive.steps.signs import holds, sign_beside_root, sign_for_all, sign_known, sign_where, truth_known
 
 a, b = symbols("a b", positive=True)
 x = symbols("x", real=True)
@@ -117,3 +117,11 @@ def test_the_truth_of_a_relation_is_known_from_the_numbers() -> None:
     with recorded(Run(numbers={a: 2, b: 1})):
         assert truth_known(Relation(a, ">", b)) is True
         assert truth_known(Relation(a, "<=", b)) is False
+
+
+def test_a_root_does_not_hide_a_sign() -> None:
+    assert sign_beside_root(a - sqrt(a**2 + b)) == -1
+    assert sign_beside_root((a - b + sqrt((a - b) ** 2 + a * b)) / a) == 1
+    assert sign_beside_root(a + b - sqrt(a**2 + b**2)) == 1
+    assert sign_beside_root(a / (a - sqrt(a) * sqrt(a + b))) == -1
+    assert sign_beside_root(a - sqrt(b)) is None

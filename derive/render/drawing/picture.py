@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from derive.figures.marks import LAST, SPACE, Drawing, Mark, Surface
-from derive.figures.pieces import Piece, Tag
+from derive.figures.modes import DisplacementArrow
+from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
 from derive.figures.space import NOUGHT, Spot, dot, mean, plus, size_of
 from derive.figures.surroundings import ARROW
 from derive.render.drawing.camera import Numbers, best_stance
@@ -14,17 +15,37 @@ from derive.render.drawing.hidden_lines import OnPaper
 POINTS_PER_CM = 72 / 2.54
 TRIES = 12  # iterations to find the scale
 LABEL = 8.0  # in points: approximate width of a letter
+REDUCED = 0.7  # the drawing of a normal mode has small parts: it is drawn larger, and then reduced by this factor
 SMALLEST = 15.0  # in points: the size of the drawing if its parts of fixed size leave no room
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """Return the pieces in points; without their labels the pieces fit into `width` x `height` centimetres."""
+    if drawing.mode is not None:
+        return [_reduced(piece) for piece in _fitted(drawing, numbers, width / REDUCED, height / REDUCED)]
+    return _fitted(drawing, numbers, width, height)
+
+
+def _reduced(piece: Piece) -> Piece:
+    if isinstance(piece, Stroke | Patch):
+        return replace(piece, spots=tuple((REDUCED * x, REDUCED * y) for x, y in piece.spots))
+    x, y = piece.spot
+    spot = REDUCED * x, REDUCED * y
+    return (
+        replace(piece, spot=spot, size=REDUCED * piece.size) if isinstance(piece, Bullet) else replace(piece, spot=spot)
+    )
+
+
+def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     paper = _paper(drawing, numbers)
     if drawing.forces_on is not None and paper.is_of_a_point:
         return _pieces(drawing, paper)  # all lengths of the force diagram of a particle are in points
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
+    # Arrows that start at the masses of a mode do not change the scale, so that all modes have almost the same scale.
+    kept = (mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow) or mark.side is not None)
+    measured = replace(drawing, marks=tuple(kept))
     for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
-        spots = [spot for piece in _pieces(drawing, paper) for spot in piece.spots]
+        spots = [spot for piece in _pieces(measured, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
         ratio = min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9))
         paper = replace(paper, scale=max(paper.scale * ratio, SMALLEST / paper.reach))
