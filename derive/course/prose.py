@@ -70,11 +70,13 @@ class Prose:
     """Text with mentions and formulas; `pieces` is the whole text in order, so that no other code needs to parse it.
 
     `part(index, width)` returns the `width` characters that begin at `index` in the text, with their place in the file.
+    `gap` is an empty line between paragraphs: one line break in folded text, two in literal text (`|`).
     """
 
     text: str
     place: Place
     part: Callable[[int, int], Scalar] = field(repr=False, compare=False)
+    gap: str = "\n"
 
     def place_within(self, index: int, width: int) -> Place:
         return self.part(index, width).place
@@ -89,6 +91,16 @@ class Prose:
             end = match.end()
         pieces.append(self.text[end:])
         return tuple(piece for piece in pieces if piece)
+
+    @cached_property
+    def paragraphs(self) -> tuple[tuple[str | Mention | TexFormula, ...], ...]:
+        """The pieces of each paragraph."""
+        found: list[list[str | Mention | TexFormula]] = [[]]
+        for piece in self.pieces:
+            first, *others = re.split(f"{self.gap}\\s*", piece.rstrip("\n")) if isinstance(piece, str) else [piece]
+            found[-1] += [first] if first else []
+            found += [[each] if each else [] for each in others]
+        return tuple(tuple(each) for each in found if each)
 
     def _piece(self, match: re.Match[str]) -> str | Mention | TexFormula:
         start, end = match.span()
@@ -128,7 +140,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
         if odd := match["odd"]:
             place = node.place_within(match.start(), len(odd))
             faults.error("mention", f"`{abridged(odd)}` is not a mention", place, help=_HOW)
-    prose = Prose(node.text, node.place, node.piece)
+    prose = Prose(node.text, node.place, node.piece, "\n\n" if node.style == "|" else "\n")
     for formula in prose.formulas:
         _check_formula(formula, node.style, faults)
     _check_dollars(node, faults)

@@ -46,6 +46,7 @@ from derive.page.wording import (
     Chain,
     Inline,
     Math,
+    NewParagraph,
     Phrases,
     Ref,
     Text,
@@ -159,7 +160,8 @@ class _Writer:
         limits = None if self.level is Level.BRIEF else self._limits()
         in_solution = self.formulas.in_solution
         strategy = self._told(problem.strategy.pieces, formula=in_solution) if problem.strategy else ()
-        note = self._told(problem.note.pieces, formula=in_solution) if problem.note else ()
+        paragraphs = [self._told(each, formula=in_solution) for each in problem.note.paragraphs] if problem.note else []
+        note = tuple(node for i, each in enumerate(paragraphs) for node in (*([NewParagraph()] if i else []), *each))
         self.references.check(self.numbers, self.symbols)
         title = told(problem.title.pieces, self.page_names, self._unknown, formula=self.formulas.node)
         self.faults += self.formulas.faults

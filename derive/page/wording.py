@@ -116,7 +116,12 @@ class ToldOnce:
     again: tuple[Inline, ...]
 
 
-Inline = Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain | ToldOnce | ToldIn
+@dataclass(frozen=True)
+class NewParagraph:
+    """The end of a paragraph within a text, such as the remarks of a problem."""
+
+
+Inline = NewParagraph | Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain | ToldOnce | ToldIn
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from derive.page.wording import (
     FigureRef,
     Inline,
     Math,
+    NewParagraph,
     Phrases,
     ProblemRef,
     Ref,
@@ -173,6 +174,8 @@ class HtmlPage:
                 return f'<a href="{f"{name}.html" if self.standalone else f"#{name}"}">{escape(text)}</a>'
             case ToldOnce(name, nodes, again):
                 return theorem(name, self.inline(nodes), self.inline(again))
+            case NewParagraph():
+                return '</p>\n<p class="strategy">'
             case ToldIn(problem):
                 return told_in(problem)
         raise TypeError(f"nothing prints {type(node).__name__}")

@@ -21,6 +21,7 @@ from derive.page.wording import (
     FigureRef,
     Inline,
     Math,
+    NewParagraph,
     Phrases,
     ProblemRef,
     Ref,
@@ -177,6 +178,8 @@ class LatexPage:
                 return rf"\problemlink{{{dotted(of)}}}{{{escaped(text)}}}"
             case ToldOnce(name, nodes, again):
                 return rf"\theorem{{{name}}}{{{self.inline(nodes)}\par}}{{{self.inline(again)}\ }}"
+            case NewParagraph():
+                return r"\par "
             case ToldIn(problem):
                 return rf"\toldproblem{{{escaped(problem)}}}"
         raise TypeError(f"nothing prints {type(node).__name__}")

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from derive.course.placement import STATEMENT
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import aligned, display_rows
@@ -90,6 +90,8 @@ class MarkdownPage:
 
     def _node(self, node: Inline) -> str:
         match node:
+            case NewParagraph():
+                return "\n\n"
             case Text(text):
                 return text_markdown(text)
             case Math(expr):

@@ -11,7 +11,7 @@ from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import columns, in_one_line, plain, text_box, to_the_right
@@ -45,6 +45,8 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
             return f"({numbers[key]})"
         case ProblemRef(_, text):
             return text
+        case NewParagraph():
+            return " "
     raise TypeError(f"nothing prints {type(node).__name__}")
 
 
@@ -73,8 +75,13 @@ class _Page:
         return "\n".join(blocks) + "\n"
 
     def _headed(self, label: str, prose: Sequence[Inline]) -> list[str]:
-        """Return a paragraph that begins with its heading, or nothing if there is no text."""
-        return ["", self._wrapped((Text(self.words.labels[label] + " "), *prose))] if prose else []
+        """Return paragraphs, the first of which begins with the heading, or nothing if there is no text."""
+        if not prose:
+            return []
+        found: list[list[Inline]] = [[Text(self.words.labels[label] + " ")]]
+        for node in prose:
+            found.append([]) if isinstance(node, NewParagraph) else found[-1].append(node)
+        return [line for nodes in found for line in ("", self._wrapped(nodes))]
 
     def _part(self, part: PartPage) -> str:
         label = f"({part.label}) " if part.label else ""
