@@ -30,7 +30,7 @@ def faults() -> list[Complaint]:
 
 @pytest.fixture
 def references(words: Phrases, faults: list[Complaint]) -> References:
-    return References("hw9", {"top": 3}, {"axes": 2}, words, faults)
+    return References("hw9", {"top": 3}, {"axes": 2}, {}, words, faults)
 
 
 def mention(of: str, name: str) -> Mention:
