@@ -28,7 +28,7 @@ from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
 PERIOD = "vibrations.period"
-OSCILLATES = ("vibrations.frequency", "vibrations.mode_frequency")
+OSCILLATES = ("vibrations.frequency", "vibrations.mode_frequency", "vibrations.uncoupled_frequency")
 ROOTS, STEADY = "answers.roots", "motion.steady_motion"
 
 PENDULUM = Rule(
@@ -261,7 +261,8 @@ def one_frequency(view: View) -> Observed:
     )
     for of in view.values("angular speed") if of_particle else ():
         steps = [q for q in of.ancestors() if q.fact(Linear) is not None]
-        if steps and of.step.outcome == "oscillating_repeated" and all("as_it_is" in dict(q.step.roles) for q in steps):
+        is_common = of.step.outcome == "oscillating_repeated" or dict(of.step.words).get("coupling") == "all"
+        if steps and is_common and _seen(of) and all("as_it_is" in dict(q.step.roles) for q in steps):
             yield _one_frequency(of, steps[0])
 
 

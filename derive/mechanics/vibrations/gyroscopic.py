@@ -43,7 +43,6 @@ from derive.mechanics.vibrations.linear_equations import (
     Equations,
     letter_of_shapes,
     together_for,
-    with_motion,
 )
 from derive.solving.linear_systems import OMEGA, CharacteristicRoot, Factor, Gyroscopic, LinearSystem
 from derive.solving.relations import border_of, positive
@@ -70,7 +69,7 @@ class TurningModes(Equations[Gyroscopic]):
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
-        for n, (root, each) in enumerate(zip(self.system.roots, found, strict=True), 1):
+        for n, (root, each) in enumerate(zip(self.system.roots, found, strict=True), self.before + 1):
             column = self.system.column(root)
             if column is not None:
                 motions.append(_motion(self, each, root, column, n))
@@ -83,6 +82,7 @@ GYROSCOPIC_CHARACTERISTIC = Rule(
     outcomes={"generic": claims.has_turning, "plain": claims.gyroscopic_characteristic_plain},
     evidence={"quadrature": ROUTE},
     named={"trial": claims.trial(I, "omega")},
+    statements=[claims.coupled_only_to_each_other],
 )
 
 
@@ -103,8 +103,12 @@ def _characteristic(equations: TurningModes) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda _: Relation(system.written(letter), "=", 0)),
         routes={"quadrature": lambda found: _in_quadrature(found, equations)},
         outcome="plain" if system.is_conservative else "generic",
-        phrase_data=PhraseData(named={"trial": exp(I * letter * T)}, outcome_data={"turning": tuple(system.turning)}),
-        key=f"{equations.start}characteristic_equation",
+        phrase_data=PhraseData(
+            named={"trial": exp(I * letter * T)},
+            points_to=equations.named,
+            outcome_data={"turning": tuple(system.turning)},
+        ),
+        key=f"{equations.start}characteristic_equation{equations.number}",
         parents=equations.linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
@@ -131,7 +135,7 @@ def _of_cosines_and_sines(equations: TurningModes) -> Expr:
     u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(len(equations.linear))] for name in ("u", "v"))
     c, s = cos(equations.letter * T), sin(equations.letter * T)
     rows = []
-    for left in with_motion(equations.linear, [a * c + b * s for a, b in zip(u, v, strict=True)]):
+    for left in equations.with_motion([a * c + b * s for a, b in zip(u, v, strict=True)]):
         rows += [[diff(left.expand().coeff(part), a) for a in (*u, *v)] for part in (c, s)]
     return determinant_of(ImmutableDenseMatrix(rows))
 
@@ -156,7 +160,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
-    root = system.roots[n]
+    root, number = system.roots[n], equations.before + n + 1
     turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
@@ -174,7 +178,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
     return establish(
         GYROSCOPIC_FREQUENCY,
-        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{n + 1}"),
+        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{number}"),
         lambda *_: root.value,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
@@ -185,7 +189,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
             points_to={"characteristic": characteristic},
             outcome_data=equations.judged_by(conditions),
         ),
-        key=f"{equations.start}frequency_{n + 1}",
+        key=f"{equations.start}frequency_{number}",
         kind="angular speed",
         parents=[characteristic],
     )
@@ -246,7 +250,7 @@ def _motion(
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Check that the motion satisfies the linear equations at all times."""
-        left = with_motion(linear, list(explicit(found)))
+        left = equations.with_motion(list(explicit(found)))
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
     def energy(found: MatrixBase) -> tuple[Expr, Expr]:
@@ -330,9 +334,11 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    is_shared = key == "stability" and not together.is_conservative  # `normal_modes` uses the same equation
+    # `normal_modes` uses the same equation, unless some coordinates are not coupled to the others
+    is_shared = key == "stability" and not together.is_conservative and len(together.blocks) == 1
     system = together.of_kind(Gyroscopic)
-    equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
+    start = "" if is_shared else f"{key}_"
+    equations = TurningModes(linear, range(len(linear)), system, letter_of_frequency, start)
     characteristic = _characteristic(equations)
     needs = _needed(system)
     if any(system.sign(need) == -1 for need in needs):

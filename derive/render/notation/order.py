@@ -34,19 +34,20 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions; a number precedes a term with
-    the time: 1 + omega_0 t.
+    A term with both signs comes last: -beta +- i omega. Plain terms come before fractions, roots and functions; a
+    number precedes a term with the time: 1 + omega_0 t.
     """
 
     is_timed = any(term.has(ex.TIME) for term in terms)
 
-    def place(term: Any) -> tuple[bool, int, bool, bool, bool]:
+    def place(term: Any) -> tuple[bool, bool, int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
         is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
         is_displacement = isinstance(term, Symbol) and term.name.partition("_")[0] == DISPLACEMENT  # r_0 + eta
         return (
             is_displacement,
+            _has_both_signs(term),
             len(functions[:1]) + changing,
             is_fraction,
             _has_root(term),
@@ -54,6 +55,10 @@ def plain_first(terms: list[Any]) -> list[Any]:
         )
 
     return sorted(terms, key=place)
+
+
+def _has_both_signs(term: Expr) -> bool:
+    return ex.PLUS_MINUS in term.free_symbols
 
 
 def _has_root(term: Expr) -> bool:
