@@ -104,7 +104,7 @@ def are_exponents(wanted: str) -> Predicate:
         a, b, c = facts.inputs["linear"]
         both = [explicit(facts.result).xreplace({PLUS_MINUS: Integer(sign)}) for sign in (1, -1)]
         different = is_zero(both[0] - both[1]) == (wanted == "critically_damped")
-        return kind(facts) and different and all(is_zero((a * s**2 + b * s + c).expand()) for s in both)
+        return bool(kind(facts)) and different and all(is_zero((a * s**2 + b * s + c).expand()) for s in both)
 
     return is_so
 

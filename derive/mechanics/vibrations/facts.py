@@ -60,11 +60,16 @@ class Linear(LinearSystem, Fact):
         """Return the equations of some coordinates that are not coupled to the others."""
         rows = list(block)
         mass, turning, stiffness = (each.extract(rows, rows) for each in (self.mass, self.turning, self.stiffness))
-        displacements, driven, place, exact = (
-            tuple(each[i] for i in rows) if each else ()
-            for each in (self.displacements, self.driven, self.place, self.exact)
+        return Linear(
+            mass,
+            turning,
+            stiffness,
+            self.exists,
+            tuple(self.displacements[i] for i in rows),
+            tuple(self.driven[i] for i in rows),
+            tuple(self.place[i] for i in rows),
+            tuple(self.exact[i] for i in rows if self.exact),
         )
-        return Linear(mass, turning, stiffness, self.exists, displacements, driven, place, exact)
 
     def of_all(self, moving: Sequence[Symbol], column: MatrixBase) -> MatrixBase:
         """Return the amplitudes of all coordinates, if those of the coordinates `moving` are in the column and all
