@@ -322,7 +322,9 @@ def _general(sought: Sought, exponents: Quantity, free: Expr, constants: tuple[S
 
     Source: Taylor, *Classical Mechanics*, section 5.4.
     """
-    return _with_constants(GENERAL_MOTION, sought, free, constants, [exponents])
+    motion = Relation(sought.q.symbol, "=", sought.particular + free)
+    given = _of_motion(sought, constants, [exponents])
+    return establish(GENERAL_MOTION, None, lambda *_: motion, {"q": sought.q.symbol}, **given)
 
 
 def _harmonic(sought: Sought, free: Expr, constants: tuple[Symbol, Symbol]) -> Quantity:
@@ -330,30 +332,27 @@ def _harmonic(sought: Sought, free: Expr, constants: tuple[Symbol, Symbol]) -> Q
 
     Source: Taylor, *Classical Mechanics*, section 5.2.
     """
-    return _with_constants(HARMONIC_MOTION, sought, free, constants, [])
+    motion = Relation(sought.q.symbol, "=", sought.particular + free)
+    given = _of_motion(sought, constants, [])
+    return establish(HARMONIC_MOTION, None, lambda *_: motion, {"q": sought.q.symbol}, **given)
 
 
-def _with_constants(
-    rule: Rule, sought: Sought, free: Expr, constants: tuple[Symbol, Symbol], parents: Sequence[Quantity]
-) -> Quantity:
-    return establish(
-        rule,
-        None,
-        lambda *_: Relation(sought.q.symbol, "=", sought.particular + free),
-        {"q": sought.q.symbol},
-        lines=Lines(put_in=None, result=False, arranged=explicit),
-        routes={"put_back": lambda found: (sought.put_back(explicit(found).right), ZERO)},
-        phrase_data=PhraseData(
+def _of_motion(sought: Sought, constants: tuple[Symbol, Symbol], parents: Sequence[Quantity]) -> dict[str, Any]:
+    """Return the arguments of `establish` for a general motion."""
+    return {
+        "lines": Lines(put_in=None, result=False, arranged=explicit),
+        "routes": {"put_back": lambda found: (sought.put_back(explicit(found).right), ZERO)},
+        "phrase_data": PhraseData(
             named=sought.driving(),
             formulas=conditions_told(excluded=sought.excluded),
             points_to={"equation": sought.equation},
             outcome_data={**sought.coefficients, "constants": constants},
         ),
-        key=f"{sought.key}_general",
-        parents=[sought.equation, *parents],
-        scope=Scope(coordinates=_kinds_of_constants(sought, constants)),
-        proposals=sought.proposals,
-    )
+        "key": f"{sought.key}_general",
+        "parents": [sought.equation, *parents],
+        "scope": Scope(coordinates=_kinds_of_constants(sought, constants)),
+        "proposals": sought.proposals,
+    }
 
 
 def _kinds_of_constants(sought: Sought, constants: tuple[Symbol, Symbol]) -> Mapping[Symbol, str]:

@@ -33,7 +33,7 @@ from derive.mechanics.vibrations.linear_equations import (
     together_for,
 )
 from derive.mechanics.vibrations.oscillations import frequency, frequency_squared, told_where_positive
-from derive.mechanics.vibrations.uncoupled import uncoupled_frequencies
+from derive.mechanics.vibrations.uncoupled import UncoupledModes
 from derive.solving.linear_systems import CharacteristicRoot, Conservative, Damped, Gyroscopic, root_of
 from derive.steps.claims import nowhere_negative
 from derive.steps.establish import Lines, PhraseData, Scope, establish
@@ -101,8 +101,10 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
         name = "" if any(each.step.outcome.startswith("ordered") for each in found) else name
         before += len(block)
     alone = [i for block, alone in zip(together.blocks, is_alone, strict=True) if alone for i in block]
-    letter = _letter_of_frequency(together, symbol) if alone else None
-    return (*(uncoupled_frequencies(linear, alone, letter, start, before) if letter else ()), *found)
+    if not alone:
+        return tuple(found)
+    letter = _letter_of_frequency(together, symbol)
+    return (*UncoupledModes(linear, alone, letter, start, before).found(), *found)
 
 
 def _letter_of_frequency(together: Linear, symbol: str | None) -> Symbol:

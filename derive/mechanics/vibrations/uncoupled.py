@@ -6,8 +6,8 @@ other equation. So omega^2 = k/m, without a determinant.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, exp
 from sympy.matrices import MatrixBase
@@ -36,31 +36,40 @@ UNCOUPLED_FREQUENCY = Rule(
 )
 
 
-def uncoupled_frequencies(
-    linear: Sequence[Quantity], alone: Sequence[int], letter: Symbol, start: str, before: int
-) -> list[Quantity]:
-    """Return the frequencies, or the growth rates, of the coordinates with the indices `alone`. If all coordinates of
-    the system have one frequency, it is returned once."""
-    whole = linear[0].needed(Linear)
-    roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in alone}
-    order = sorted(alone, key=lambda i: in_order(roots[i]))
-    if len(alone) == len(linear) and all(is_zero(roots[i].value - roots[alone[0]].value) for i in alone):
-        return [_frequency(linear, alone, roots[alone[0]], letter, start, 1, "all")]
-    coupling = "none" if len(alone) == len(linear) else "others"
-    return [
-        _frequency(linear, (i,), roots[i], letter, start, before + n, coupling if n == 1 or before else "told")
-        for n, i in enumerate(order, 1)
-    ]
+@dataclass(frozen=True)
+class UncoupledModes:
+    """The frequencies, or the growth rates, of coordinates that are not coupled to any other.
+
+    linear   the equations of the whole system
+    alone    the indices of these coordinates
+    letter   the letter of a frequency
+    start    the beginning of all keys
+    before   the number of the modes of coupled coordinates, which have the lower numbers
+    """
+
+    linear: Sequence[Quantity]
+    alone: Sequence[int]
+    letter: Symbol
+    start: str
+    before: int
+
+    def found(self) -> list[Quantity]:
+        """Return one frequency for each coordinate; if all coordinates of the system have one frequency, return it
+        once."""
+        whole = self.linear[0].needed(Linear)
+        roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in self.alone}
+        order = sorted(self.alone, key=lambda i: in_order(roots[i]))
+        first = roots[order[0]]
+        is_all = len(self.alone) == len(self.linear)
+        if is_all and all(is_zero(root.value - first.value) for root in roots.values()):
+            return [_frequency(self, self.alone, first, 1, "all")]
+        words = ["none" if n == 0 else "told" for n in range(len(order))] if is_all else ["others"] * len(order)
+        numbers = range(self.before + 1, self.before + len(order) + 1)
+        return [_frequency(self, (i,), roots[i], n, word) for i, n, word in zip(order, numbers, words, strict=True)]
 
 
 def _frequency(
-    linear: Sequence[Quantity],
-    own: Sequence[int],
-    root: CharacteristicRoot,
-    letter: Symbol,
-    start: str,
-    number: int,
-    coupling: str,
+    modes: UncoupledModes, own: Sequence[int], root: CharacteristicRoot, number: int, coupling: str
 ) -> Quantity:
     """Frequency of coordinates that are not coupled to any other, omega = sqrt(k/m), or their growth rate.
 
@@ -72,6 +81,7 @@ def _frequency(
     Outcomes: oscillating, growing, free, conditional.
     Source: Taylor, *Classical Mechanics*, section 5.3.
     """
+    linear, letter = modes.linear, modes.letter
     whole = linear[0].needed(Linear)
     turned = -1 if root.sign == -1 else 1
     value = root_of(turned * root.value)
@@ -90,12 +100,10 @@ def _frequency(
         values = [each.subs(w**2, explicit(found) ** 2) for each in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 
-    drift = _drift(linear, columns) if root.sign == 0 else {}
-    pointed = (
-        {f"equation_{n}": linear[i] for n, i in enumerate(own, 1)}
-        if coupling == "all"
-        else {"equation": linear[own[0]]}
-    )
+    left = _left_by_drift(linear, columns) if root.sign == 0 else ()
+    pointed = {"equation": linear[own[0]]}
+    if coupling == "all":
+        pointed = {f"equation_{n}": linear[i] for n, i in enumerate(own, 1)}
     return establish(
         UNCOUPLED_FREQUENCY,
         defined.symbol if defined else _symbol(value, "kappa" if root.sign == -1 else letter.name, coordinates, number),
@@ -108,29 +116,29 @@ def _frequency(
             words={"coupling": coupling},
             points_to=pointed,
             formulas=told_where_positive(root.value) if root.sign is None else {},
-            named={"q": coordinates[0], **({"drift": ZERO} if drift else {})},
+            named={"q": coordinates[0], **({"drift": ZERO} if left else {})},
             outcome_data={
                 "own": tuple(own),
                 "coordinates": tuple(q.symbol for q, _ in whole.place),
                 "stiffness": whole.stiffness,
                 "turning": whole.turning,
                 "mass": whole.mass,
-                "left": drift.get("left", ()),
+                "left": left,
                 **({} if whole.exists is None else {"exists": whole.exists}),
             },
         ),
-        key=f"{start}frequency_{number}",
+        key=f"{modes.start}frequency_{number}",
         kind="angular speed",
         parents=[*linear, *([defined] if defined else [])],
         facts=[Mode(CharacteristicRoot(root.value, root.sign, root.factor, tuple(columns)), whole.moving)],
     )
 
 
-def _drift(linear: Sequence[Quantity], columns: Sequence[MatrixBase]) -> Mapping[str, Any]:
+def _left_by_drift(linear: Sequence[Quantity], columns: Sequence[MatrixBase]) -> tuple[Expr, ...]:
     """Return the residuals of the full equations of motion for uniform motions of the coordinates, if all of them
-    vanish; otherwise an empty dictionary."""
+    vanish."""
     left = [value for column in columns for value in left_by_drift(linear, column, stand_in("s"))]
-    return {"left": tuple(left)} if all(map(is_zero, left)) else {}
+    return tuple(left) if all(map(is_zero, left)) else ()
 
 
 def _symbol(value: Expr, letter: str, coordinates: Sequence[Symbol], number: int) -> Symbol:
