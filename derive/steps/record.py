@@ -164,6 +164,14 @@ def result_called(name: str) -> Quantity | None:
     return next((quantity for quantity in before if str(quantity.symbol) == name), None)
 
 
+@question
+def results_of(*rules: str) -> tuple[Quantity, ...]:
+    """Return the earlier results of these rules."""
+    run = current_run.get()
+    before = _before_call(run) if run is not None else ()
+    return tuple(quantity for quantity in before if quantity.step.rule in rules)
+
+
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
     """Return a symbol for the limit of a result: omega_2_lim if a letter goes to a finite value, omega_2_infty if it
     goes to infinity.

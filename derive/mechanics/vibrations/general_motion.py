@@ -23,13 +23,14 @@ from derive.solving.relations import conditions_told
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
 from derive.steps.natural import Proposal
-from derive.steps.record import given_letters, is_taken, result_called
+from derive.steps.record import given_letters, is_taken, result_called, results_of
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.step import Quantity
 
 ZERO, ONE = Integer(0), Integer(1)
 LETTERS_OF_EXPONENT = ("s", "lambda", "sigma", "p")
 LETTERS_OF_CONSTANTS = (("A", "B"), ("C", "D"), ("C_1", "C_2"))
+LETTERS = {scalar(name) for pair in LETTERS_OF_CONSTANTS for name in pair}
 BY_EXPONENTS = ("underdamped", "critically_damped", "overdamped", "runs_away")
 TERM = {"driving": claims.is_driving_term(True), "constant": claims.is_driving_term(False)}
 EXPLAINS = Shown(brief=Manner.LEFT_OUT, only_explains=True)
@@ -168,12 +169,23 @@ def general_motion(sought: Sought) -> GeneralMotion | None:
     because such an equation is integrated once."""
     if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or sought.linear.c == 0):
         return None
+    known = _known(sought, f"{sought.key}_general", HARMONIC_MOTION, GENERAL_MOTION)
+    if known is not None:
+        first, second = (letter for letter, _ in known.step.coordinates if letter in LETTERS)
+        return GeneralMotion(known, (first, second))
     constants = _constants_for(sought.equation)
     free = _free_with(constants, sought.linear, sought.sort)
     if sought.sort == "oscillates":
         return GeneralMotion(_harmonic(sought, free, constants), constants)
-    exponents = _exponents(sought, _characteristic(sought))
+    characteristic = _known(sought, f"{sought.equation.key}_characteristic", CHARACTERISTIC_POLYNOMIAL)
+    exponents = _exponents(sought, characteristic or _characteristic(sought))
     return GeneralMotion(_general(sought, exponents, free, constants), constants)
+
+
+def _known(sought: Sought, key: str, *rules: Rule) -> Quantity | None:
+    """Return a step that an earlier motion of the same equation needed; None if there is none."""
+    found = (each for each in results_of(*(rule.name for rule in rules)) if each.key == key)
+    return next((each for each in found if sought.equation in each.parents), None)
 
 
 def _free_with(constants: tuple[Symbol, Symbol], linear: LinearCoefficients, sort: str) -> Expr:

@@ -16,7 +16,7 @@ from derive.mechanics.vibrations import claims
 from derive.steps.establish import Lines, establish
 from derive.steps.level import Manner
 from derive.steps.natural import Proposal
-from derive.steps.record import defined_as, established, free_letter, given_letters, result_called
+from derive.steps.record import defined_as, free_letter, given_letters, result_called, results_of
 from derive.steps.rule import Rule, Shown
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, same_value
@@ -72,7 +72,7 @@ def _proposed(
     """
     value = tidied(value)
     name = free_letter(name)
-    earlier = (each for each in established() if each.step.rule in FREQUENCIES and same_value(each.value, value))
+    earlier = (each for each in results_of(*FREQUENCIES) if same_value(each.value, value))
     known = defined_as(value) or next(earlier, result_called(name))
     if known is not None:
         return Proposal(known.symbol, known.value, lambda: known) if same_value(known.value, value) else None
