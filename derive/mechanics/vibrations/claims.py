@@ -471,6 +471,13 @@ def _is_uncoupled(facts: Judged, i: int) -> bool:
     return all(is_zero(each[i, j]) and is_zero(each[j, i]) for each in matrices for j in others)
 
 
+def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
+    """Whether the displacement is not coupled to any other, and oscillates at all trial points."""
+    i = facts.inputs["displacements"].index(displacement)
+    stiffness, turning, mass = (Matrix(facts.inputs[role])[i, i] for role in MATRICES)
+    return _is_uncoupled(facts, i) and turning == 0 and signs(stiffness / mass, _points(facts)) == {1}
+
+
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
     """Whether the sentence is right about the coupling: no equations are coupled, and perhaps all coordinates have this
     frequency; or some of the equations are coupled. The equations that the sentence names must be those of the

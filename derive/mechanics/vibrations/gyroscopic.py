@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import (
     Add,
@@ -38,6 +39,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.linear_equations import (
     OF_SIGN,
     Equations,
@@ -334,11 +336,12 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    # `normal_modes` uses the same equation, unless some coordinates are not coupled to the others
-    is_shared = key == "stability" and not together.is_conservative and len(together.blocks) == 1
-    system = together.of_kind(Gyroscopic)
-    start = "" if is_shared else f"{key}_"
-    equations = TurningModes(linear, range(len(linear)), system, letter_of_frequency, start)
+    block = [i for i in range(len(linear)) if not _oscillates_by_itself(together, i)] or range(len(linear))
+    part = together.part(block)
+    # `normal_modes` uses the same equation, unless other coordinates are not coupled to each other
+    is_shared = key == "stability" and not together.is_conservative and len(part.blocks) == 1
+    system = part.of_kind(Gyroscopic)
+    equations = TurningModes(linear, block, system, letter_of_frequency, "" if is_shared else f"{key}_")
     characteristic = _characteristic(equations)
     needs = _needed(system)
     if any(system.sign(need) == -1 for need in needs):
@@ -352,6 +355,26 @@ def linear_stability(
         for i in range(len(conditions))
     ]
     return found[0] if len(found) == 1 else tuple(found)
+
+
+def _oscillates_by_itself(together: Linear, i: int) -> bool:
+    """Whether coordinate i is not coupled to any other, and its potential energy has a minimum."""
+    part = together.part((i,))
+    is_alone = (i,) in together.blocks and part.is_conservative
+    return is_alone and part.sign(tidied(part.stiffness[0] / part.mass[0])) == 1
+
+
+def _told_of_others(equations: TurningModes) -> dict[str, Any]:
+    """Return the displacements that oscillate by themselves, for the sentence about stability."""
+    others = (s for s in equations.every[0].needed(Linear).moving if s not in equations.moving)
+    return {f"alone_{n}": symbol for n, symbol in enumerate(others, 1)}
+
+
+def _of_all(equations: TurningModes, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
+    """Return the data for judging a sentence about all coordinates, coupled or not."""
+    whole = equations.every[0].needed(Linear)
+    matrices = {"stiffness": whole.stiffness, "turning": whole.turning, "mass": whole.mass}
+    return {**equations.judged_by(conditions), **matrices, "displacements": whole.moving}
 
 
 def _needed(system: Gyroscopic) -> list[Expr]:
@@ -398,6 +421,7 @@ GYROSCOPIC_STABILITY = Rule(
         "last": claims.gyroscopic_stability_last,
     },
     evidence={"quadrature": ROUTE, "border": CHECK},
+    named={"alone": claims.oscillates_by_itself},
 )
 
 
@@ -415,7 +439,11 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"quadrature": lambda found: _in_quadrature(found, equations)},
         outcome=outcome,
-        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by()),
+        phrase_data=PhraseData(
+            points_to=_named(characteristic),
+            named=_told_of_others(equations),
+            outcome_data=_of_all(equations),
+        ),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
@@ -467,7 +495,11 @@ def _condition(
         ),
         routes={"border": at_border},
         outcome=_place_among(i, len(conditions)),
-        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by(conditions)),
+        phrase_data=PhraseData(
+            points_to=_named(characteristic),
+            named=_told_of_others(equations),
+            outcome_data=_of_all(equations, conditions),
+        ),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
