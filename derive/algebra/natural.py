@@ -92,7 +92,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         for known in (whole, *_eliminations(chosen, kept)):
             form = _with(value, known, chosen, kept)
             cost = _cost(form.value.xreplace(named))
-            if cost < least and _is_natural(form.value, chosen):
+            if cost < least and _is_natural(form.value, chosen) and form.value.has(I) == value.has(I):
                 best, least = form, cost
     return best and Shortened(
         best.value.xreplace({**names, **named}),
@@ -102,12 +102,12 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether a form is real, contains each quantity, and has no sum in which one term is a quantity and another term
+    """Whether a form contains each quantity, and has no sum in which one term is a quantity and another term
     is a symbol of its formula.
 
     If r_0 = l + m g/k, the difference r_0 - l is not more natural than m g/k.
     """
-    if form.has(I) or not quantities.keys() <= form.free_symbols:
+    if not quantities.keys() <= form.free_symbols:
         return False
     sums = [{term.as_coeff_Mul()[1] for term in each.args} for each in form.atoms(Add)]
     return not any(name in terms and terms & value.free_symbols for name, value in quantities.items() for terms in sums)
@@ -229,10 +229,14 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides, term by term; divide an equation with zero on the right by the positive symbols that all
-    terms on the left have in common. Any other relation between constants is divided by the common factor of both
-    sides."""
+    """Rewrite both sides, term by term, but only the right side of an equation that gives the value of a symbol.
+
+    Divide an equation with zero on the right by the positive symbols that all terms on the left have in common. Divide
+    any other relation between constants by the common factor of both sides.
+    """
     used = tuple(quantities)
+    if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:
+        return Shortened(Relation(value.left, "=", _written(value.right, known)), used)
     left, right = (Add(*(_written(term, known) for term in Add.make_args(side))) for side in (value.left, value.right))
     if not (is_motion and value.operator == "=") and left != 0 and right != 0:
         # False if a dummy symbol stands for a function that is only assumed to be positive
@@ -240,6 +244,7 @@ def _relation(
         return Shortened(compared(left, value.operator, right, is_sure), used)
     if value.operator != "=" or right != 0:
         return Shortened(Relation(left, value.operator, right), used)
+    left = factor_terms(left) if left.is_Mul else left
     factors = Mul.make_args(factor_terms(left))
     front = [f for f in factors if f.is_positive and (f.is_Symbol or f.is_Pow or f.is_Rational)]
     front = [f for f in front if all(Mul(*(o for o in factors if o != f)).has(s) for s in f.free_symbols & {*used})]
@@ -250,18 +255,22 @@ def _relation(
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     """Substitute, and bring to lowest terms what is under a root or in a function.
 
-    A sum is written term by term, unless this gives more terms. For any other value, the result of the substitution
-    is returned unchanged or in its tidy form, whichever is shorter.
+    A sum is written term by term, unless this gives more terms. A product of several sums is written factor by factor.
+    For any other value, the result of the substitution is returned unchanged, in its tidy form, or with the common
+    factors of sums in front, whichever is shortest.
     """
     put_in = value.subs(known)
     if put_in == value:
         return value
+    powers = [factor.as_base_exp() for factor in Mul.make_args(value)]
+    if len([base for base, n in powers if base.is_Add and n.is_Integer and n.is_positive]) > 1:
+        return Mul(*(_written(factor, known) for factor in Mul.make_args(value)))
     kept = put_in.replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
     kept = kept.replace(lambda part: isinstance(part, Function), lambda part: part.func(*map(tidied, part.args)))
     by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
     if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
         return by_terms
-    return min((kept, tidied(kept)), key=_cost)
+    return min((kept, tidied(kept), factor_terms(kept)), key=_cost)
 
 
 def _is_root(value: Expr) -> bool:

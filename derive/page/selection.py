@@ -79,6 +79,7 @@ class Selection:
         self._having_it = {step.key: that_have_it(step, derivation) for step in derivation.steps}
         self._parts = derivation.parts
         self._behind_quoted = self._only_for_quoted(derivation.steps)
+        self._behind_worded = self._only_for_worded(derivation.steps)
         self._manners: dict[str, Manner] = {}
         for step in derivation.steps:
             rules = {other.rule for other in derivation.steps if self._manners.get(other.key) is OWN}
@@ -143,7 +144,7 @@ class Selection:
             return OWN
         if step.key in self.needed.numbers:
             return OWN
-        manner = LEFT_OUT if step.key in self._behind_quoted else step.display.manner(self.level)
+        manner = LEFT_OUT if step.key in self._behind_quoted | self._behind_worded else step.display.manner(self.level)
         if repeats and step.display.first_only:
             manner = LEFT_OUT
         for _ in range(self.needed.letters.get(step.key, 0)):
@@ -157,6 +158,15 @@ class Selection:
         for step in reversed(steps):
             users = {other.key for other in steps if step.key in other.inputs}
             if users and users <= quoted | found:
+                found.add(step.key)
+        return found
+
+    def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
+        """Return the steps that only explain steps which the problem words itself."""
+        found: set[str] = set()
+        for step in reversed(steps) if self.worded else ():
+            users = {other.key for other in steps if step.key in other.inputs}
+            if step.display.only_explains and users and users <= {*self.worded} | found:
                 found.add(step.key)
         return found
 

@@ -217,7 +217,7 @@ class LinearSystem:
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
         """The roots in ascending order for typical values of the symbols; roots without a formula come last."""
-        return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=_in_order))
+        return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
         raise NotImplementedError  # as for `factors`
@@ -234,7 +234,9 @@ class LinearSystem:
         return [(part, times) for part, times in found]
 
 
-def _in_order(root: CharacteristicRoot) -> tuple[bool, float, str]:
+def in_order(root: CharacteristicRoot) -> tuple[bool, float, str]:
+    """Return the key that sorts roots in ascending order for typical values of the symbols; roots without a formula
+    come last."""
     size = size_of(root.value)
     return not root.has_formula, size, str(root.value) if size else ""
 

@@ -176,10 +176,10 @@ def establish(
     given = [value_behind(q) for q in inputs.values()]
     names = [q.symbol if isinstance(q, Quantity) else q for q in inputs.values()]
 
-    record.check_not_defined(key, symbol)
     formula, substituted = law(*names), law(*given)
     bindings = bindings_of([*quantities.values(), *parents])
     result = lines.arranged(bound(explicit(bound(substituted, bindings)), {**bindings, **lines.motion}))
+    record.check_not_defined(key, symbol, result)
     _check_letter(key, symbol, result, lines.means)
     check_symbol(key, symbol, result)
     check_can_hold(key, result)

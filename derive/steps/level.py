@@ -37,6 +37,8 @@ class Display:
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before this one may state the result of this step
     first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
+    only_explains     whether the step only explains the steps that use it, so that it is left out if the problem words
+                      these steps itself
     result_again      up to this level, only the result is shown if the step directly before has the same rule and
                       outcome, and an earlier step has the same rule and kinds of lines
     each_worked_out   whether the lines of the page's level are shown even after a step with the same rule and kinds of
@@ -56,6 +58,7 @@ class Display:
     standard: Manner = Manner.OWN
     told_along: bool = True
     first_only: bool = False
+    only_explains: bool = False
     result_again: Level | None = None
     each_worked_out: bool = False
     abbreviates: bool = False
@@ -97,6 +100,7 @@ class Shown:
     outcomes: Mapping[str, tuple[Manner, Manner]] = field(default_factory=dict)
     told_along: frozenset[str] = frozenset({"generic"})
     first_only: bool = False
+    only_explains: bool = False
     result_again: Level | None = None
     each_worked_out: bool = False
     abbreviates: bool = False
@@ -119,6 +123,7 @@ class Shown:
             standard=standard,
             told_along=step.outcome in self.told_along and not self.condition_if(step),
             first_only=self.first_only,
+            only_explains=self.only_explains,
             result_again=self.result_again,
             each_worked_out=self.each_worked_out,
             abbreviates=self.abbreviates,

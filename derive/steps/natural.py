@@ -95,7 +95,10 @@ class NaturalQuantities:
             return None
         names = [name for name in found.used if name in found.value.free_symbols]
         values = {name: known[name].value for name in names}
-        if not equal(value, explicit(bound(found.value, values)), found.nonzero):
+        back = explicit(bound(found.value, values))
+        if isinstance(value, Relation) and (value.left, value.operator) == (back.left, back.operator):
+            value, back = value.right, back.right
+        if not equal(value, back, found.nonzero):
             return None
         self.used += [made for name in names if (made := known[name].make()) not in self.used]
         return found

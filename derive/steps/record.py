@@ -164,6 +164,14 @@ def result_called(name: str) -> Quantity | None:
     return next((quantity for quantity in before if str(quantity.symbol) == name), None)
 
 
+@question
+def results_of(*rules: str) -> tuple[Quantity, ...]:
+    """Return the earlier results of these rules."""
+    run = current_run.get()
+    before = _before_call(run) if run is not None else ()
+    return tuple(quantity for quantity in before if quantity.step.rule in rules)
+
+
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
     """Return a symbol for the limit of a result: omega_2_lim if a letter goes to a finite value, omega_2_infty if it
     goes to infinity.
@@ -288,17 +296,26 @@ def add_definition(quantity: Quantity) -> None:
         run.defined.append(quantity)
 
 
-def check_not_defined(key: str, symbol: Any) -> None:
-    """Reject a step whose key or symbol is the name of a quantity under `define:`."""
+def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
+    """Reject a step whose key or symbol is the name of a quantity under `define:`. A result with the value of the
+    defined quantity may have the same symbol, and its square may have the square of this symbol."""
     run = current_run.get()
     if run is None:
         return
     own = {key, *(s.name for s in getattr(symbol, "free_symbols", ()) if isinstance(s, Symbol))}
-    name = next((quantity.key for quantity in run.defined if quantity.key in own), None)
+    names = [quantity for quantity in run.defined if quantity.key in own]
+    name = next((each.key for each in names if each.key == key or not _is_its_value(each, symbol, value)), None)
     if name is not None:
         also = f"the step `{key}` also uses this symbol for its result"
         message = f"`{name}` is a symbol of this problem, but {also if name != key else 'it is also the key of a step'}"
         raise Rejected(Complaint("letter-clash", message, run.defined_at.get(name), help="use another symbol"))
+
+
+def _is_its_value(defined: Quantity, symbol: Any, value: Any) -> bool:
+    """Whether the value of a symbol, or of the square of a symbol, follows from a definition of the symbol."""
+    if not isinstance(value, Expr) or not isinstance(symbol, Expr):
+        return False
+    return same_value(symbol.subs(defined.symbol, explicit(defined.value)), value)
 
 
 @question
@@ -313,6 +330,11 @@ def defined_quantities() -> tuple[Quantity, ...]:
     """Return the quantities that the problem defines under `define:`."""
     run = current_run.get()
     return tuple(run.defined) if run is not None else ()
+
+
+def defined_as(value: Expr) -> Quantity | None:
+    """Return the quantity under `define:` that has this value; None if there is none."""
+    return next((each for each in defined_quantities() if same_value(each.value, value)), None)
 
 
 def finished_steps(run: Run) -> tuple[str, ...]:

@@ -40,6 +40,7 @@ JUDGES: Mapping[str, Judge] = {
     "rest.stability_on_constraints": small.stability,
     "rest.stability_of_several": small.stability,
     "vibrations.mode_frequency": small.frequency,
+    "vibrations.uncoupled_frequency": small.frequency,
     "vibrations.frequency": small.frequency,
     "vibrations.gyroscopic_frequency": small.frequency,
     "vibrations.damped_rate": small.damped,

@@ -30,6 +30,7 @@ from tests.mechanics.slab import M, R, a, known_slab
 q, q_dot, q_ddot = THETA.symbol, THETA.rate, THETA.acceleration
 x, x_dot, x_ddot = X.symbol, X.rate, X.acceleration
 r, phi = coordinate("r", "length"), coordinate("phi")
+m_3 = symbols("m_3", positive=True)
 
 PENDULUM = (l * sin(q), -l * cos(q), THETA)
 
@@ -52,6 +53,29 @@ def test_the_energies_of_a_pendulum_are_the_known_ones() -> None:
     assert (T.value - m * l**2 * q_dot**2 / 2).expand() == 0
     assert U.value == -m * g * l * cos(q)
     assert T.step.kind == "energy"
+
+
+def pulleys() -> Quantity:
+    """Three masses on the strings of two pulleys: x and y are depths, l is a constant length."""
+    with recorded():
+        down, inside = coordinate("x", "length"), coordinate("y", "length")
+        heights = {M: -1 * down, m: down - l - inside, m_3: down - l + inside}
+        return lagrangian(System(*(Particle(mass, point(0, height)) for mass, height in heights.items()), weight(g)))
+
+
+def test_each_coordinate_occurs_once_in_an_energy_that_is_linear_in_the_coordinates() -> None:
+    L = pulleys()
+    _, U = L.parents
+    last = U.step.chain[-1].expr
+    assert [str(last).count(name) for name in ("x", "y")] == [1, 1]
+    assert equal(U.value, g * ((m + m_3 - M) * x + (m_3 - m) * coordinate("y", "length").symbol - (m + m_3) * l))
+
+
+def test_a_difference_of_constants_changes_its_sign_in_the_lagrangian() -> None:
+    *_, with_x, with_y, constant = pulleys().step.chain[-1].expr.args
+    assert equal(with_x, (M - m - m_3) * g * x) and M - m - m_3 in with_x.args
+    assert m - m_3 in with_y.args
+    assert not constant.has(x)
 
 
 def test_a_body_that_turns_has_the_energy_of_its_rotation_besides() -> None:

@@ -34,10 +34,14 @@ from derive.mechanics import (
     spring,
     weight,
 )
-from derive.mechanics.vibrations import modes
+from derive.mechanics.vibrations import claims, modes
+from derive.mechanics.vibrations import uncoupled as uncoupled_module
+from derive.mechanics.vibrations.facts import Linear
 from derive.solving import linear_systems
 from derive.solving.linear_systems import Conservative
+from derive.steps.defined import define
 from derive.steps.record import Run, recorded
+from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 
 m, M, g, l, k, c, R, w = symbols("m M g l k c R omega", positive=True)
@@ -181,8 +185,112 @@ def test_two_masses_that_are_not_joined_have_one_frequency_twice() -> None:
     at = [point(n * l + coordinate(f"x_{n}", "length"), 0) for n in (1, 3)]
     springs = (spring(k, point(2 * n * l, 0), each, l) for n, each in enumerate(at))
     found = normal_modes(linearised(motion(*(Particle(m, each) for each in at), *springs)))
-    assert outcomes(found) == ["oscillating_repeated", "any_of_several", "any_of_several"]
+    assert [(str(q.symbol), q.step.outcome, q.step.rule) for q in found] == [
+        ("omega_0", "oscillating", "vibrations.uncoupled_frequency")
+    ]
     assert same(squares(found), k / m)
+
+
+def uncoupled(*constants: Expr, mass: Expr = m) -> tuple[Quantity, ...]:
+    """A particle in the energy c_x x^2/2 + c_y y^2/2 + ..., to first order."""
+    q = [coordinate(name, "length") for name in "xyz"[: len(constants)]]
+    energy = sum(c * each.symbol**2 / 2 for c, each in zip(constants, q, strict=True))
+    return linearised(motion(Particle(mass, point(*q)), potential(energy)))
+
+
+def told(found: Sequence[Quantity]) -> list[tuple[str, str, str]]:
+    return [(str(q.symbol), q.step.outcome, dict(q.step.words)["coupling"]) for q in found]
+
+
+def test_coordinates_that_are_not_coupled_have_frequencies_of_their_own_and_no_determinant() -> None:
+    found = normal_modes(uncoupled(k, 2 * k, 3 * k))
+    assert told(found) == [
+        ("omega_x", "oscillating", "none"),
+        ("omega_y", "oscillating", "told"),
+        ("omega_z", "oscillating", "told"),
+    ]
+    assert [q.key for q in found] == ["frequency_1", "frequency_2", "frequency_3"]
+    assert same(squares(found), k / m, 2 * k / m, 3 * k / m)
+    assert all("Determinant" not in str(q.step.chain) for each in found for q in each.ancestors())
+
+
+def test_the_frequencies_of_uncoupled_coordinates_are_in_ascending_order() -> None:
+    assert told(normal_modes(uncoupled(2 * k, -k, k - k))) == [
+        ("kappa_y", "growing", "none"),
+        ("omega_z", "free", "told"),
+        ("omega_x", "oscillating", "told"),
+    ]
+
+
+def test_the_sign_of_a_constant_may_be_open() -> None:
+    c_0 = symbols("c_0", real=True)
+    (frequency,) = normal_modes(uncoupled(c_0, c_0))
+    assert told([frequency]) == [("omega_0", "conditional", "all")]
+    assert dict(frequency.step.roles)["condition"] == Relation(c_0, ">", 0)
+
+
+def test_only_coupled_coordinates_have_a_determinant() -> None:
+    x, y, z = (coordinate(name, "length") for name in "xyz")
+    energy = k * x.symbol**2 / 2 + c * (y.symbol - z.symbol) ** 2 / 2 + k * (y.symbol**2 + z.symbol**2) / 2
+    found = normal_modes(linearised(motion(Particle(m, point(x, y, z)), potential(energy))))
+    assert [(q.key, str(q.symbol)) for q in found] == [
+        ("frequency_3", "omega_x"),
+        ("frequency_1", "omega_1"),
+        ("frequency_2", "omega_2"),
+        ("mode_1", "a_1"),
+        ("mode_2", "a_2"),
+    ]
+    assert told(found[:1]) == [("omega_x", "oscillating", "others")]
+    assert same(squares(found), k / m, k / m, (k + 2 * c) / m)
+    assert shapes(found) == [[1, 1], [1, -1]]
+    (characteristic,) = found[1].parents
+    assert dict(characteristic.step.roles).keys() >= {"equation_1", "equation_2"}
+
+
+def test_each_group_of_coupled_coordinates_has_its_own_determinant() -> None:
+    q = [coordinate(f"x_{n}", "length") for n in range(4)]
+    a, b, d, e = (each.symbol for each in q)
+    energy = (k * (a - b) ** 2 + k * (a**2 + b**2) + c * (d - e) ** 2 + k * (d**2 + e**2)) / 2
+    found = normal_modes(linearised(motion(*(Particle(m, point(each, 0)) for each in q), potential(energy))))
+    assert [each.key for each in found if each.key.startswith("frequency")] == [f"frequency_{n}" for n in range(1, 5)]
+    assert {p.key for each in found for p in each.parents if "characteristic" in p.key} == {
+        "characteristic_equation_1",
+        "characteristic_equation_2",
+    }
+
+
+def test_a_frequency_with_the_value_of_a_defined_quantity_has_its_symbol() -> None:
+    with recorded(Run(letters=("m", "k", "w_0"))):
+        define([(symbols("w_0", positive=True), sqrt(k / m))])
+        found = normal_modes(uncoupled(k, 2 * k))
+        assert [str(q.symbol) for q in found] == ["w_0", "omega_y"]
+    with recorded(Run(letters=("m", "k", "omega_0"))):
+        define([(symbols("omega_0", positive=True), sqrt(k / m))])
+        x = coordinate("x", "length")
+        (frequency,) = normal_modes(linearised(motion(Particle(m, point(x, 0)), potential(k * x.symbol**2 / 2))))
+        assert (str(frequency.symbol), frequency.key) == ("omega_0", "frequency")
+
+
+def test_a_given_letter_is_not_the_symbol_of_a_frequency() -> None:
+    with recorded(Run(letters=("m", "k", "omega_x"))):
+        assert [str(q.symbol) for q in normal_modes(uncoupled(k, 2 * k))] == ["omega_1", "omega_y"]
+
+
+@pytest.mark.parametrize("wrong", [lambda root: 2 * root, lambda root: -root])
+def test_a_wrong_frequency_of_an_uncoupled_coordinate_is_refused(wrong: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr(uncoupled_module, "root_of", lambda square: wrong(linear_systems.root_of(square)))
+    with pytest.raises(Unverified):
+        normal_modes(uncoupled(k, 2 * k))
+
+
+@pytest.mark.parametrize("word", ["none", "all"])
+def test_coupled_equations_are_not_called_uncoupled(word: str) -> None:
+    one = linearised(chain([m, m], [k, c, k]))[0]
+    known = one.needed(Linear)
+    matrices = {"stiffness": known.stiffness, "turning": known.turning, "mass": known.mass}
+    facts = Judged(sqrt(k / m), {**matrices, "own": (0,)}, {"equation": one}, words={"coupling": word})
+    assert not claims.uncoupled_as_told(facts, "oscillating")
+    assert not claims.moves_by_itself(1)(facts)
 
 
 def test_a_pendulum_on_a_cart_has_a_mode_that_is_no_oscillation() -> None:

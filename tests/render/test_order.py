@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sympy import Symbol, cos, exp, pi, sin, sqrt, symbols, tan
 
-from derive.algebra.expressions import TIME, rate
+from derive.algebra.expressions import PLUS_MINUS, TIME, rate
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.notation import Notation
 from derive.render.notation.order import motion_first, ordered_factors, plain_first
@@ -26,6 +26,7 @@ KINDS = {
     **dict.fromkeys((rate(theta), rate(phi)), "angular speed"),
     rate(l): "speed",
     Symbol("mu"): "number",
+    Symbol("e"): "number",
     Symbol("N"): "force",
 }
 NOTATION = Notation({letter: dimension_of_kind(kind) for letter, kind in KINDS.items()})
@@ -33,6 +34,12 @@ NOTATION = Notation({letter: dimension_of_kind(kind) for letter, kind in KINDS.i
 READS = [
     (Symbol("N") * Symbol("mu") * a, "μ a N"),
     (m * g * Symbol("mu"), "μ m g"),
+    (-rate(l) * Symbol("e"), "-e l̇"),
+    (m - M * Symbol("e"), "m - e M"),
+    (Symbol("e") + 1, "1 + e"),
+    (1 - Symbol("e") ** 2, "1 - e²"),
+    (Symbol("e") ** 2 - 1, "e² - 1"),
+    (PLUS_MINUS * sqrt(k / m) - b / m, "-b/m ± √(k/m)"),
     (cos(theta) + 1, "1 + cos θ"),
     (sqrt(2) + 2, "2 + √2"),
     (2 - sqrt(2), "2 - √2"),

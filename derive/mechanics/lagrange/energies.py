@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, expand, factor, sin, sqrt, tan
+from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, expand, factor, preorder_traversal, sin, sqrt, tan
 
 from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
 from derive.algebra.derivatives import derivative
@@ -319,11 +319,27 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
+LITTLE_LONGER = 2  # the greatest difference in length (`length`)
+
+
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta)."""
-    forms = [by_terms(value), by_terms(value.expand()), with_constants_together(value.expand(), moving)]
+    """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta).
+
+    Each coordinate occurs once if this makes the energy only a little longer: (M - m) g x for M g (x - l) - m g x.
+    """
+    collected = with_constants_together(value.expand(), moving)
+    forms = [by_terms(value), by_terms(value.expand()), collected]
     shortest = min(forms, key=length)
+    is_short = length(collected) <= length(shortest) + LITTLE_LONGER
+    not_more = len(Add.make_args(collected)) <= len(Add.make_args(shortest))
+    if is_short and not_more and _count(collected, moving) < _count(shortest, moving):
+        shortest = collected
     return Add(*(spread(term) for term in Add.make_args(shortest)))
+
+
+def _count(value: Expr, letters: Collection[Symbol]) -> int:
+    """Return how often the letters occur in an expression."""
+    return sum(part in letters for part in preorder_traversal(value))
 
 
 POTENTIAL_ENERGY = Rule(

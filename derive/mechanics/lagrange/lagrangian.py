@@ -6,7 +6,7 @@ m v . dr/dq, and an equation of motion follows from d'Alembert's principle.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
@@ -94,7 +94,7 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     return establish(
         LAGRANGIAN,
         scalar(symbol),
-        lambda t, u, *b: _side_by_side(*Add.make_args(t), *(-term for term in Add.make_args(u)), *b),
+        lambda t, u, *b: _side_by_side(*Add.make_args(t), *_subtracted(u, moving), *b),
         {"kinetic": kinetic, "potential": potential, **beside},
         lines=Lines(put_in=Level.BRIEF, result=False, arranged=explicit),
         routes={"mass_points": of_mass_points} if driven else {"energy": energy},
@@ -103,6 +103,22 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
         outcome="in_field" if beside else "generic",
         facts=[matter, Energies(kinetic, potential, magnetic), *acting(kinetic, potential)],
     )
+
+
+def _subtracted(energy: Expr, moving: Collection[Symbol]) -> list[Expr]:
+    """Return the terms of minus the energy, those without coordinates last. A difference of constants before a
+    coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
+    terms = sorted(Add.make_args(energy), key=lambda term: not term.free_symbols & {*moving})
+    return [_turned(term, moving) for term in terms]
+
+
+def _turned(term: Expr, moving: Collection[Symbol]) -> Expr:
+    factors = list(Mul.make_args(term))
+    for i, factor in enumerate(factors if {*factors} & {*moving} else []):
+        is_difference = factor.is_Add and any(part.could_extract_minus_sign() for part in factor.args)
+        if is_difference and not factor.free_symbols & {*moving}:
+            return Mul(*factors[:i], Add(*(-part for part in factor.args)), *factors[i + 1 :])
+    return -term
 
 
 def _side_by_side(*terms: Expr) -> Expr:

@@ -169,13 +169,15 @@ UNAFFECTED = Rule(
 def unaffected(view: View) -> Observed:
     """Mode whose frequency does not depend on a spring constant or a mass, and the reason in its shape."""
     shapes = [q for q in view.answers if q.step.rule == "vibrations.mode_shape"]
-    frequencies = [q for q in view.answers if q.fact(Mode) is not None]
+    frequencies = [q for q in view.answers if q.step.rule == "vibrations.mode_frequency"]
     used = {s for q in frequencies for s in explicit(q.value).free_symbols}
-    for of, shape in zip(frequencies, shapes, strict=False):
-        linear = linear_equations(of)
-        if linear is None or is_zero(of.value):
+    for of in frequencies:
+        shape = next((each for each in shapes if of.key in each.step.inputs), None)
+        whole = linear_equations(of)
+        if shape is None or whole is None or is_zero(of.value):
             continue
-        for letter in view.in_order(used - explicit(of.value).free_symbols):
+        linear = whole.part([whole.moving.index(s) for s in of.needed(Mode).moving])
+        for letter in view.in_order((used & linear.letters) - explicit(of.value).free_symbols):
             outcome, data = _reason(linear, letter, view.letters[letter])
             if outcome:
                 yield _unaffected(of, shape, letter, outcome, data)

@@ -20,6 +20,7 @@ from derive.mechanics.observations.view import Observed, View, numbered, observa
 from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
+from derive.steps.defined import QUANTITY
 from derive.steps.establish import PhraseData
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import coordinates_in, free_letter
@@ -28,7 +29,7 @@ from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
 
 PERIOD = "vibrations.period"
-OSCILLATES = ("vibrations.frequency", "vibrations.mode_frequency")
+OSCILLATES = ("vibrations.frequency", "vibrations.mode_frequency", "vibrations.uncoupled_frequency")
 ROOTS, STEADY = "answers.roots", "motion.steady_motion"
 
 PENDULUM = Rule(
@@ -87,7 +88,7 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
     if g not in length.free_symbols:
         worth_it = not isinstance(length, Symbol) and simple(length, 6) and _has_rational_factors(length)
         return ("length", {"length": length}, []) if worth_it else None
-    for step in view.shown:
+    for step in sorted(view.shown, key=lambda shown: shown.step.rule != QUANTITY.name):  # defined quantities first
         for name, value in step.named_values:
             if isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - length):
                 return "named", {"length": name, "equal": length}, [step]
@@ -261,7 +262,8 @@ def one_frequency(view: View) -> Observed:
     )
     for of in view.values("angular speed") if of_particle else ():
         steps = [q for q in of.ancestors() if q.fact(Linear) is not None]
-        if steps and of.step.outcome == "oscillating_repeated" and all("as_it_is" in dict(q.step.roles) for q in steps):
+        is_common = of.step.outcome == "oscillating_repeated" or dict(of.step.words).get("coupling") == "all"
+        if steps and is_common and _seen(of) and all("as_it_is" in dict(q.step.roles) for q in steps):
             yield _one_frequency(of, steps[0])
 
 

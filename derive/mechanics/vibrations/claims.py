@@ -3,7 +3,7 @@ steps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -26,7 +26,7 @@ from sympy import (
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import determinant_of
-from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
+from derive.algebra.expressions import PLUS_MINUS, TIME, Relation, depends_on_time, explicit, rate
 from derive.algebra.ordered_roots import OrderedRoot
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
@@ -94,6 +94,48 @@ def free_motion(wanted: str) -> Predicate:
         )
 
     return is_so
+
+
+def are_exponents(wanted: str) -> Predicate:
+    """Judge the kind of motion, and whether both values of the result are roots of a s^2 + b s + c."""
+    kind = free_motion(wanted)
+
+    def is_so(facts: Judged) -> bool:
+        a, b, c = facts.inputs["linear"]
+        both = [explicit(facts.result).xreplace({PLUS_MINUS: Integer(sign)}) for sign in (1, -1)]
+        different = is_zero(both[0] - both[1]) == (wanted == "critically_damped")
+        return bool(kind(facts)) and different and all(is_zero((a * s**2 + b * s + c).expand()) for s in both)
+
+    return is_so
+
+
+def is_general_motion(facts: Judged) -> bool:
+    """Whether the motion satisfies a q_ddot + b q_dot + c q = f(t) for all values of its two constants, and the
+    constants can fulfil all initial values."""
+    a, b, c = facts.inputs["linear"]
+    motion, constants = explicit(facts.result).right, facts.inputs["constants"]
+    first = diff(motion, TIME)
+    fulfils = is_zero((a * diff(first, TIME) + b * first + c * motion - facts.inputs["driven"]).expand())
+    at_start = Matrix([[diff(value.subs(TIME, 0), C) for C in constants] for value in (motion, first)])
+    return facts.result.left == facts.inputs["q"] and fulfils and not is_zero(at_start.det())
+
+
+def is_driving_term(changes: bool) -> Naming:
+    """Check that the term is f(t) in the equation of motion, and that it depends on the time, or does not."""
+
+    def is_so(facts: Judged, term: Any) -> bool:
+        return bool(term == facts.inputs["driven"]) and term != 0 and depends_on_time(term) == changes
+
+    return is_so
+
+
+def constants_as_told(facts: Judged, outcome: str) -> bool:
+    """Whether the general motion becomes the result if the constants have the values that the sentence states."""
+    if "general" not in facts.quantities:
+        return True
+    values = {told.left: told.right for told in (facts.inputs["first"], facts.inputs["second"])}
+    motion = explicit(facts.quantities["general"].value).right
+    return values.keys() == {*facts.inputs["constants"]} and is_zero(motion.xreplace(values) - facts.result)
 
 
 def _coefficients(facts: Judged) -> tuple[Expr, ...]:
@@ -406,6 +448,54 @@ def modes_frequency(sign: int | None, repeated: bool) -> Predicate:
     return is_so
 
 
+def moves_by_itself(sign: int | None) -> Predicate:
+    """Judge the frequency of coordinates that are not coupled to any other: K_ii = omega^2 M_ii for each of them, or
+    K_ii = -omega^2 M_ii for a growing motion, and all other entries in their rows and columns vanish."""
+
+    def is_so(facts: Judged) -> bool:
+        stiffness, turning, mass = (Matrix(facts.inputs[role]) for role in MATRICES)
+        square = -(facts.result**2) if sign == -1 else facts.result**2
+        own = facts.inputs["own"]
+        fits = all(_is_uncoupled(facts, i) and turning[i, i] == 0 for i in own)
+        roots = all(is_zero(stiffness[i, i] - explicit(square) * mass[i, i]) for i in own)
+        decided = sign is None or signs(square, _points(facts)) == {sign}
+        return bool(own) and fits and roots and decided and _is_not_negative(facts)
+
+    return is_so
+
+
+def _is_uncoupled(facts: Judged, i: int) -> bool:
+    """Whether no other coordinate occurs in equation i, and coordinate i occurs in no other equation."""
+    matrices = [Matrix(facts.inputs[role]) for role in MATRICES]
+    others = [j for j in range(matrices[0].shape[0]) if j != i]
+    return all(is_zero(each[i, j]) and is_zero(each[j, i]) for each in matrices for j in others)
+
+
+def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
+    """Whether the displacement is not coupled to any other, and oscillates at all trial points."""
+    i = facts.inputs["displacements"].index(displacement)
+    stiffness, turning, mass = (Matrix(facts.inputs[role])[i, i] for role in MATRICES)
+    return _is_uncoupled(facts, i) and turning == 0 and signs(stiffness / mass, _points(facts)) == {1}
+
+
+def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
+    """Whether the sentence is right about the coupling: no equations are coupled, and perhaps all coordinates have this
+    frequency; or some of the equations are coupled. The equations that the sentence names must be those of the
+    coordinates with this frequency."""
+    coupling, own = facts.words["coupling"], list(facts.inputs["own"])
+    every = range(Matrix(facts.inputs["mass"]).shape[0])
+    if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
+        return False
+    named = [q for role, q in facts.quantities.items() if role.startswith("equation")]
+    displaced = next([s.symbol for s in f.displacements] for f in named[0].facts if hasattr(f, "displacements"))
+    right = [_in_equation(each) for each in named] == [{displaced[i]} for i in own]
+    return right and (coupling == "all") == (len(own) == len(every))
+
+
+def is_coordinate_of_the_equation(facts: Judged, q: Any) -> bool:
+    return bool(facts.inputs["coordinates"][facts.inputs["own"][0]] == q)
+
+
 def is_in_order(whole: bool) -> Predicate:
     """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order.
 
@@ -611,14 +701,33 @@ def its_acceleration(facts: Judged, letter: Any) -> bool:
     return bool(letter == rate(facts.inputs["q"], 2)) and explicit(facts.quantities["linear"].value).has(letter)
 
 
-def _displacements(facts: Judged) -> list[Any]:
-    linear = facts.quantities["linear"]
-    return next([s.symbol for s in f.displacements] for f in linear.facts if hasattr(f, "displacements"))
-
-
 def moves_alone(facts: Judged, letter: Any) -> bool:
-    moved = [s for s, a in zip(_displacements(facts), facts.result, strict=True) if not is_zero(a)]
+    moved = [s for s, a in zip(facts.inputs["displacements"], facts.result, strict=True) if not is_zero(a)]
     return bool(moved[0] == letter)
+
+
+def coupled_only_to_each_other(facts: Judged, outcome: str) -> bool:
+    """Whether the equations that the sentence names are coupled to each other and to no other coordinate."""
+    named = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
+    return not named or _are_one_group(named)
+
+
+def _in_equation(equation: Any) -> set[Any]:
+    """Return the displacements that occur in a linear equation, or whose rates or accelerations do."""
+    displaced = next(f.displacements for f in equation.facts if hasattr(f, "displacements"))
+    present = explicit(equation.value).residual.free_symbols
+    return {s.symbol for s in displaced if present & {s.symbol, s.rate, s.acceleration}}
+
+
+def _are_one_group(equations: Sequence[Any]) -> bool:
+    """Whether the equations contain as many displacements as there are equations, and no group of the equations
+    contains displacements that the others do not contain."""
+    contained = list(map(_in_equation, equations))
+    group = contained.pop(0)
+    while near := [each for each in contained if each & group]:
+        group = group.union(*near)
+        contained = [each for each in contained if each not in near]
+    return not contained and len(group) == len(equations)
 
 
 def moves_so(facts: Judged, displacements: Any) -> bool:

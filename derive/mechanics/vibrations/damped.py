@@ -17,7 +17,7 @@ from derive.algebra.expressions import Relation, Root, explicit, scalar, stand_i
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.linear_equations import Equations, factors_of_amplitudes, with_motion
+from derive.mechanics.vibrations.linear_equations import Equations
 from derive.solving.linear_systems import CharacteristicRoot, Damped
 from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, Scope, establish
@@ -36,13 +36,13 @@ class DampedModes(Equations[Damped]):
         """Return decay rates, frequencies and shapes, factor by factor."""
         roots, characteristic = self.system.roots, _characteristic(self)
         found: list[Quantity] = []
-        number = 0
+        number = self.before
         for root in roots:
             if root.factor.is_free:
                 found.append(_free(self, characteristic))
                 continue
             number += 1
-            index = f"_{number}" if len(roots) > 1 else ""
+            index = f"_{number}" if len(roots) > 1 or not self.is_whole else ""
             own = _rate(self, characteristic, root, index)
             found.append(own)
             if root.factor.degree == 2:
@@ -59,6 +59,7 @@ DAMPED_CHARACTERISTIC = Rule(
     outcomes={"one": claims.damped_characteristic_one, "several": claims.damped_characteristic_several},
     evidence={"trial": ROUTE},
     named={"trial": claims.trial(1, "exponent")},
+    statements=[claims.coupled_only_to_each_other],
 )
 
 
@@ -73,7 +74,7 @@ def _characteristic(equations: DampedModes) -> Quantity:
     whole = Determinant(tidy) if len(linear) > 1 else tidy[0]
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
-        return found, Relation(determinant_of(factors_of_amplitudes(linear, exp(letter * T))), "=", 0)
+        return found, Relation(determinant_of(equations.factors_of_amplitudes(exp(letter * T))), "=", 0)
 
     return establish(
         DAMPED_CHARACTERISTIC,
@@ -83,8 +84,8 @@ def _characteristic(equations: DampedModes) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda _: Relation(equations.system.written(letter), "=", 0)),
         routes={"trial": by_trial},
         outcome="several" if len(linear) > 1 else "one",
-        phrase_data=PhraseData(named={"trial": exp(letter * T)}),
-        key=f"{equations.start}characteristic_equation",
+        phrase_data=PhraseData(named={"trial": exp(letter * T)}, points_to=equations.named),
+        key=f"{equations.start}characteristic_equation{equations.number}",
         parents=linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
@@ -111,7 +112,7 @@ def _free(equations: DampedModes, characteristic: Quantity) -> Quantity:
         lines=Lines(put_in=None, arranged=explicit),
         routes={"put_back": lambda found: (_left(characteristic).subs(letter, found.right), 0)},
         phrase_data=PhraseData(points_to={"characteristic": characteristic}, outcome_data=equations.judged_by()),
-        key=f"{equations.start}exponent_0",
+        key=f"{equations.start}exponent_0{equations.number}",
         parents=[characteristic],
     )
 
@@ -241,7 +242,7 @@ def _shape(
         """Check that the residuals are multiples of the factor, so the equations hold at the roots of the factor."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
-        left = [(value / course).expand() for value in with_motion(linear, [a * course for a in found])]
+        left = [(value / course).expand() for value in equations.with_motion([a * course for a in found])]
         factor = Poly(root.factor.at(letter), letter, field=True)
         values = [Poly(value, letter, field=True).rem(factor).as_expr() for value in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([0 * value for value in values])

@@ -12,13 +12,8 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
-from derive.mechanics.vibrations.linear_motion import (
-    LinearCoefficients,
-    check_no_function,
-    is_linear_in_time,
-    linear_equation,
-    put_back,
-)
+from derive.mechanics.vibrations.general_motion import LinearCoefficients, put_back
+from derive.mechanics.vibrations.linear_motion import check_no_function, is_linear_in_time, linear_equation
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told, positive

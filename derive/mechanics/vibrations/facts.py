@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 
 from sympy import (
     Expr,
@@ -39,6 +40,43 @@ class Linear(LinearSystem, Fact):
     place: tuple[tuple[Coordinate, Expr], ...] = ()
     exact: tuple[Expr, ...] = ()
 
+    @property
+    def moving(self) -> tuple[Symbol, ...]:
+        """The symbols of the displacements."""
+        return tuple(s.symbol for s in self.displacements)
+
+    @cached_property
+    def blocks(self) -> tuple[tuple[int, ...], ...]:
+        """The groups of coordinates that are coupled to each other, by their indices. A coordinate that is not coupled
+        to any other is a group by itself."""
+        size, groups = range(self.mass.shape[0]), [{i} for i in range(self.mass.shape[0])]
+        for i, j in ((i, j) for i in size for j in size if i != j):
+            if any(matrix[i, j] != 0 for matrix in (self.mass, self.turning, self.stiffness)):
+                met = [group for group in groups if group & {i, j}]
+                groups = [group for group in groups if group not in met] + [set().union(*met)]
+        return tuple(sorted(tuple(sorted(group)) for group in groups))
+
+    def part(self, block: Sequence[int]) -> Linear:
+        """Return the equations of some coordinates that are not coupled to the others."""
+        rows = list(block)
+        mass, turning, stiffness = (each.extract(rows, rows) for each in (self.mass, self.turning, self.stiffness))
+        return Linear(
+            mass,
+            turning,
+            stiffness,
+            self.exists,
+            tuple(self.displacements[i] for i in rows),
+            tuple(self.driven[i] for i in rows),
+            tuple(self.place[i] for i in rows),
+            tuple(self.exact[i] for i in rows if self.exact),
+        )
+
+    def of_all(self, moving: Sequence[Symbol], column: MatrixBase) -> MatrixBase:
+        """Return the amplitudes of all coordinates, if those of the coordinates `moving` are in the column and all
+        others are zero."""
+        known = dict(zip(moving, column, strict=True))
+        return ImmutableDenseMatrix([known.get(s, Integer(0)) for s in self.moving])
+
     def rows_of(self, matrix: MatrixBase) -> MatrixBase:
         """Return the matrix with each row divided by the common factor of the equation that belongs to this row."""
         size = range(matrix.shape[0])
@@ -64,10 +102,11 @@ class Linear(LinearSystem, Fact):
 @dataclass(frozen=True)
 class Mode(Fact):
     """The root lambda = omega^2 that gives the frequency or growth rate of a mode, with the sign and the shapes of the
-    root."""
+    root; the entries of a shape are the amplitudes of the coordinates `moving`."""
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot
+    moving: tuple[Symbol, ...]
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import (
     Add,
@@ -38,12 +39,12 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.facts import Linear
 from derive.mechanics.vibrations.linear_equations import (
     OF_SIGN,
     Equations,
     letter_of_shapes,
     together_for,
-    with_motion,
 )
 from derive.solving.linear_systems import OMEGA, CharacteristicRoot, Factor, Gyroscopic, LinearSystem
 from derive.solving.relations import border_of, positive
@@ -70,7 +71,7 @@ class TurningModes(Equations[Gyroscopic]):
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
-        for n, (root, each) in enumerate(zip(self.system.roots, found, strict=True), 1):
+        for n, (root, each) in enumerate(zip(self.system.roots, found, strict=True), self.before + 1):
             column = self.system.column(root)
             if column is not None:
                 motions.append(_motion(self, each, root, column, n))
@@ -83,6 +84,7 @@ GYROSCOPIC_CHARACTERISTIC = Rule(
     outcomes={"generic": claims.has_turning, "plain": claims.gyroscopic_characteristic_plain},
     evidence={"quadrature": ROUTE},
     named={"trial": claims.trial(I, "omega")},
+    statements=[claims.coupled_only_to_each_other],
 )
 
 
@@ -103,8 +105,12 @@ def _characteristic(equations: TurningModes) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda _: Relation(system.written(letter), "=", 0)),
         routes={"quadrature": lambda found: _in_quadrature(found, equations)},
         outcome="plain" if system.is_conservative else "generic",
-        phrase_data=PhraseData(named={"trial": exp(I * letter * T)}, outcome_data={"turning": tuple(system.turning)}),
-        key=f"{equations.start}characteristic_equation",
+        phrase_data=PhraseData(
+            named={"trial": exp(I * letter * T)},
+            points_to=equations.named,
+            outcome_data={"turning": tuple(system.turning)},
+        ),
+        key=f"{equations.start}characteristic_equation{equations.number}",
         parents=equations.linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
@@ -131,7 +137,7 @@ def _of_cosines_and_sines(equations: TurningModes) -> Expr:
     u, v = ([Symbol(f"{name}_{n}", real=True) for n in range(len(equations.linear))] for name in ("u", "v"))
     c, s = cos(equations.letter * T), sin(equations.letter * T)
     rows = []
-    for left in with_motion(equations.linear, [a * c + b * s for a, b in zip(u, v, strict=True)]):
+    for left in equations.with_motion([a * c + b * s for a, b in zip(u, v, strict=True)]):
         rows += [[diff(left.expand().coeff(part), a) for a in (*u, *v)] for part in (c, s)]
     return determinant_of(ImmutableDenseMatrix(rows))
 
@@ -156,7 +162,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
-    root = system.roots[n]
+    root, number = system.roots[n], equations.before + n + 1
     turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
@@ -174,7 +180,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     told = {f"condition_{i}": (condition, Relation(need, ">", 0)) for i, (condition, need) in pairs}
     return establish(
         GYROSCOPIC_FREQUENCY,
-        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{n + 1}"),
+        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{number}"),
         lambda *_: root.value,
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
@@ -185,7 +191,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
             points_to={"characteristic": characteristic},
             outcome_data=equations.judged_by(conditions),
         ),
-        key=f"{equations.start}frequency_{n + 1}",
+        key=f"{equations.start}frequency_{number}",
         kind="angular speed",
         parents=[characteristic],
     )
@@ -246,7 +252,7 @@ def _motion(
 
     def in_equations(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Check that the motion satisfies the linear equations at all times."""
-        left = with_motion(linear, list(explicit(found)))
+        left = equations.with_motion(list(explicit(found)))
         return ImmutableDenseMatrix(left), ImmutableDenseMatrix([ZERO] * len(left))
 
     def energy(found: MatrixBase) -> tuple[Expr, Expr]:
@@ -330,9 +336,12 @@ def linear_stability(
         message = "`linear_stability` needs forces linear in the rates that do no work, but there is also drag"
         raise Rejected(Complaint("wrong-argument", message))
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
-    is_shared = key == "stability" and not together.is_conservative  # `normal_modes` uses the same equation
-    system = together.of_kind(Gyroscopic)
-    equations = TurningModes(linear, system, letter_of_frequency, "" if is_shared else f"{key}_")
+    block = [i for i in range(len(linear)) if not _oscillates_by_itself(together, i)] or range(len(linear))
+    part = together.part(block)
+    # `normal_modes` uses the same equation, unless other coordinates are not coupled to each other
+    is_shared = key == "stability" and not together.is_conservative and len(part.blocks) == 1
+    system = part.of_kind(Gyroscopic)
+    equations = TurningModes(linear, block, system, letter_of_frequency, "" if is_shared else f"{key}_")
     characteristic = _characteristic(equations)
     needs = _needed(system)
     if any(system.sign(need) == -1 for need in needs):
@@ -346,6 +355,26 @@ def linear_stability(
         for i in range(len(conditions))
     ]
     return found[0] if len(found) == 1 else tuple(found)
+
+
+def _oscillates_by_itself(together: Linear, i: int) -> bool:
+    """Whether coordinate i is not coupled to any other, and its potential energy has a minimum."""
+    part = together.part((i,))
+    is_alone = (i,) in together.blocks and part.is_conservative
+    return is_alone and part.sign(tidied(part.stiffness[0] / part.mass[0])) == 1
+
+
+def _told_of_others(equations: TurningModes) -> dict[str, Any]:
+    """Return the displacements that oscillate by themselves, for the sentence about stability."""
+    others = (s for s in equations.every[0].needed(Linear).moving if s not in equations.moving)
+    return {f"alone_{n}": symbol for n, symbol in enumerate(others, 1)}
+
+
+def _of_all(equations: TurningModes, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
+    """Return the data for judging a sentence about all coordinates, coupled or not."""
+    whole = equations.every[0].needed(Linear)
+    matrices = {"stiffness": whole.stiffness, "turning": whole.turning, "mass": whole.mass}
+    return {**equations.judged_by(conditions), **matrices, "displacements": whole.moving}
 
 
 def _needed(system: Gyroscopic) -> list[Expr]:
@@ -392,6 +421,7 @@ GYROSCOPIC_STABILITY = Rule(
         "last": claims.gyroscopic_stability_last,
     },
     evidence={"quadrature": ROUTE, "border": CHECK},
+    named={"alone": claims.oscillates_by_itself},
 )
 
 
@@ -409,7 +439,11 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"quadrature": lambda found: _in_quadrature(found, equations)},
         outcome=outcome,
-        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by()),
+        phrase_data=PhraseData(
+            points_to=_named(characteristic),
+            named=_told_of_others(equations),
+            outcome_data=_of_all(equations),
+        ),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )
@@ -461,7 +495,11 @@ def _condition(
         ),
         routes={"border": at_border},
         outcome=_place_among(i, len(conditions)),
-        phrase_data=PhraseData(points_to=_named(characteristic), outcome_data=equations.judged_by(conditions)),
+        phrase_data=PhraseData(
+            points_to=_named(characteristic),
+            named=_told_of_others(equations),
+            outcome_data=_of_all(equations, conditions),
+        ),
         key=key,
         parents=[characteristic, *_rests(characteristic)],
     )

@@ -25,17 +25,61 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations, the linear system of these equations, the symbol of the roots, and the beginning of all
-    keys."""
+    """Linear equations of coordinates that are coupled to each other, and the linear system of these equations.
 
-    linear: Sequence[Quantity]
+    every     the equations of the whole system
+    block     the indices of the coupled coordinates
+    letter    the symbol of the roots
+    start     the beginning of all keys
+    before    the number of the modes that belong to other coordinates and have lower numbers
+    number    the end of the key of the characteristic equation
+    """
+
+    every: Sequence[Quantity]
+    block: Sequence[int]
     system: Kind
     letter: Symbol
     start: str
+    before: int = 0
+    number: str = ""
+
+    @property
+    def linear(self) -> list[Quantity]:
+        """The equations of the coupled coordinates."""
+        return [self.every[i] for i in self.block]
 
     @property
     def together(self) -> Linear:
-        return self.linear[0].needed(Linear)
+        return self.every[0].needed(Linear).part(self.block)
+
+    @property
+    def moving(self) -> tuple[Symbol, ...]:
+        return self.together.moving
+
+    @property
+    def is_whole(self) -> bool:
+        return len(self.block) == len(self.every)
+
+    @property
+    def named(self) -> dict[str, Quantity]:
+        """The equations, which a sentence names if they are not all equations of the system."""
+        return {} if self.is_whole else {f"equation_{n}": each for n, each in enumerate(self.linear, 1)}
+
+    def with_motion(self, motion: Sequence[Expr]) -> list[Expr]:
+        """Substitute a motion of the coupled coordinates into their equations, and return the residuals."""
+        return with_motion(self.linear, self.together, motion)
+
+    def factors_of_amplitudes(self, course: Expr) -> MatrixBase:
+        """Return the factor of each amplitude in each equation: substitute eta = a course(t) and divide by the
+        course."""
+        amplitudes = [stand_in(f"a_{n}") for n in range(len(self.block))]
+        left = [value / course for value in self.with_motion([a * course for a in amplitudes])]
+        return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])
+
+    def left_by_drift(self, column: MatrixBase, time: Expr) -> list[Expr]:
+        """Return the residuals of all full equations of motion for a uniform motion from equilibrium along `column`."""
+        whole = self.every[0].needed(Linear)
+        return left_by_drift(self.every, whole.of_all(self.moving, column), time)
 
     def matrix(self, s: Expr) -> MatrixBase:
         """Return the matrix that multiplies the amplitudes of a motion e^(s t); each row is divided by its common
@@ -79,19 +123,13 @@ def together_for(verb: str, linear: Sequence[Quantity]) -> Linear:
     return together
 
 
-def with_motion(linear: Sequence[Quantity], motion: Sequence[Expr]) -> list[Expr]:
-    """Substitute a motion eta(t) into each linear equation, and return the residuals."""
+def with_motion(linear: Sequence[Quantity], together: Linear, motion: Sequence[Expr]) -> list[Expr]:
+    """Substitute a motion eta(t) of the coordinates of `together` into each linear equation, and return the
+    residuals."""
     put_in: dict[Any, Expr] = {}
-    for s, eta in zip(linear[0].needed(Linear).displacements, motion, strict=True):
+    for s, eta in zip(together.displacements, motion, strict=True):
         put_in.update({s.symbol: eta, s.rate: derivative(eta, T), s.acceleration: derivative(eta, T, 2)})
     return [explicit(equation.value).residual.xreplace(put_in) for equation in linear]
-
-
-def factors_of_amplitudes(linear: Sequence[Quantity], course: Expr) -> MatrixBase:
-    """Return the factor of each amplitude in each equation: substitute eta = a course(t) and divide by the course."""
-    amplitudes = [stand_in(f"a_{n}") for n in range(len(linear))]
-    left = [value / course for value in with_motion(linear, [a * course for a in amplitudes])]
-    return ImmutableDenseMatrix([[derivative(value.expand(), a) for a in amplitudes] for value in left])
 
 
 def left_by_drift(linear: Sequence[Quantity], column: Sequence[Expr], time: Expr) -> list[Expr]:

@@ -8,7 +8,6 @@ solution unique.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sympy import (
@@ -29,20 +28,25 @@ from sympy import (
     log,
     sin,
     sinh,
-    sqrt,
 )
 from sympy.simplify.fu import TR8
 
 from derive.algebra.collect import by_terms
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, explicit, prescribed_in, rate, stand_in
-from derive.algebra.length import length, shortest
+from derive.algebra.length import length
 from derive.algebra.natural import compared
-from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
+from derive.mechanics.vibrations.general_motion import (
+    LinearCoefficients,
+    Sought,
+    basis_of,
+    general_motion,
+    put_back,
+)
 from derive.mechanics.vibrations.oscillator_constants import oscillator_constants
 from derive.solving.divisors import check_no_resonance, different_from_zero
 from derive.solving.presentation import presented
@@ -59,29 +63,6 @@ __all__ = ["solution"]
 
 ZERO, ONE = Integer(0), Integer(1)
 CASES = {"underdamped": -1, "critically_damped": 0, "overdamped": 1}  # case -> sign of b^2 - 4 a c
-
-
-@dataclass(frozen=True)
-class LinearCoefficients:
-    """The coefficients of a q_ddot + b q_dot + c q = f(t)."""
-
-    a: Expr
-    b: Expr
-    c: Expr
-    driven: Expr
-
-    @property
-    def discriminant(self) -> Expr:
-        return tidied(self.b**2 - 4 * self.a * self.c)
-
-    @property
-    def order(self) -> int:
-        return 2 if self.a != 0 else 1
-
-    def residual(self, motion: Expr) -> Expr:
-        """Return the residual of the equation for the motion q(t)."""
-        first = diff(motion, TIME)
-        return self.a * diff(first, TIME) + self.b * first + self.c * motion - self.driven
 
 
 SOLUTION = Rule(
@@ -102,7 +83,7 @@ SOLUTION = Rule(
         )
     },
     evidence={"put_back": CHECK, "start": CHECK},
-    statements=[claims.starts_as_told],
+    statements=[claims.starts_as_told, claims.constants_as_told],
     named={"start": as_told(claims.starts_as_told), "start_rate": as_told(claims.starts_as_told)},
 )
 
@@ -124,7 +105,10 @@ def solution(
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
-    Check: the motion is substituted back into the equation; the motion has the given value and rate at t = 0.
+    The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
+    constants; for an oscillation without damping, only the general motion.
+    Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. The
+    motion is substituted back into the equation; it has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
     for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
     position: the rate decays), relaxes (first order), accumulates (first order, without q).
@@ -145,12 +129,17 @@ def solution(
         )
         raise Rejected(Complaint("wrong-argument", message))
     sort, condition = _sort(linear, case, equation)
-    basis = _basis(linear, sort)
+    basis = basis_of(linear, sort)
     particular = _particular(linear, equation)
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
     found = _by_powers(found) if sort == "uniform" else found  # v t - g t^2/2
+    excluded, proposals = _excluded(linear), []
+    if linear.order == 2:
+        proposals = list(oscillator_constants(equation, q.symbol, linear.a, linear.b, linear.c))
+    sought = Sought(equation, q, linear, sort, condition, excluded, particular, proposals)
+    general = general_motion(sought)
 
     def from_the_start(motion: Expr) -> tuple[Any, Any]:
         asked = [start, *([] if linear.order == 1 else [start_rate or ZERO])]
@@ -168,14 +157,20 @@ def solution(
         key=key or f"{q.symbol.name}_of_t",
         kind=q.kind,
         phrase_data=PhraseData(
-            formulas=conditions_told(excluded=_excluded(linear), condition=condition),
+            formulas={
+                **conditions_told(excluded=excluded, condition=condition),
+                **(general.told(found, basis, particular, values) if general else {}),
+            },
             named=_start(q, first, initial),
-            outcome_data={"linear": (linear.a, linear.b, linear.c), "driven": linear.driven, "case": bool(condition)},
+            points_to={"general": general.step} if general else {},
+            outcome_data={
+                **sought.coefficients,
+                "case": bool(condition),
+                **({"constants": general.constants} if general else {}),
+            },
         ),
-        parents=approximations_among(start, start_rate),
-        proposals=list(oscillator_constants(equation, q.symbol, linear.a, linear.b, linear.c))
-        if linear.order == 2
-        else (),
+        parents=[*approximations_among(start, start_rate), *([general.step] if general else [])],
+        proposals=proposals,
     )
 
 
@@ -193,7 +188,7 @@ def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: st
     sort, condition = _sort(linear, case, None)
     if condition is not None:
         assume(condition)
-    basis = _basis(linear, sort)
+    basis = basis_of(linear, sort)
     return _free(basis, _constants(basis, ZERO, first, initial), linear, sort)
 
 
@@ -201,15 +196,6 @@ def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relati
     """Return the equations that state the initial values of the motion."""
     at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
     return {"start": Relation(q.symbol, "=", first), **at_rest}
-
-
-def put_back(equation: Quantity, q: Coordinate, motion: Expr) -> Expr:
-    """Substitute a motion q(t) into the original form of an equation, and return the residual."""
-    state = (q.symbol, q.rate, q.acceleration)
-    value = explicit(equation.value)
-    left = value.residual if isinstance(value, Relation) else equation.symbol - value
-    first = slope(motion, TIME)
-    return expand(left.xreplace(dict(zip(state, (motion, first, slope(first, TIME)), strict=True))))
 
 
 def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
@@ -295,34 +281,6 @@ def _is_positive(value: Expr, key: str) -> bool:
         help_line = "declare its symbols as positive, or give them ranges or numbers"
         raise Rejected(Complaint("open-case", message, help=help_line))
     return sign > 0
-
-
-def _basis(linear: LinearCoefficients, sort: str) -> list[Expr]:
-    """Return the independent free motions: one for an equation of first order, otherwise two."""
-    a, b, c, t = linear.a, linear.b, linear.c, TIME
-    if linear.order == 1:
-        return [exp(tidied(-c / b) * t)]
-    if sort == "uniform":
-        return [ONE, t]
-    if c == 0:
-        return [ONE, exp(tidied(-b / a) * t)]
-    decay = exp(tidied(-b / (2 * a)) * t)
-    if sort == "critically_damped":
-        return [decay, t * decay]
-    if sort in ("oscillates", "underdamped"):
-        frequency = _root_over(-linear.discriminant, 2 * a)
-        return [decay * cos(frequency * t), decay * sin(frequency * t)]
-    rate = _root_over(linear.discriminant, 2 * a)
-    if b == 0:
-        return [cosh(rate * t), sinh(rate * t)]
-    return [exp((tidied(-b / (2 * a)) + rate) * t), exp((tidied(-b / (2 * a)) - rate) * t)]
-
-
-def _root_over(inside: Expr, below: Expr) -> Expr:
-    """Return sqrt(inside)/below in its shortest form, with one root as in sqrt(k/m - b^2/(4 m^2)) or with a
-    quotient."""
-    forms = [tidied(sqrt(inside) / below), sqrt(tidied(inside / below**2)), sqrt(expand(inside / below**2))]
-    return shortest(forms)
 
 
 # --- the driving force ---

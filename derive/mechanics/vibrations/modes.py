@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Expr, I, ImmutableDenseMatrix, Integer, MatrixSymbol, cos, exp, pi, sin
+from sympy import Add, Expr, I, ImmutableDenseMatrix, Integer, MatrixSymbol, Symbol, cos, exp, pi, sin
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
@@ -24,23 +24,21 @@ from derive.mechanics.in_results import in_results
 from derive.mechanics.kinematics.coordinates import T
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.damped import DampedModes
-from derive.mechanics.vibrations.facts import Mode
+from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.mechanics.vibrations.gyroscopic import TurningModes
 from derive.mechanics.vibrations.linear_equations import (
     OF_SIGN,
     Equations,
-    factors_of_amplitudes,
-    left_by_drift,
     letter_of_shapes,
     together_for,
-    with_motion,
 )
 from derive.mechanics.vibrations.oscillations import frequency, frequency_squared, told_where_positive
+from derive.mechanics.vibrations.uncoupled import UncoupledModes
 from derive.solving.linear_systems import CharacteristicRoot, Conservative, Damped, Gyroscopic, root_of
 from derive.steps.claims import nowhere_negative
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.known_numbers import have_numbers
-from derive.steps.record import free_letter
+from derive.steps.record import defined_as, free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.signs import sign_known
 from derive.steps.step import Level, Quantity, is_zero, require_kind
@@ -62,6 +60,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
     linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
     If the order depends on the symbols, it is the order for one set of numbers.
+    A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape; the
+    symbol of the frequency is that of the coordinate, such as omega_x. If no coordinates are coupled and all
+    frequencies are equal, the only step is `frequency_1`, with the symbol omega_0. If only some coordinates are
+    coupled, these have the lower numbers, and each group of coupled coordinates has a determinant: with several groups,
+    characteristic_equation_1, characteristic_equation_2, ...
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
     which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
@@ -82,25 +85,62 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     """
     together = together_for("normal_modes", linear)
     start = f"{key}_" if key else ""
+    if len(linear) == 1 and together.is_conservative:
+        letter = _letter_of_frequency(together, None)
+        defined = defined_as(root_of(together.of_kind(Conservative).roots[0].value))
+        own = defined.symbol.name if defined else f"{letter.name}_0"
+        squared = frequency_squared(linear[0], symbol or own, f"{start}frequency_squared")
+        return (frequency(squared, key=f"{start}frequency", condition=True),)
+    is_alone = [len(block) == 1 and together.part(block).is_conservative for block in together.blocks]
+    coupled = [block for block, alone in zip(together.blocks, is_alone, strict=True) if not alone]
+    found: list[Quantity] = []
+    before, name = 0, free_letter("lambda") if have_numbers(together.stiffness, together.mass) else ""
+    for n, block in enumerate(coupled, 1):
+        number = f"_{n}" if len(coupled) > 1 else ""
+        found += _of_block(linear, block, symbol, start, before, number, name)
+        name = "" if any(each.step.outcome.startswith("ordered") for each in found) else name
+        before += len(block)
+    alone = [i for block, alone in zip(together.blocks, is_alone, strict=True) if alone for i in block]
+    if not alone:
+        return tuple(found)
+    letter = _letter_of_frequency(together, symbol)
+    return (*UncoupledModes(linear, alone, letter, start, before).found(), *found)
+
+
+def _letter_of_frequency(together: Linear, symbol: str | None) -> Symbol:
     given = {s.name for s in together.letters}
-    if not together.is_gyroscopic:
-        exponent = scalar(next((name for name in LETTERS_OF_EXPONENT if name not in given), "s_0"))
-        return DampedModes(linear, together.of_kind(Damped), exponent, start).found()
     free = next((name for name in LETTERS if name not in given), LETTERS[0])
-    letter = scalar(symbol if symbol and len(linear) > 1 else free)
+    letter = scalar(symbol or free)
     if letter.name in given:
         message = f"`normal_modes` would call the frequency {letter}, but {letter} denotes a given quantity"
         other = Spelled('give another symbol, `symbol="Omega"`', "use another symbol")
         raise Rejected(Complaint("letter-clash", message, help=other))
-    if not together.is_conservative:
-        return TurningModes(linear, together.of_kind(Gyroscopic), letter, start).found()
-    if len(linear) == 1:
-        squared = frequency_squared(linear[0], symbol or f"{letter.name}_0", f"{start}frequency_squared")
-        return (frequency(squared, key=f"{start}frequency", condition=True),)
-    name = free_letter("lambda") if have_numbers(together.stiffness, together.mass) else ""
-    equations = Equations(linear, together.of_kind(Conservative, name=name), letter, start)
+    return letter
+
+
+def _of_block(
+    linear: Sequence[Quantity],
+    block: Sequence[int],
+    symbol: str | None,
+    start: str,
+    before: int,
+    number: str,
+    name: str,
+) -> tuple[Quantity, ...]:
+    """Return the modes of coordinates that are coupled only to each other: frequencies, then shapes."""
+    whole = linear[0].needed(Linear)
+    part = whole.part(block)
+    if not part.is_gyroscopic:
+        given = {s.name for s in whole.letters}
+        exponent = scalar(next((name for name in LETTERS_OF_EXPONENT if name not in given), "s_0"))
+        return DampedModes(linear, block, part.of_kind(Damped), exponent, start, before, number).found()
+    letter = _letter_of_frequency(whole, symbol)
+    if not part.is_conservative:
+        return TurningModes(linear, block, part.of_kind(Gyroscopic), letter, start, before, number).found()
+    system = part.of_kind(Conservative, name=name)
+    equations = Equations(linear, block, system, letter, start, before, number)
     characteristic = _characteristic(equations)
-    frequencies = [_frequency(equations, characteristic, n) for n in range(len(equations.system.roots))]
+    frequencies = [_frequency(equations, characteristic, n) for n in range(len(system.roots))]
     shapes: list[Quantity] = []
     for found in frequencies:
         for column in found.needed(Mode).root.columns:
@@ -112,6 +152,7 @@ CHARACTERISTIC = Rule(
     "vibrations.characteristic",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3",
     evidence={"trial": ROUTE},
+    statements=[claims.coupled_only_to_each_other],
 )
 
 
@@ -120,13 +161,13 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
 
     Source: the same as for `normal_modes`.
     """
-    linear, letter = equations.linear, equations.letter
+    letter = equations.letter
     matrix = equations.matrix(I * letter)
     factored = equations.system.written(letter).replace(lambda e: e.is_Add and not e.has(letter), with_squares)
 
     def by_trial(found: Relation) -> tuple[Relation, Relation]:
         """Compare with the determinant of the equations after substituting eta = a cos(omega t)."""
-        return found, Relation(expanded_by_rows(factors_of_amplitudes(linear, cos(letter * T))), "=", 0)
+        return found, Relation(expanded_by_rows(equations.factors_of_amplitudes(cos(letter * T))), "=", 0)
 
     return establish(
         CHARACTERISTIC,
@@ -135,13 +176,14 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
         routes={"trial": by_trial},
-        key=f"{equations.start}characteristic_equation",
-        parents=linear,
+        phrase_data=PhraseData(points_to=equations.named),
+        key=f"{equations.start}characteristic_equation{equations.number}",
+        parents=equations.linear,
         scope=Scope(coordinates={letter: "angular speed"}),
     )
 
 
-def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, Any]:
+def _drift(equations: Equations[Conservative], root: CharacteristicRoot) -> dict[str, Any]:
     """Substitute a uniform motion along a mode of frequency zero into the full equations of motion.
 
     If all residuals vanish, no force acts to any order, and the result contains these residuals; otherwise the result
@@ -150,7 +192,7 @@ def _drift(linear: Sequence[Quantity], root: CharacteristicRoot) -> dict[str, An
     if root.sign != 0:
         return {}
     time = stand_in("s")
-    left = [value for column in root.columns for value in left_by_drift(linear, column, time)]
+    left = [value for column in root.columns for value in equations.left_by_drift(column, time)]
     return {"drift": ZERO, "left": tuple(left)} if all(map(is_zero, left)) else {}
 
 
@@ -177,7 +219,7 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
     Source: the same as for `normal_modes`.
     """
     system, letter = equations.system, equations.letter
-    root = system.roots[n]
+    root, number = system.roots[n], equations.before + n + 1
     turned = -1 if root.sign == -1 else 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
@@ -195,14 +237,14 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
 
     outcome = OF_SIGN[root.sign] + ("_repeated" if root.times > 1 else "")
     routes = {"put_back": put_back, "rayleigh": rayleigh, "trace": trace}
-    drift, named = _drift(equations.linear, root), {}
+    drift, named = _drift(equations, root), {}
     if not root.has_formula:
-        outcome = "ordered" if root.factor.degree == len(equations.linear) else "ordered_part"
+        outcome = "ordered" if root.factor.degree == len(equations.block) else "ordered_part"
         named = {"root": scalar(f"{system.name}_1")}  # the sentence introduces the first root
         del routes["rayleigh"]
     return establish(
         MODE_FREQUENCY,
-        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{n + 1}"),
+        scalar(f"{'kappa' if root.sign == -1 else letter.name}_{number}"),
         lambda *_: root_of(turned * root.value),
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
@@ -214,10 +256,10 @@ def _frequency(equations: Equations[Conservative], characteristic: Quantity, n: 
             formulas=told_where_positive(root.value) if root.sign is None else {},
             named={**drift, **named},
         ),
-        key=f"{equations.start}frequency_{n + 1}",
+        key=f"{equations.start}frequency_{number}",
         kind="angular speed",
         parents=[characteristic],
-        facts=[Mode(root)],
+        facts=[Mode(root, equations.moving)],
     )
 
 
@@ -255,15 +297,15 @@ def _shape(
     Outcomes: in_phase, opposite, alone, generic, uniform, departing, any_of_several.
     Source: the same as for `normal_modes`.
     """
-    linear, root, n = equations.linear, frequency.needed(Mode).root, len(before) + 1
-    drift = _drift(linear, root)
+    linear, root, n = equations.linear, frequency.needed(Mode).root, equations.before + len(before) + 1
+    drift = _drift(equations, root)
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
         """Substitute the motion into the linear equations, at any time."""
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         square = {w**2: -root.value if root.sign == -1 else root.value}
-        left = [value / course for value in with_motion(linear, [a * course for a in found])]
+        left = [value / course for value in equations.with_motion([a * course for a in found])]
         values = [value.expand().subs(square) if root.sign != 0 else value for value in left]
         return ImmutableDenseMatrix(values), ImmutableDenseMatrix([ZERO] * len(values))
 
@@ -284,7 +326,12 @@ def _shape(
         outcome=_shape_outcome(root, column),
         phrase_data=PhraseData(
             points_to={"linear": linear[0]},
-            outcome_data={"squared": root.value, **equations.judged_by(), "left": drift.pop("left", ())},
+            outcome_data={
+                "squared": root.value,
+                **equations.judged_by(),
+                "left": drift.pop("left", ()),
+                "displacements": equations.moving,
+            },
             named={"moving": moved, **drift},
         ),
         key=f"{equations.start}mode_{n}",

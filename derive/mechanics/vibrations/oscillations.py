@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, cos, diff, exp, prime, sqrt
+from sympy import Abs, Add, Expr, I, Integer, Mul, Pow, Rational, Symbol, cos, diff, exp, prime, sqrt
 
 from derive.algebra.collect import spread, spread_or_by_terms
 from derive.algebra.expressions import Factors, Ratio, Relation, Root, Terms, explicit, rate, scalar, stand_in
@@ -19,7 +19,7 @@ from derive.solving.linear_systems import root_of
 from derive.solving.relations import positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.level import Manner
-from derive.steps.record import require_constant
+from derive.steps.record import defined_quantities, require_constant
 from derive.steps.rule import CHECK, Rule, Shown
 from derive.steps.signs import sign_for_all, sign_where
 from derive.steps.step import Form, Level, Quantity
@@ -70,15 +70,16 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         left_side = left.subs({rate(q, 2): diff(swing, T, 2), q: swing})
         return left_side.expand().subs(trial**2, found), Integer(0)
 
+    omega = _symbol(symbol)
     return establish(
         FREQUENCY_SQUARED,
-        Pow(scalar(symbol), 2),
+        Pow(omega, 2),
         lambda _: _quotient(stiffness, mass),
         {"q": q},
         lines=Lines(
             put_in=None,
             arranged=_squared_form if not mass.has(Add) or not stiffness.has(Add) else explicit,
-            means={scalar(symbol): sqrt(Ratio(stiffness, mass).doit())},
+            means={omega: sqrt(Ratio(stiffness, mass).doit())},
         ),
         routes={"put_back": put_back},
         outcome=lambda value: _sort_of(value, entries, exists),
@@ -88,13 +89,18 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
         phrase_data=PhraseData(
             named={
                 **({} if mass == 1 else {"inertia": mass, "acceleration": rate(q, 2)}),
-                "oscillator": Relation(Terms(rate(q, 2), Factors(scalar(symbol) ** 2, q)), "=", 0),
+                "oscillator": Relation(Terms(rate(q, 2), Factors(omega**2, q)), "=", 0),
             },
             points_to={"linear": linear},
             outcome_data={"exists": exists} if exists is not None else {},
         ),
         facts=[SquareOf(symbol, exists, (q, whole.exact[0]) if whole is not None and whole.exact else None)],
     )
+
+
+def _symbol(name: str) -> Symbol:
+    """Return the symbol with this name; if the problem defines a quantity with this name, its symbol."""
+    return next((each.symbol for each in defined_quantities() if each.key == name), scalar(name))
 
 
 def _quotient(stiffness: Expr, mass: Expr) -> Expr:
@@ -237,7 +243,7 @@ def _rate(
 
     return establish(
         FREQUENCY,
-        scalar(name),
+        _symbol(name),
         lambda square: Root(-square if grows else square),
         {"squared": squared},
         lines=Lines(
@@ -260,4 +266,5 @@ def _rate(
         ),
         key=key,
         kind="angular speed",
+        parents=[each for each in defined_quantities() if each.key == name],
     )

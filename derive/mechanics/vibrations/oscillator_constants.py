@@ -16,10 +16,12 @@ from derive.mechanics.vibrations import claims
 from derive.steps.establish import Lines, establish
 from derive.steps.level import Manner
 from derive.steps.natural import Proposal
-from derive.steps.record import defined_quantities, free_letter, given_letters, result_called
+from derive.steps.record import defined_as, free_letter, given_letters, result_called, results_of
 from derive.steps.rule import Rule, Shown
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, same_value
+
+FREQUENCIES = ("vibrations.frequency", "vibrations.uncoupled_frequency")  # of one coordinate by itself
 
 OSCILLATOR_CONSTANT = Rule(
     "vibrations.oscillator_constant",
@@ -63,14 +65,15 @@ def _proposed(
     of: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
-    """Propose a constant. If a defined quantity has the same value, or an earlier result has the same symbol and value,
-    propose this quantity or result instead.
+    """Propose a constant. If a defined quantity or the frequency of an earlier answer has the same value, or an earlier
+    result has the same symbol and value, propose this quantity or result instead.
 
     The result is None if the symbol already has another meaning, or if the constant would only rename a symbol.
     """
     value = tidied(value)
     name = free_letter(name)
-    known = next((each for each in defined_quantities() if same_value(each.value, value)), result_called(name))
+    earlier = (each for each in results_of(*FREQUENCIES) if same_value(each.value, value))
+    known = defined_as(value) or next(earlier, result_called(name))
     if known is not None:
         return Proposal(known.symbol, known.value, lambda: known) if same_value(known.value, value) else None
     if name in given_letters() or value.is_Atom:

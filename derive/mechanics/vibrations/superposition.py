@@ -24,8 +24,9 @@ from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims, linear_motion
 from derive.mechanics.vibrations.facts import Linear, Mode
+from derive.mechanics.vibrations.general_motion import LinearCoefficients
 from derive.mechanics.vibrations.linear_equations import with_motion
-from derive.solving.linear_systems import Conservative
+from derive.solving.linear_systems import Conservative, in_order
 from derive.steps.claims import lasts, vanishes
 from derive.steps.derivation import with_ancestors
 from derive.steps.establish import Lines, PhraseData, establish
@@ -128,11 +129,14 @@ def _excited(
     modes: Sequence[Quantity], together: Linear, first: Sequence[Expr], initial: Sequence[Expr], case: str | None
 ) -> list[ExcitedMode]:
     M, C = together.mass, together.turning
-    roots = together.of_kind(Conservative).roots
-    columns = [c for root in roots for c in root.columns]
-    frequencies = {c: (q, m.root.sign) for q in modes if (m := q.fact(Mode)) is not None for c in m.root.columns}
+    parts = map(together.part, together.blocks)
+    roots = [(part, root) for part in parts for root in part.of_kind(Conservative).roots]
+    roots.sort(key=lambda each: in_order(each[1]))
+    columns = [together.of_all(part.moving, column) for part, root in roots for column in root.columns]
+    known = [(q, mode) for q in modes if (mode := q.fact(Mode)) is not None]
+    frequencies = {together.of_all(m.moving, c): (q, m.root.sign) for q, m in known for c in m.root.columns}
     if len(columns) == 1:
-        frequencies = {columns[0]: (modes[0], roots[0].sign)}
+        frequencies = {columns[0]: (modes[0], roots[0][1].sign)}
     if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
         message = "forces that depend on the rates mix the modes, so the shapes without these forces do not apply"
         help_line = "drag that is proportional to the masses or to the springs does not mix the modes"
@@ -160,7 +164,7 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
     """Return the damped motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
-    return linear_motion.free_motion(linear_motion.LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
+    return linear_motion.free_motion(LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
 
 
 def _part(mode: ExcitedMode, i: int) -> Expr:
@@ -213,7 +217,7 @@ def _motion(
 
     def put_back(found: Expr) -> tuple[Any, Any]:
         whole = [found if j == i else value for j, value in enumerate(motion)]
-        left = with_motion([each for each in equations if each.fact(Linear) is not None], whole)
+        left = with_motion([each for each in equations if each.fact(Linear) is not None], together, whole)
         return ImmutableDenseMatrix([value.expand() for value in left]), ImmutableDenseMatrix([ZERO for _ in left])
 
     def from_the_start(found: Expr) -> tuple[Any, Any]:

@@ -43,7 +43,7 @@ def letter_clashes(
         written = {defined[key] for key in quantity.step.inputs if key in defined}
         for name, what in meanings(quantity.step, {*problem.dimensions, *written}):
             mine = looks.get(as_printed(name))
-            if mine is not None and mine not in faults:
+            if mine is not None and mine not in faults and name not in written:
                 faults[mine] = _clash(problem, mine, name, what)
     return [*faults.values(), *_integrated_coordinates(problem, known, coordinates)]
 

@@ -20,6 +20,7 @@ from derive.render.notation.products import Place, positive_first, rank_of_dimen
 
 DISPLACEMENT = "eta"  # from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
+COEFFICIENTS = ("mu", "e")  # of friction and of restitution
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
@@ -37,25 +38,32 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    Plain terms come before fractions, roots and functions; a number precedes a term with the time: 1 + omega_0 t.
+    A term with both signs comes last: -beta +- i omega. Plain terms come before fractions, roots and functions; a
+    number precedes a term with the time, and a coefficient: 1 + omega_0 t, 1 + e.
     """
 
     is_timed = any(term.has(ex.TIME) for term in terms)
+    number_first = is_timed or any(_is_coefficient(term.as_base_exp()[0]) for term in terms)
 
-    def place(term: Any) -> tuple[bool, int, bool, bool, bool]:
+    def place(term: Any) -> tuple[bool, bool, int, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
         is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
         is_displacement = isinstance(term, Symbol) and term.name.partition("_")[0] == DISPLACEMENT  # r_0 + eta
         return (
             is_displacement,
+            _has_both_signs(term),
             len(functions[:1]) + changing,
             is_fraction,
             _has_root(term),
-            is_timed and not term.is_number,
+            number_first and not term.is_number,
         )
 
     return sorted(terms, key=place)
+
+
+def _has_both_signs(term: Expr) -> bool:
+    return ex.PLUS_MINUS in term.free_symbols
 
 
 def _has_root(term: Expr) -> bool:
@@ -151,10 +159,16 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the `Place` of a letter; the letter mu, if it is a pure number, is a coefficient of friction."""
+    """Return the `Place` of a letter; the letters mu and e, if they are pure numbers, are coefficients of friction and
+    of restitution."""
     dimension = dimension_of(letter)
-    is_coefficient = str(letter).partition("_")[0] == "mu" and dimension is not None and dimension.is_number
+    is_coefficient = _is_coefficient(letter) and dimension is not None and dimension.is_number
     return Place.COEFFICIENT if is_coefficient else rank_of_dimension(dimension)
+
+
+def _is_coefficient(letter: Any) -> bool:
+    """Whether a letter is the usual one for a coefficient of friction or of restitution."""
+    return isinstance(letter, Symbol) and letter.name.partition("_")[0] in COEFFICIENTS
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:

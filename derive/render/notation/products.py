@@ -138,9 +138,11 @@ def roots_last(terms: list[Any]) -> list[Any]:
 
 
 def positive_first(terms: list[Any]) -> list[Any]:
-    """Put the first positive term before the others: c^2 - a^2, not -a^2 + c^2."""
+    """Put the first positive term before the others: c^2 - a^2, not -a^2 + c^2. A term with both signs is not moved:
+    -beta +- i omega."""
     if terms and sign_and_size(terms[0])[0] is MINUS:
-        first = next((term for term in terms if sign_and_size(term)[0] is not MINUS), None)
+        others = (term for term in terms if ex.PLUS_MINUS not in term.free_symbols)
+        first = next((term for term in others if sign_and_size(term)[0] is not MINUS), None)
         if first is not None:
             return [first, *(term for term in terms if term is not first)]
     return terms
