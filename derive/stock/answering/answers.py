@@ -127,7 +127,7 @@ class StockAnswers(Answers[W]):
             plotted = Plotted(drawing, self.by_name.named, self.coordinates)
             if drawing.is_portrait:
                 plotted.draw_levels()
-            elif drawing.plot and drawing.against and drawing.range:
+            elif drawing.is_of_engine and drawing.against and drawing.range:
                 plotted.draw(drawing.against, drawing.range)
         return found
 
