@@ -37,7 +37,7 @@ from derive.steps.signs import truth_known
 
 CURVE = "way"  # the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
-ROUNDED = 0.01  # relative difference between a number of a plot and an exact value that this number may round
+ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
 FOUND = -1  # the index of the statement; part (a) has the index 0
 
@@ -219,7 +219,7 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
         numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
         numbers |= {number.symbol: number.si for number in (*first, *case)}
         numbers.pop(drawing.variable, None)
-        conditions = _conditions_for(plot, derivation)
+        conditions = _conditions_for(plot, case, derivation)
         broken = next((each for each in conditions if _is_broken(each, names, numbers)), None)
         if broken is not None:
             which = f"case {case_label(i)} of the plot `{drawing.key}`" if more else f"the plot `{drawing.key}`"
@@ -230,8 +230,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
     return found
 
 
-def _conditions_for(plot: m.Plot, derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results."""
+def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
+    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If the
+    case gives a number to a letter that these steps have replaced, its value is such a condition: b = 2 sqrt(k m)."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -239,8 +240,14 @@ def _conditions_for(plot: m.Plot, derivation: Derivation) -> list[Relation]:
         if key in steps and key not in seen:
             seen[key] = None
             waiting += steps[key].inputs
-    told = [each for key in seen for role, each in steps[key].roles if role in CONDITIONS or _VALUE.fullmatch(role)]
-    return [each for each in dict.fromkeys(told) if isinstance(each, Relation)]
+    replaced = {number.symbol for number in case} - plot.letters
+    told = [
+        each
+        for key in seen
+        for role, each in steps[key].roles
+        if isinstance(each, Relation) and (role in CONDITIONS or _VALUE.fullmatch(role) and each.left in replaced)
+    ]
+    return list(dict.fromkeys(told))
 
 
 def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:

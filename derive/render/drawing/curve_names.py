@@ -11,6 +11,7 @@ from derive.render.drawing.sheets import Extent
 
 GAP = 3.5  # in points: the distance of a name from its curve
 CLEAR = 2.0  # in points: the least distance between a name and a curve or another text
+WORDS = 9.0  # in points: the least distance between two texts in the same line
 APART = 8.0  # in points: the least distance of a name from the other curves
 ENOUGH = 30.0  # in points: a greater distance from the other curves is not better
 STEP = 2.0  # in points: the distance between the points that represent a curve
@@ -32,7 +33,8 @@ def is_clear(box: Extent, dots: Sequence[Spot], others: Sequence[Extent]) -> boo
     """Return whether a box covers no point of a curve and no other box."""
     left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
     return not any(left < x < right and below < y < above for x, y in dots) and not any(
-        left < other[2] and other[0] < right and below < other[3] and other[1] < above for other in others
+        box[0] - WORDS < other[2] and other[0] < box[2] + WORDS and below < other[3] and other[1] < above
+        for other in others
     )
 
 

@@ -21,7 +21,9 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
-ROOM = 0.25  # margin for the names of extrema above and below a curve, in units of its height
+NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
+MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
+HEIGHT = 88.0  # in points: the usual height of a panel between its axes
 MARGIN = 0.08  # any other margin around a curve or a path, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
@@ -85,18 +87,30 @@ class Panel:
 
 
 def panel_of(
-    plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, words: Phrases, letter: str = ""
+    plot: Plot,
+    own: Sequence[Curve],
+    curves: Curves,
+    notation: Notation,
+    words: Phrases,
+    letter: str = "",
+    height: float = HEIGHT,
 ) -> Panel:
-    """Return the panel of these curves."""
+    """Return the panel of these curves; `height` is the usual height of a panel between its axes, in points."""
     if own[0].path:
         return path_panel(plot, own, curves, notation, letter)
     if own[0].portrait:
         return portrait_panel(plot, own[0], own[0].portrait, curves, notation, letter)
-    return curve_panel(plot, own, curves, notation, words, letter)
+    return curve_panel(plot, own, curves, notation, words, letter, height)
 
 
 def curve_panel(
-    plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, words: Phrases, letter: str = ""
+    plot: Plot,
+    own: Sequence[Curve],
+    curves: Curves,
+    notation: Notation,
+    words: Phrases,
+    letter: str,
+    height: float,
 ) -> Panel:
     """Return the panel of curves; the axes leave room for the words below a minimum and above a maximum."""
     traces = tuple(
@@ -117,7 +131,7 @@ def curve_panel(
     start, low, end, high = _box(traces)
     tall = (high - low) or abs(high) or 1.0
     lowest = {is_lowest for trace in traces for _, is_lowest, _ in trace.turns}
-    below, above = (tall * (ROOM if kind in lowest else MARGIN) for kind in (True, False))
+    below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
     powers = _power(start, end, curves.variable), _power(low, high, curves.up)
     return Panel(
         traces=traces,
@@ -200,6 +214,12 @@ def _scaled(points: Sequence[Spot], across: Axis, up: Axis) -> tuple[Spot, ...]:
 def _box(traces: Sequence[Trace]) -> Extent:
     xs, ys = ([spot[k] for trace in traces for spot in trace.points] for k in (0, 1))
     return min(xs), min(ys), max(xs), max(ys)
+
+
+def _room(sides: int, height: float) -> float:
+    """Return the margin for names at one or both sides of a curve, in units of the height of the curve."""
+    part = min(NAME / height, MOST_NAME)
+    return part / (1 - 2 * part) if sides == 2 else part * (1 + MARGIN) / (1 - part)
 
 
 def _with_margin(low: float, high: float) -> tuple[float, float]:

@@ -30,7 +30,7 @@ from derive.render.drawing.panels import Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.notation import Notation
 
-PANEL, TALL = 7.5, 4.8  # centimetres
+PANEL, TALL = 7.5, 5.0  # centimetres
 WIDEST = 16.5  # centimetres: the width of all panels, if it is not given
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
@@ -39,6 +39,7 @@ PAD = 4.0  # in points: the distance of the name of an axis from its numbers, an
 EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
 DOT = 2.2  # in points: the radius of the dot at an extremum
+AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
 PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
 
@@ -101,8 +102,9 @@ def plot_sheet(
 ) -> Sheet:
     """Return the panels side by side; `width` is the width of one panel."""
     wide = (width or min(PANEL, WIDEST / len(curves.panels))) * CM
+    height = wide * TALL / PANEL - AROUND
     panels = [
-        panel_of(plot, own, curves, notation, words, letter)
+        panel_of(plot, own, curves, notation, words, letter, height)
         for letter, own in zip(panel_letters(curves), curves.panels, strict=True)
     ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
@@ -198,8 +200,8 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     size = _size_of_legend(sizes)
     box = corner_for(size, [dot for line in lines for dot in line], [box for _, _, box in turns], frame.paper)
     if box:
-        shapes = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
-        return Names(tuple(shapes), marked, named)
+        legend = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
+        return Names(tuple(legend), marked, named)
     rows = rows_of([SAMPLE + PAD + wide + BETWEEN for wide, _ in sizes], right - left)
     top = above + PAD + size[1] / len(sizes) * len(rows)
     return Names(tuple(_legend(panel, writing, sizes, rows, (left, top))), marked, named, top)
