@@ -133,7 +133,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     )
     in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for both in ends for end in both)
     variable = IN_DEGREES if in_degrees else Axis(_unit(plot.of))
-    if len({(curve.label, curve.numbers) for curve in found}) < len(found) and plot.others:
+    if plot.others and len({(curve.label, curve.numbers) for curve in found}) < len(found):
         message = f"two curves of the plot `{plot.key}` have the same name and the same numbers"
         help_line = "give the answers different symbols, or write a case for each curve"
         raise Rejected(Complaint("drawing", message, _place(problem, placement), help=help_line))

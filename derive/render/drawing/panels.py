@@ -128,7 +128,9 @@ def curve_panel(
         )
         for curve in own
     )
-    start, low, end, high = _box(traces)
+    _, low, _, high = _box(traces)
+    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.upper)]
+    start, end = min(ends), max(ends)
     tall = (high - low) or abs(high) or 1.0
     lowest = {is_lowest for trace in traces for _, is_lowest, _ in trace.turns}
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
