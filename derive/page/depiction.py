@@ -79,7 +79,8 @@ def depictions(
     """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
-    faults += [f for drawing in drawings for f in _outside_its_case(problem, drawing, derivation)]
+    outside = {drawing.key: _outside_its_case(problem, drawing, derivation) for drawing in drawings}
+    faults += [f for found in outside.values() for f in found]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
     for drawing in drawings:
@@ -88,7 +89,7 @@ def depictions(
         index = _index(problem, drawing, derivation)
         if fault:
             faults.append(fault)
-        elif index is not None:
+        elif index is not None and not outside[drawing.key]:
             own = placement.caption if placement else None
             caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words)
             caption += _not_shown(drawing, words, bool(caption))

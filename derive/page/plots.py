@@ -203,7 +203,7 @@ def _axis(unit: str) -> Axis:
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
     """Return the ends of the range; the engine has read the range of a plot that the problem requests."""
-    if placement and placement.range and not placement.plot:
+    if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
 

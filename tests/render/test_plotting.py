@@ -104,9 +104,9 @@ def test_each_extremum_is_named_clear_of_the_curve() -> None:
 
 def test_the_numbers_of_a_case_stand_over_its_panel() -> None:
     one, two = panels(plot_of(a * cos(theta)), 1, 2)
-    assert (one.numbers, two.numbers) == (r"$a = 1\,\mathrm{m}$", r"$a = 2\,\mathrm{m}$")
-    assert {one.numbers, *one.names} <= set(one.texts())
-    assert panels(plot_of(cos(theta)))[0].numbers == ""
+    assert (one.numbers, two.numbers) == ((r"$a = 1\,\mathrm{m}$",), (r"$a = 2\,\mathrm{m}$",))
+    assert {*one.numbers, *one.names} <= set(one.texts())
+    assert panels(plot_of(cos(theta)))[0].numbers == ()
 
 
 @pytest.fixture
@@ -177,7 +177,7 @@ def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -
         (r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$", r"$1.000\,\mathrm{J}$"),
         (r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$", r"$2.000\,\mathrm{J}$"),
     ]
-    assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")
+    assert one.numbers[0].startswith(r"$({\mathrm{a}})") and two.numbers[0].startswith(r"$({\mathrm{b}})")
 
 
 def path_of(across: Expr, up: Expr, unit: str = "J", upper: Expr = 2 * pi) -> Plot:
@@ -218,8 +218,8 @@ def test_axes_with_different_units_have_scales_of_their_own() -> None:
 
 
 def test_panels_of_paths_have_their_own_heights() -> None:
-    found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two")
-    one = sheet(path_of(cos(theta), 2 * sin(theta)))
+    found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two", width=6.0)
+    one = sheet(path_of(cos(theta), 2 * sin(theta)), width=6.0)
     assert found.width == pytest.approx(2 * one.width)
 
 
@@ -236,7 +236,7 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
         levels=levels,
     )  # fmt: skip
     (panel,) = panels(portrait)
-    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,\mathrm{kg\,m^{2}/s}$")
+    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,(\mathrm{kg\,m^{2}/s})$")
     assert panel.values == (-90, -2, 90, 2)
     strokes = [each for each in line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))) if isinstance(each, Stroke)]
     assert [(stroke.pen, stroke.head) for stroke in strokes] == [
@@ -278,7 +278,7 @@ def test_curves_in_one_panel_have_different_lines() -> None:
     assert [stroke.pen for stroke in strokes(panel)] == list(PENS_OF_CURVES)
     assert len({canvas.PENS[pen].dashes for pen in PENS_OF_CURVES}) == 4, "different in black and white"
     assert [trace.name for trace in panel.traces] == [rf"$a = {n}\,\mathrm{{m}}$" for n in (4, 3, 2, 1)]
-    assert panel.numbers == ""
+    assert panel.numbers == ()
     assert sheet(plot_of(a * cos(theta)), 1, 2, together="together").width == sheet(plot_of(a * cos(theta)), 1).width
 
 
@@ -363,3 +363,27 @@ def test_the_axes_of_a_phase_portrait_have_powers_of_ten() -> None:
     (panel,) = panels(portrait)
     assert panel.names[1] == r"$p\,/\,(10^{7}\,\mathrm{kg\,m^{2}/s})$"
     assert [text for _, text in panel.up] == ["$-1.0$", "$-0.5$", "$0.0$", "$0.5$", "$1.0$"]
+
+
+def test_a_steep_path_has_a_narrow_panel() -> None:
+    steep, flat = sheet(path_of(cos(theta), 2 * sin(theta))), sheet(path_of(2 * cos(theta), sin(theta)))
+    assert steep.width < flat.width == pytest.approx(plotting.PANEL * CM)
+    assert steep.height < (plotting.TALLEST + 1.5) * CM
+
+
+def test_many_numbers_are_in_several_rows_above_a_panel(drawn: list[Shape]) -> None:
+    letters = symbols("c d e f g", positive=True)
+    plot = plot_of(sum(letters) * cos(theta))
+    problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    numbers = tuple(Measured(letter, Integer(1234567), "m", Integer(1)) for letter in letters)
+    placement = Placement("potential", Place("one.yaml", 9), cases=(numbers,))
+    plot_sheet(plot, curves_of(problem, plot, placement), Notation(), WORDS, None, "")
+    texts = [box(shape) for shape in drawn if shape.fill == canvas.QUIET][-5:]
+    assert len({round(each[1]) for each in texts}) > 1
+    assert all(0 < each[0] < each[2] < plotting.PANEL * CM for each in texts)
+    assert all(one[2] <= two[0] or abs(one[1] - two[1]) > 5 for one, two in combinations(texts, 2))
+
+
+def test_a_unit_that_is_a_product_or_a_quotient_is_in_parentheses() -> None:
+    (panel,) = panels(Plot("v", V, theta, theta, Integer(0), Integer(3), "speed", "time"))
+    assert panel.names == (r"$\theta\,/\,\mathrm{s}$", r"$V\,/\,(\mathrm{m/s})$")

@@ -55,7 +55,7 @@ class Panel:
     across, up       the ticks of both axes, with their numbers
     names            the names of both axes
     values           the ranges of the axes: left, below, right, above
-    numbers          the numbers that were substituted
+    numbers          the texts above the panel: its letter, and the numbers that were substituted
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
     shape            height divided by width, if it is not that of the paper
@@ -66,7 +66,7 @@ class Panel:
     up: Ticks
     names: tuple[str, str]
     values: Extent
-    numbers: str = ""
+    numbers: tuple[str, ...] = ()
     is_path: bool = False
     shape: float | None = None
     lines: tuple[LevelLine, ...] = ()
@@ -83,7 +83,7 @@ class Panel:
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
         yield from (name for _, _, names in self.turns for name in names)
-        yield from (text for text in (*self.names, self.numbers, *(trace.name for trace in self.traces)) if text)
+        yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
 
 
 def panel_of(
@@ -281,20 +281,25 @@ def _names_of(kind: str, value: str) -> tuple[str, str]:
     return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
 
 
-def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> str:
-    """Return the text above a panel: the letter of the panel and the name of its curve, if there are several panels,
-    and the numbers."""
+def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> tuple[str, ...]:
+    """Return the texts above a panel of one curve: the letter of the panel and the name of the curve, if there are
+    several panels, and the numbers."""
     if len(own) > 1:
-        return ""
-    if not letter:
-        return _in_mathtext(_numbers(own[0].numbers, notation))
-    return f"$({{\\mathrm{{{letter}}}}})\\;\\;{_name(own[0], curves, notation).strip('$')}$"
+        return ()
+    items = _distinction(own[0], curves, notation)
+    marked = [f"({{\\mathrm{{{letter}}}}})\\;\\;{items[0] if items else ''}", *items[1:]] if letter else items
+    return tuple(f"${item}{',' if i < len(marked) else ''}$" for i, item in enumerate(marked, 1))
 
 
 def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
-    """Return the name of one of several curves: what distinguishes it from the others."""
+    """Return the name of one of several curves in a panel."""
+    return "$" + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
+
+
+def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:
+    """Return what distinguishes a curve from the others: its quantity, if there are several, and its numbers."""
     quantity = [_mathtext(notation.layout(curve.label))] if curves.labels_differ else []
-    return _in_mathtext([*quantity, *_numbers(curve.numbers, notation)])
+    return [*quantity, *_numbers(curve.numbers, notation)]
 
 
 def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
@@ -303,10 +308,12 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 
 def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0) -> str:
     """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
-    `U / (10^33 J)`."""
+    `v / (m/s)`, `U / (10^33 J)`."""
     name = r",\,".join(_mathtext(notation.layout(symbol)) for symbol in symbols)
     parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
-    divisor = rf"({parts[0]}\,{parts[1]})" if len(parts) > 1 else "".join(parts)
+    is_product = len(parts) > 1 or any(sign in unit for sign in " /")
+    divisor = r"\,".join(parts)
+    divisor = f"({divisor})" if is_product else divisor
     over = rf"\,/\,{divisor}" if divisor else ""
     return f"${name}{over}$"
 
@@ -317,10 +324,6 @@ def _numbers(numbers: Sequence[Measured], notation: Notation) -> list[str]:
         amount = Amount(measured.number, measured.unit, measured.factor)
         items.append(rf"{_mathtext(notation.layout(measured.symbol))} = {_mathtext(notation.layout(amount))}")
     return items
-
-
-def _in_mathtext(items: Sequence[str]) -> str:
-    return "$" + r",\;\; ".join(items) + "$" if items else ""
 
 
 def _mathtext(layout: Any) -> str:

@@ -32,6 +32,7 @@ from derive.render.notation.notation import Notation
 
 PANEL, TALL = 7.5, 5.0  # centimetres
 WIDEST = 16.5  # centimetres: the width of all panels, if it is not given
+TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the width of its panel is not given
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
@@ -40,6 +41,7 @@ EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
 DOT = 2.2  # in points: the radius of the dot at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
+SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
 PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
 
@@ -90,6 +92,11 @@ class Writing:
         )
         return Shape(moved(contour, (left, below), scale), colour)
 
+    def on(self, spot: Spot, text: str, scale: float, colour: str) -> Shape:
+        """Place a text that begins at a point of its base line."""
+        contour, extent = self.known[text]
+        return Shape(moved(contour, (spot[0] - scale * extent[0], spot[1]), scale), colour)
+
 
 def plot_sheet(
     plot: Plot,
@@ -108,9 +115,10 @@ def plot_sheet(
         for letter, own in zip(panel_letters(curves), curves.panels, strict=True)
     ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
-    room = _room(panels, writing)
-    widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
-    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have the same size
+    room = _room(panels, writing, wide)
+    if width is None and (steepest := max((panel.shape for panel in panels if panel.shape), default=0.0)):
+        wide = min(wide, room[0] + room[2] + TALLEST * CM / steepest)
+        room = _room(panels, writing, wide)
     across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - room[3]
     heights = [usual if panel.shape is None else across * panel.shape for panel in panels]
     shapes: list[Shape] = []
@@ -119,17 +127,17 @@ def plot_sheet(
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], room[1] + height
         frame = Frame(paper, panel.values)
         names = _names(panel, frame, writing)
-        shapes += _drawn(panel, frame, writing, names, (i * wide, (i + 1) * wide), size)
+        shapes += _drawn(panel, frame, writing, names, (i * wide, (i + 1) * wide))
         tallest = max(tallest, names.above + EDGE)
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tallest), alt)
 
 
-def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
-    """Return the distances from the edges of every panel to its axes: left, below, right, above."""
+def _room(panels: Sequence[Panel], writing: Writing, width: float) -> Extent:
+    """Return the distances from the edges of every panel of this width to its axes: left, below, right, above."""
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
     names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
-    numbers = [writing.size(panel.numbers, SMALLER)[1] + PAD for panel in panels if panel.numbers]
+    numbers = [sum(high for _, _, high in _title(panel, writing, width)) for panel in panels]
     wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
     highest = max((h for _, h in up), default=0.0) / 2  # of a number at the upper end of an axis
     return (
@@ -140,8 +148,24 @@ def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
     )
 
 
-def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot, size: float) -> Iterator[Shape]:
-    """Yield all shapes of a panel with left and right edges `ends`; `size` scales the numbers above the panel."""
+def _title(panel: Panel, writing: Writing, width: float) -> list[tuple[tuple[str, ...], float, float]]:
+    """Return the rows of the text above a panel: the items, their scale and the height of the row."""
+    room = width - 2 * EDGE
+    sizes = [writing.size(text, SMALLER) for text in panel.numbers]
+    high = max((high for _, high in sizes), default=0.0) + PAD
+    found = []
+    for row in rows_of([wide + SPACE for wide, _ in sizes], room + SPACE):
+        wide = _width_of_row([sizes[i][0] for i in row])
+        found.append((tuple(panel.numbers[i] for i in row), SMALLER * min(1.0, room / wide), high))
+    return found
+
+
+def _width_of_row(widths: Sequence[float]) -> float:
+    return sum(widths) + SPACE * (len(widths) - 1)
+
+
+def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot) -> Iterator[Shape]:
+    """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
     yield from shapes_of([piece for turn in names.marked for piece in _dot(turn, frame)])
@@ -157,10 +181,15 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
     leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
     yield writing.at((leftmost, (below + above) / 2), up, SMALL, (1.0, 0.5), upwards=True)
-    if panel.numbers:
-        half = EDGE + writing.size(panel.numbers, size)[0] / 2
-        middle = max(ends[0] + half, min((left + right) / 2, ends[1] - half))
-        yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)
+    base = above + PAD
+    for texts, scale, high in reversed(_title(panel, writing, ends[1] - ends[0])):
+        widths = [writing.size(text, scale)[0] for text in texts]
+        half = EDGE + _width_of_row(widths) / 2
+        x = max(ends[0] + half, min((left + right) / 2, ends[1] - half)) - half + EDGE
+        for text, wide in zip(texts, widths, strict=True):
+            yield writing.on((x, base), text, scale, QUIET)
+            x += wide + SPACE
+        base += high
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from derive.figures.marks import Across, Further, Levels, Plot, noted
 from derive.mechanics import Coordinate
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
-from derive.stock.keys.formulas import Formula, right_side
+from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
 
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
@@ -65,7 +65,8 @@ class Plotted:
         variable, kind = self._variable(against, *self._letters_of_curve(answer, quantity, against))
         (lower, upper), keys = self._range(ends, kind)
         with told_at(answer.place):
-            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys)
+            unit = self._unit(quantity)
+            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
         """Draw the curves of several answers in one panel, so all answers have the same unit."""
@@ -81,8 +82,15 @@ class Plotted:
         with told_at(answers[0].place):
             noted(
                 Plot(self.drawing.key, first.symbol, explicit(first.value), variable, lower, upper,
-                     first.step.kind or "number", kind, tuple(q.key for q in quantities) + keys, others=others)
+                     first.step.kind or "number", kind, tuple(q.key for q in quantities) + keys,
+                     self._unit(first), others=others)
             )  # fmt: skip
+
+    def _unit(self, quantity: Quantity) -> str:
+        """Return the SI unit of an answer: that of its kind, else that of its dimension."""
+        if quantity.step.kind:
+            return unit_of_kind(quantity.step.kind)
+        return unit_of_dimension(dimension_of_answer(quantity, explicit(quantity.value), self._letters))
 
     def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
         """Return the letters of an answer, and the error if the letter that varies is not one of them."""
@@ -92,7 +100,7 @@ class Plotted:
 
     def _check_unit(self, answer: Word, quantity: Quantity, other: Word, first: Quantity) -> None:
         """Check that an answer has the unit of the first answer."""
-        one, two = (unit_of_kind(each.step.kind or "number") for each in (quantity, first))
+        one, two = (self._unit(each) for each in (quantity, first))
         if one != two:
             message = f"`{answer}` is in {one or 'no unit'} and `{other}` in {two or 'no unit'}, so they share no axis"
             rejected("wrong-argument", message, answer.place, "draw two plots")
