@@ -166,19 +166,19 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel: as the problem states, else if their labels distinguish them, if they
-    have the same range, and if none of them is much smaller than all of them."""
+    """Return whether the curves are in one panel: as the problem states, else the curves of several quantities, and the
+    cases of one quantity that have the same range, if none of them is much smaller than all of them."""
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or stated == APART:
         return False
     if stated == TOGETHER and len(curves) > MOST_TOGETHER:
         message = f"the panel of `{plot.key}` has room for at most {MOST_TOGETHER} curves, but there are {len(curves)}"
         raise Rejected(Complaint("drawing", message, _place(problem, placement), help="leave `panels` out"))
-    if stated == TOGETHER:
-        return True
+    if stated == TOGETHER or len(curves) > MOST_TOGETHER or plot.others:
+        return len(curves) <= MOST_TOGETHER
     has_one_range = bool(curves[0].path) or len({(curve.lower, curve.upper) for curve in curves}) == 1
     with told_at(_place(problem, placement)):
-        return has_one_range and len(curves) <= MOST_TOGETHER and _are_of_comparable_size(curves)
+        return has_one_range and _are_of_comparable_size(curves)
 
 
 def _are_of_comparable_size(curves: Sequence[Curve]) -> bool:

@@ -41,6 +41,7 @@ EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
 DOT = 2.2  # in points: the radius of the dot at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
+ROW = 17.0  # in points: the height of one row of numbers above a panel, and of the margin; more rows make a plot higher
 SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
 PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
@@ -119,7 +120,7 @@ def plot_sheet(
     if width is None and (steepest := max((panel.shape for panel in panels if panel.shape), default=0.0)):
         wide = min(wide, room[0] + room[2] + TALLEST * CM / steepest)
         room = _room(panels, writing, wide)
-    across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - room[3]
+    across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - min(room[3], ROW)
     heights = [usual if panel.shape is None else across * panel.shape for panel in panels]
     shapes: list[Shape] = []
     tallest = max(heights) + room[1] + room[3]
