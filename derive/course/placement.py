@@ -51,6 +51,7 @@ class Placement:
     plot      the answer of which the engine draws a curve, or the two answers or formulas of which it draws a path
     curves    the answers of which the engine draws curves in one panel
     labels    the names of the axes of a path, in place of its formulas
+    surfaces  the names of the surfaces that are drawn with a path
     panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes
     letters   the letters that formulas of a plot may contain, by name
@@ -69,6 +70,7 @@ class Placement:
     plot: tuple[Formula, ...] = ()
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
+    surfaces: tuple[Word, ...] = ()
     panels: str | None = None
     against: Word | None = None
     levels: tuple[Formula, ...] = ()
@@ -106,6 +108,7 @@ def placements(
             plot=written.plot or (),
             curves=written.curves,
             labels=written.labels,
+            surfaces=written.surfaces,
             panels=written.panels,
             against=written.against,
             levels=written.levels,

@@ -298,13 +298,14 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Check that a drawing with `panels` has several curves, and a drawing with `labels` is a path."""
+    """Check that a drawing with `panels` has several curves, and a drawing with `labels` or `surfaces` is a path."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
-    if drawing.labels and len(drawing.plot) != 2:
-        message = f"`labels` has no effect on `{drawing.key}`, which is not a path"
-        faults.error("unused-key", message, drawing.labels[0].place, help="leave it out")
+    for name, words in (("labels", drawing.labels), ("surfaces", drawing.surfaces)):
+        if words and len(drawing.plot) != 2:
+            message = f"`{name}` has no effect on `{drawing.key}`, which is not a path"
+            faults.error("unused-key", message, words[0].place, help="leave it out")
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:

@@ -175,6 +175,10 @@ class DrawingKeys(Record):
         "the names of the two axes of a path, such as `[x, y]`, in place of its formulas",
         list_of(TEXT, "the names of two axes, such as `[x, y]`", each="the name of an axis", length=2),
     )
+    surfaces: tuple[Word, ...] = key(
+        "for a path: the surfaces under `given` that are drawn too, such as `[sphere, floor]`",
+        list_of(TEXT, "a list of surfaces such as `[sphere, floor]`", each="a surface"),
+    )
     levels: tuple[Formula, ...] = key(
         "for a phase portrait: the values of the answer on its curves, such as `[-5 J, m*g*l]`; the curve of a value "
         "in letters is thick",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from derive.algebra.encoding import as_data, from_data
-from derive.figures.marks import MARK_CLASSES, Across, Drawing, Further, Levels, Plot, Recorded
+from derive.figures.marks import MARK_CLASSES, Across, Drawing, Further, Levels, Outline, Plot, Recorded
 
 
 def drawings_to_data(drawings: Sequence[Recorded]) -> Any:
@@ -19,4 +19,12 @@ def drawings_from_data(data: Any) -> tuple[Recorded, ...]:
 
 
 def _classes() -> dict[str, Any]:
-    return {**MARK_CLASSES, "Across": Across, "Drawing": Drawing, "Further": Further, "Levels": Levels, "Plot": Plot}
+    return {
+        **MARK_CLASSES,
+        "Across": Across,
+        "Drawing": Drawing,
+        "Further": Further,
+        "Levels": Levels,
+        "Outline": Outline,
+        "Plot": Plot,
+    }

@@ -172,6 +172,20 @@ class Further:
 
 
 @dataclass(frozen=True)
+class Outline:
+    """A surface in the plane of a path, where `expr` vanishes.
+
+    plane     the symbols of the two coordinates in `expr`
+    corners   the coordinates of two opposite corners of a bounded surface: left, below, right, above
+    """
+
+    name: str
+    expr: Any
+    plane: tuple[Any, Any]
+    corners: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True)
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
@@ -182,6 +196,7 @@ class Plot:
     across           the quantity on the horizontal axis of a path, along which `variable` increases
     levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
     others           curves of other quantities of the same kind in the same panel
+    outlines         surfaces in the plane of a path
     """
 
     key: str
@@ -197,6 +212,7 @@ class Plot:
     across: Across | None = None
     levels: Levels | None = None
     others: tuple[Further, ...] = ()
+    outlines: tuple[Outline, ...] = ()
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -219,7 +235,15 @@ class Plot:
 
     @property
     def letters(self) -> set[Symbol]:
-        return letters_in((*self.shown, *(other.expr for other in self.others), *self.ends, *self.values))
+        return self.letters_of_curves | letters_in(self.ends)
+
+    @property
+    def letters_of_curves(self) -> set[Symbol]:
+        """Return the symbols in everything that is drawn."""
+        others = [other.expr for other in self.others]
+        outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
+        in_plane = {letter for each in self.outlines for letter in each.plane}
+        return letters_in((*self.shown, *others, *self.values, *outlines)) - in_plane
 
     @property
     def ends(self) -> tuple[Any, ...]:

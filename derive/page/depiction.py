@@ -413,7 +413,7 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     if plot.levels is not None:
         return _spaced([*_portraits(plot, curves, words, names), *_shared(curves, words)])
     if plot.across is not None:
-        return _spaced([*_paths(plot, curves, words, names), *_shared(curves, words)])
+        return _spaced([*_paths(plot, curves, words, names), *_surfaces(plot, words), *_shared(curves, words)])
     told = [filled(words.drawings["plot"], names)]
     for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
         last = words.labels["and"]
@@ -468,6 +468,14 @@ def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) 
             "closed": is_closed(curve.path),
         }
         yield filled(words.drawings["path_ends"], own)
+
+
+def _surfaces(plot: m.Plot, words: Phrases) -> Iterator[tuple[Inline, ...]]:
+    """Yield words for the surfaces that are drawn with a path."""
+    if plot.outlines:
+        names = [(Text(outline.name.replace("_", " ")),) for outline in plot.outlines]
+        own = {"names": joined(names, words.labels["and"]), "several": len(names) > 1}
+        yield filled(words.drawings["outlines"], own)
 
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:

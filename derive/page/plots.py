@@ -7,7 +7,7 @@ problem must have a number for this symbol.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -23,7 +23,7 @@ from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
 from derive.figures.extrema import NOISE, Extremum, extrema, values_along
-from derive.figures.marks import Plot, letters_in
+from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
     from derive.figures.portrait import Portrait
@@ -47,6 +47,7 @@ class Curve:
     across   the quantity on the horizontal axis of a path; a path has no extrema
     path     points of a path in the order of the motion
     portrait the curves of a phase portrait
+    outlines surfaces in the plane of a path
     """
 
     expr: Expr
@@ -59,6 +60,7 @@ class Curve:
     across: Expr | None = None
     path: Path = field(default=(), repr=False)
     portrait: Portrait | None = None
+    outlines: tuple[Outline, ...] = ()
 
     @cached_property
     def spots(self) -> Path:
@@ -118,7 +120,7 @@ class Curves:
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
     """Return every curve of the plot with its extrema; raise `Rejected` if symbols lack a number."""
     written = _ends(plot, placement)
-    letters = letters_in((*plot.shown, *(other.expr for other in plot.others), *written, *plot.values))
+    letters = plot.letters_of_curves | letters_in(written)
     pairs = plots_with_cases(plot, placement)
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
@@ -285,9 +287,15 @@ def _curve(
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait)
         if across:
             path = _path((across[0], expr), plot.variable, lower, upper)
-            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path)
+            outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
+            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
         found = extrema(expr, plot.variable, lower, upper)
         return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+
+
+def _with_numbers(outline: Outline, numbers: Mapping[Any, Expr]) -> Outline:
+    corners = tuple(float(each.xreplace(numbers)) for each in outline.corners)
+    return replace(outline, expr=outline.expr.xreplace(numbers), corners=corners)
 
 
 def _path(shown: tuple[Expr, Expr], variable: Symbol, lower: float, upper: float) -> Path:

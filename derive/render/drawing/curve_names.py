@@ -43,7 +43,11 @@ def is_inside(box: Extent, panel: Extent) -> bool:
 
 
 def beside_curves(
-    curves: Sequence[Sequence[Spot]], sizes: Sequence[tuple[float, float]], panel: Extent, taken: Sequence[Extent]
+    curves: Sequence[Sequence[Spot]],
+    sizes: Sequence[tuple[float, float]],
+    panel: Extent,
+    taken: Sequence[Extent],
+    lines: Sequence[Spot] = (),
 ) -> list[Extent] | None:
     """Return the box of the name of each curve, or None if a name has no clear place.
 
@@ -51,6 +55,7 @@ def beside_curves(
     sizes    the width and the height of each name
     panel    the space in which the names must be
     taken    the boxes of other texts
+    lines    points of other lines
     """
     found: list[Extent] = []
     for k, (own, size) in enumerate(zip(curves, sizes, strict=True)):
@@ -58,7 +63,7 @@ def beside_curves(
         tried = [
             (min(ENOUGH, _distance(box, others)), box)
             for box in _boxes(own, size)
-            if is_inside(box, panel) and is_clear(box, [*own, *others], [*found, *taken])
+            if is_inside(box, panel) and is_clear(box, [*own, *others, *lines], [*found, *taken])
         ]
         far, box = max(tried, key=lambda each: each[0], default=(0.0, panel))
         if far < APART:

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from derive.algebra.expressions import Amount
 from derive.course.given import Measured
 from derive.figures.extrema import MINIMUM
-from derive.figures.marks import Plot
+from derive.figures.marks import Outline, Plot
 from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
 from derive.page.plots import DEGREES, Axis, Curve, Curves, told_value
@@ -58,6 +58,7 @@ class Panel:
     numbers          the texts above the panel: its letter, and the numbers that were substituted
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
+    outlines         the lines of surfaces in the plane of a path
     shape            height divided by width, if it is not that of the paper
     """
 
@@ -70,6 +71,7 @@ class Panel:
     is_path: bool = False
     shape: float | None = None
     lines: tuple[LevelLine, ...] = ()
+    outlines: tuple[tuple[Spot, ...], ...] = ()
 
     @property
     def has_several(self) -> bool:
@@ -158,7 +160,9 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         )
         for curve in own
     )
-    left, low, right, high = _box(traces)
+    surfaces = tuple(dict.fromkeys(outline for curve in own for outline in curve.outlines))
+    corners = [tuple(zip(each.corners[::2], each.corners[1::2], strict=True)) for each in surfaces]
+    left, low, right, high = _box([*traces, *map(Trace, filter(None, corners))])
     (left, right), (low, high) = _with_margin(left, right), _with_margin(low, high)
     shape = None
     powers = _power(left, right, curves.across), _power(low, high, curves.up)
@@ -181,7 +185,17 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         numbers=_title(letter, own, curves, notation),
         is_path=True,
         shape=shape,
+        outlines=_lines_of(surfaces, (left, low, right, high)),
     )
+
+
+def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...], ...]:
+    """Return the lines of surfaces in a panel whose axes have these ranges."""
+    if not surfaces:
+        return ()
+    from derive.figures.portrait import lines_of  # imports NumPy
+
+    return tuple(line for each in surfaces for line in lines_of(each.expr, each.plane, box))
 
 
 def portrait_panel(

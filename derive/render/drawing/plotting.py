@@ -218,9 +218,10 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     sizes = [writing.size(trace.name, SMALLEST) for trace in panel.traces]
     left, below, right, above = frame.paper
     inner = left + TICK + PAD, below + TICK + PAD, right, above
+    outlines = [dot for line in panel.outlines for dot in dots_of(frame.spots(line))]
     turns = _clear_of_curves(panel, frame, writing, lines, ())
-    boxes = beside_curves(lines, sizes, inner, [box for _, _, box in turns])
-    if boxes is None and (boxes := beside_curves(lines, sizes, inner, ())):
+    boxes = beside_curves(lines, sizes, inner, [box for _, _, box in turns], outlines)
+    if boxes is None and (boxes := beside_curves(lines, sizes, inner, (), outlines)):
         turns = _clear_of_curves(panel, frame, writing, lines, boxes)
     marked, named = tuple(turn for turn, _, _ in turns), tuple(name for _, name, _ in turns)
     if boxes:
@@ -228,7 +229,9 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
         shapes = [writing.at(box[:2], trace.name, SMALLEST, (0.0, 0.0)) for trace, box in every]
         return Names(tuple(shapes), marked, named)
     size = _size_of_legend(sizes)
-    box = corner_for(size, [dot for line in lines for dot in line], [box for _, _, box in turns], frame.paper)
+    box = corner_for(
+        size, [dot for line in (*lines, outlines) for dot in line], [box for _, _, box in turns], frame.paper
+    )
     if box:
         legend = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
         return Names(tuple(legend), marked, named)
@@ -331,6 +334,8 @@ def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield Stroke(spots, pen)
         yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
+    for outline in panel.outlines:
+        yield Stroke(frame.spots(outline), "edge")
     for i, trace in enumerate(panel.traces):
         spots, pen = frame.spots(trace.points), PENS_OF_CURVES[i % len(PENS_OF_CURVES)]
         yield Stroke(spots, pen)

@@ -124,7 +124,7 @@ class StockAnswers(Answers[W]):
         objects."""
         found = self.by_name.answers(asked)
         for drawing in drawings:
-            plotted = Plotted(drawing, self.by_name.named, self.coordinates)
+            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces)
             if drawing.is_portrait:
                 plotted.draw_levels()
             elif drawing.is_of_engine and drawing.against and drawing.range:

@@ -10,7 +10,7 @@ from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import TIME, explicit, scalar
+from derive.algebra.expressions import TIME, explicit, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension, unit_of_dimension, unit_of_kind
 from derive.course.expression import Declared
 from derive.course.given import read_end
@@ -19,8 +19,9 @@ from derive.course.stock import told_at
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import did_you_mean, rejected
 from derive.figures import plot
-from derive.figures.marks import Across, Further, Levels, Plot, noted
+from derive.figures.marks import Across, Further, Levels, Outline, Plot, noted
 from derive.mechanics import Coordinate
+from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
 from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
@@ -45,11 +46,13 @@ class Plotted:
 
     named         returns the steps that a name denotes
     coordinates   the coordinates of the system, by name
+    surfaces      returns the surfaces, by name
     """
 
     drawing: Placement
     named: Callable[[Word], tuple[Quantity, ...]]
     coordinates: Mapping[str, Coordinate]
+    surfaces: Callable[[], Mapping[str, Any]] = dict
 
     def draw(self, against: Word, ends: Range) -> None:
         """Draw the plot against a coordinate, the time or a declared letter."""
@@ -113,10 +116,11 @@ class Plotted:
         (lower, upper), keys = self._range(ends, kind)
         horizontal = Across(across.label, across.expr, across.unit)
         keys = tuple(dict.fromkeys((*across.keys, *up.keys, *keys)))
+        outlines = tuple(self._outline(name, (across, up)) for name in self.drawing.surfaces)
         with told_at(self.drawing.plot[0].place):
             noted(
                 Plot(self.drawing.key, up.label, up.expr, variable, lower, upper, up.kind, kind, keys, up.unit,
-                     horizontal)
+                     horizontal, outlines=outlines)
             )  # fmt: skip
 
     def _named(self, shown: list[Shown]) -> list[Shown]:
@@ -127,6 +131,22 @@ class Plotted:
                 rejected("wrong-argument", message, label.place, "such as `x`, `r_1` or `theta`")
         names = self.drawing.labels or [None] * len(shown)
         return [replace(each, label=scalar(name)) if name else each for name, each in zip(names, shown, strict=True)]
+
+    def _outline(self, name: Word, shown: tuple[Shown, Shown]) -> Outline:
+        """Return a surface in the plane of a path, which must be at rest."""
+        known = self.surfaces()
+        if name not in known:
+            rejected("undefined-name", f"no surface is called `{name}`", name.place, did_you_mean(name, known))
+        surface, plane = known[name], (stand_in("x"), stand_in("y"))
+        moving = {TIME, *(each.symbol for each in self.coordinates.values())}
+        if len(surface.place.components) != 2 or any(each.unit != unit_of_kind("length") for each in shown):
+            message = f"the path is not in the plane of `{name}`"
+            rejected("wrong-argument", message, name.place, "only a path of two lengths in a plane shows surfaces")
+        expr = explicit(surface.distance(Location(plane)))
+        if expr.free_symbols & moving:
+            rejected("wrong-argument", f"`{name}` moves, so a path cannot show it", name.place, "leave it out")
+        corners = tuple(explicit(c) for corner in surface.corners for c in corner.components)
+        return Outline(str(name), expr, plane, corners)
 
     def draw_levels(self) -> None:
         """Draw a phase portrait: curves in the plane of a coordinate and its momentum."""
