@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
@@ -13,7 +14,7 @@ from derive.course.given import Measured
 from derive.course.placement import Placement
 from derive.errors import Place
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.marks import Across, Further, Levels, Plot
+from derive.figures.marks import Across, Further, Levels, Outline, Plot
 from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
@@ -387,3 +388,19 @@ def test_many_numbers_are_in_several_rows_above_a_panel(drawn: list[Shape]) -> N
 def test_a_unit_that_is_a_product_or_a_quotient_is_in_parentheses() -> None:
     (panel,) = panels(Plot("v", V, theta, theta, Integer(0), Integer(3), "speed", "time"))
     assert panel.names == (r"$\theta\,/\,\mathrm{s}$", r"$V\,/\,(\mathrm{m/s})$")
+
+
+def test_the_surfaces_of_a_path_are_in_its_panel() -> None:
+    x, y = symbols("x y", real=True)
+    circle = Outline("circle", x**2 + y**2 - a**2, (x, y), (-a, -a, a, a))
+    line = Outline("line", y + a, (x, y))
+    path = replace(path_of(theta, theta, upper=Integer(1)), outlines=(circle, line))
+    (panel,) = panels(path, 2)
+    left, low, right, high = panel.values
+    assert left < -2 < 2 < right and low < -2 < 2 < high, "all of the circle"
+    around, level = panel.outlines
+    assert all(x**2 + y**2 == pytest.approx(4, abs=0.01) for x, y in around)
+    assert all(y == pytest.approx(-2) for _, y in level)
+    assert {level[0][0], level[-1][0]} == {left, right}
+    assert [stroke.pen for stroke in strokes(panel)][:2] == ["edge", "edge"]
+    assert drawings_from_data(drawings_to_data([path])) == (path,)

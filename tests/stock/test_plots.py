@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Symbol, cos, pi, simplify, sin
+from sympy import Symbol, cos, pi, simplify, sin, sqrt
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
 from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
-from derive.figures.marks import Plot
+from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, loaded, messages
@@ -478,3 +478,38 @@ def test_panels_has_no_effect_on_a_single_curve_or_a_portrait(tmp_path: Path) ->
     two = "      - {m: 1 kg, l: 1 m, g: 9.8 m/s^2}\n"
     several = edited(SWING, (two, two + "      - {l: 2 m}\n"), ("    cases:\n", "    panels: together\n    cases:\n"))
     assert any("`panels` has no effect on the phase portrait" in each for each in messages(tmp_path, several))
+
+
+SLIDE = (ROOT / "problems" / "library" / "constraints" / "off_a_sphere.yaml").read_text(encoding="utf-8")
+
+
+def surfaces_of(tmp_path: Path, *edits: tuple[str, str]) -> tuple[Outline, ...]:
+    run = Run()
+    run_solve(loaded(tmp_path, edited(SLIDE, *edits)), run)
+    return next(each.outlines for each in run.drawings if isinstance(each, Plot) and each.key == "path")
+
+
+def test_a_path_shows_surfaces(tmp_path: Path) -> None:
+    sphere, floor = surfaces_of(tmp_path)
+    (x, y), (R,) = sphere.plane, {symbol for symbol in sphere.expr.free_symbols if symbol.name == "R"}
+    assert simplify(sphere.expr - (sqrt(x**2 + y**2) - R)) == 0
+    assert sphere.corners == (-R, -R, R, R)
+    assert (simplify(floor.expr - y - R), floor.corners) == (0, ())
+    page = " ".join(rendered(course_with(tmp_path, SLIDE), "trial/one", only=("html",)).html.split())
+    assert "The plot also shows the surfaces sphere and floor." in page
+
+
+@pytest.mark.parametrize(
+    ("edits", "said"),
+    [
+        ([("surfaces: [sphere, floor]", "surfaces: [sphere, flor]")], "no surface is called `flor`"),
+        ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
+        ([("plot: [flight_x, flight_y]", "plot: [flight_x, flight_y/R]")], "the path is not in the plane of `sphere`"),
+        ([("plot: [flight_x, flight_y]", "plot: flight_y")], "`surfaces` has no effect on `path`, which is not a path"),
+    ],
+)
+def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
+    tmp_path: Path, edits: list[tuple[str, str]], said: str
+) -> None:
+    found = messages(tmp_path, edited(SLIDE, *edits))
+    assert any(said in each for each in found), found
