@@ -76,6 +76,10 @@ def steps_key(problem: Problem) -> str:
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     observed = (problem.observations, [part.observations for part in problem.parts])
-    plots = [(d.key, d.plot, d.against, d.range, d.levels, d.over) for d in problem.drawings if d.plot]
+    plots = [
+        (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.levels, d.over)
+        for d in problem.drawings
+        if d.is_of_engine
+    ]
     read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

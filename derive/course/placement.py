@@ -49,6 +49,10 @@ class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
     plot      the answer of which the engine draws a curve, or the two answers or formulas of which it draws a path
+    curves    the answers of which the engine draws curves in one panel
+    labels    the names of the axes of a path, in place of its formulas
+    surfaces  the names of the surfaces that are drawn with a path
+    panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes
     letters   the letters that formulas of a plot may contain, by name
     """
@@ -64,10 +68,19 @@ class Placement:
     range: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
     plot: tuple[Formula, ...] = ()
+    curves: tuple[Word, ...] = ()
+    labels: tuple[Word, ...] = ()
+    surfaces: tuple[Word, ...] = ()
+    panels: str | None = None
     against: Word | None = None
     levels: tuple[Formula, ...] = ()
     over: Table[Word, Range] = field(default_factory=dict, repr=False)
     letters: Table[str, Declared] = field(default_factory=dict, repr=False)
+
+    @property
+    def is_of_engine(self) -> bool:
+        """Whether the engine draws a plot of answers."""
+        return bool(self.plot or self.curves)
 
     @property
     def is_portrait(self) -> bool:
@@ -93,6 +106,10 @@ def placements(
             range=Range(written.ends) if written.ends else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             plot=written.plot or (),
+            curves=written.curves,
+            labels=written.labels,
+            surfaces=written.surfaces,
+            panels=written.panels,
             against=written.against,
             levels=written.levels,
             over={name: Range(ends) for name, ends in written.over.items()},

@@ -238,7 +238,8 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    plotted = [drawing.plot[0] for drawing in drawings if len(drawing.plot) == 1]
+    plotted: list[Word] = [drawing.plot[0] for drawing in drawings if len(drawing.plot) == 1]
+    plotted += [name for drawing in drawings for name in drawing.curves]
     for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
     return tuple(first.values())
@@ -273,26 +274,46 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
     """Check that a drawing with `plot` belongs to a script of the engine. Unless it is a phase portrait, it needs
     `against` and `range`. A drawing without `plot` must not have `against`."""
     for drawing in drawings:
-        if drawing.plot and isinstance(script, Script):
+        _check_panels(drawing, faults)
+        if drawing.is_of_engine and isinstance(script, Script):
+            name = "plot" if drawing.plot else "curves"
             message, help_line = (
-                "`plot` has no effect: the script of the problem draws its plots",
+                f"`{name}` has no effect: the script of the problem draws its plots",
                 "call `plot(...)` there",
             )
-            faults.error("unused-key", message, drawing.plot[0].place, help=help_line)
+            faults.error("unused-key", message, (*drawing.plot, *drawing.curves)[0].place, help=help_line)
+        elif drawing.plot and drawing.curves:
+            message = f"the plot `{drawing.key}` has `plot` or `curves`, but not both"
+            help_line = "write all answers under `curves`"
+            faults.error("unused-key", message, drawing.curves[0].place, help=help_line)
         elif drawing.levels or drawing.over:
             _check_portrait(drawing, faults)
-        elif drawing.plot and (drawing.against is None or drawing.range is None):
+        elif drawing.is_of_engine and (drawing.against is None or drawing.range is None):
             message = f"the plot `{drawing.key}` needs `against` with a letter, and `range` with two ends"
             faults.error(
                 "missing-key", message, drawing.place, help="such as `against: theta, range: [-90 deg, 90 deg]`"
             )
-        elif drawing.against and not drawing.plot:
+        elif drawing.against and not drawing.is_of_engine:
             faults.error("unused-key", "`against` has no effect without `plot`", drawing.against.place)
+
+
+def _check_panels(drawing: Placement, faults: Faults) -> None:
+    """Check that a drawing with `panels` has several curves, and a drawing with `labels` or `surfaces` is a path."""
+    if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
+        message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
+        faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
+    for name, words in (("labels", drawing.labels), ("surfaces", drawing.surfaces)):
+        if words and len(drawing.plot) != 2:
+            message = f"`{name}` has no effect on `{drawing.key}`, which is not a path"
+            faults.error("unused-key", message, words[0].place, help="leave it out")
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
     """Check that a phase portrait has one answer, values and two ranges, and neither `against` nor `range`."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
+    if drawing.panels:
+        message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
+        faults.error("unused-key", message, drawing.place, help="leave it out")
     if not drawing.is_portrait:
         message = f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels` and `over`"
         help_line = "such as `plot: hamiltonian, levels: [m*g*l], over: {theta: [-180 deg, 180 deg], p_theta: [...]}`"

@@ -11,7 +11,7 @@ from derive.course.given import Given, Measured
 from derive.course.placement import HIDDEN
 from derive.course.prose import Prose
 from derive.course.stock import Described
-from derive.course.written import ProblemKeys, SortOfLetter
+from derive.course.written import DrawingKeys, ProblemKeys, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
@@ -66,7 +66,7 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
     in prose, and that do not replace a number. A letter whose kind is in `exact` causes no warning: an exact number of
     this kind, such as 45 deg, may be in its place."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
-    drawn = {name for each in written.drawings.values() for name in each.values}  # a drawing uses these letters
+    drawn = {name for each in written.drawings.values() for name in _drawn(each)}
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
     used |= {name for prose in _texts(written) for formula in prose.formulas for name in formula.names}
     for name, sort in written.symbols.items():
@@ -75,6 +75,14 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
         message = f"`{name}` is declared, but nothing under `given` uses it"
         instead = f"write `gravity: {name}` under `given`, or " if _lacks_gravity(written.given, sort) else ""
         yield Complaint("unused-letter", message, name.place, help=f"{instead}leave it out", severity="warning")
+
+
+def _drawn(drawing: DrawingKeys) -> Iterator[str]:
+    """Yield the letters that a drawing uses: those with values, and those in the formulas of a plot."""
+    yield from drawing.values
+    ends = [end for both in drawing.over.values() for end in both]
+    for formula in (*(drawing.plot or ()), *drawing.levels, *(drawing.ends or ()), *ends):
+        yield from _NAME.findall(formula)
 
 
 def _texts(written: ProblemKeys) -> Iterator[Prose]:

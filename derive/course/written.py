@@ -104,6 +104,7 @@ SYMBOLS = mapping_of(Reader(schema_of_sorts(KINDS), sort_of_letter))
 GIVEN = mapping_node({"anyOf": [SCALAR.schema, {"type": "array"}, {"type": "object"}]})
 VALUES = mapping_of(SCALAR)
 _FORMULAS = mapping_of(FORMULA, "a mapping such as `{omega_0: sqrt(k/m)}`, or `none`")
+TOGETHER, APART = "together", "apart"  # all curves of a plot in one panel, or each in its own panel
 NO_QUANTITIES = "none"  # `define: none`: results keep the letters of the problem
 
 
@@ -139,6 +140,7 @@ def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | Non
 
 _PATH = "such as `potential_energy`, or `[path_x, path_z]` for a path"
 _PAIR = {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}
+PANELS = (TOGETHER, APART)
 ENDS = list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2)
 PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
 
@@ -161,8 +163,21 @@ class DrawingKeys(Record):
         "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn",
         PLOTTED,
     )
+    curves: tuple[Word, ...] = key(
+        "for a script of the engine: answers with the same unit, such as `[weak, border, strong]`, whose curves are "
+        "drawn in one panel",
+        list_of(TEXT, "a list of answers such as `[weak, strong]`", each="a curve"),
+    )
     against: Word | None = key(
-        "the coordinate, the letter or `t`: on the horizontal axis of a plot of one answer; along the path of two", TEXT
+        "the coordinate, the letter or `t`: on the horizontal axis of curves; along the path of two answers", TEXT
+    )
+    labels: tuple[Word, ...] = key(
+        "the names of the two axes of a path, such as `[x, y]`, in place of its formulas",
+        list_of(TEXT, "the names of two axes, such as `[x, y]`", each="the name of an axis", length=2),
+    )
+    surfaces: tuple[Word, ...] = key(
+        "for a path: the surfaces under `given` that are drawn too, such as `[sphere, floor]`",
+        list_of(TEXT, "a list of surfaces such as `[sphere, floor]`", each="a surface"),
     )
     levels: tuple[Formula, ...] = key(
         "for a phase portrait: the values of the answer on its curves, such as `[-5 J, m*g*l]`; the curve of a value "
@@ -178,8 +193,13 @@ class DrawingKeys(Record):
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(
-        "numbers for letters, one mapping for each panel of a plot; a later mapping needs only the numbers that differ",
+        "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
+    )
+    panels: str | None = key(
+        "whether several curves or paths are `together` in one panel or `apart`; by default together if they have the "
+        "same range and comparable sizes",
+        one_of(PANELS),
     )
 
 

@@ -6,7 +6,17 @@ from collections.abc import Sequence
 from typing import Any
 
 from derive.algebra.encoding import as_data, from_data
-from derive.figures.marks import MARK_CLASSES, Across, Drawing, Levels, Plot, Recorded, ShownMode
+from derive.figures.marks import (
+    MARK_CLASSES,
+    Across,
+    Drawing,
+    Further,
+    Levels,
+    Outline,
+    Plot,
+    Recorded,
+    ShownMode,
+)
 
 
 def drawings_to_data(drawings: Sequence[Recorded]) -> Any:
@@ -23,7 +33,9 @@ def _classes() -> dict[str, Any]:
         **MARK_CLASSES,
         "Across": Across,
         "Drawing": Drawing,
+        "Further": Further,
         "Levels": Levels,
+        "Outline": Outline,
         "Plot": Plot,
         "ShownMode": ShownMode,
     }

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, ClassVar, TypeAlias
 
 from sympy import MatrixBase, Symbol
@@ -205,6 +205,29 @@ class Levels:
 
 
 @dataclass(frozen=True)
+class Further:
+    """A further curve of a plot: the name of its quantity, its value, and the key of its step."""
+
+    label: Any
+    expr: Any
+    key: str
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A surface in the plane of a path, where `expr` vanishes.
+
+    plane     the symbols of the two coordinates in `expr`
+    corners   the coordinates of two opposite corners of a bounded surface: left, below, right, above
+    """
+
+    name: str
+    expr: Any
+    plane: tuple[Any, Any]
+    corners: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True)
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
@@ -214,6 +237,8 @@ class Plot:
     unit             the SI unit of a quantity without a kind
     across           the quantity on the horizontal axis of a path, along which `variable` increases
     levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
+    others           curves of other quantities of the same kind in the same panel
+    outlines         surfaces in the plane of a path
     """
 
     key: str
@@ -228,6 +253,22 @@ class Plot:
     unit: str = ""
     across: Across | None = None
     levels: Levels | None = None
+    others: tuple[Further, ...] = ()
+    outlines: tuple[Outline, ...] = ()
+
+    @property
+    def each(self) -> tuple[Plot, ...]:
+        """Return a plot for each quantity."""
+        if not self.others:
+            return (self,)
+        own = tuple(key for key in self.keys if key not in {other.key for other in self.others})
+        first = replace(self, keys=own, others=())
+        return first, *(replace(first, label=each.label, expr=each.expr, keys=(each.key,)) for each in self.others)
+
+    @property
+    def labels(self) -> tuple[Any, ...]:
+        """Return the names of the quantities on the vertical axis, each once."""
+        return tuple(dict.fromkeys((self.label, *(other.label for other in self.others))))
 
     @property
     def shown(self) -> tuple[Any, ...]:
@@ -236,7 +277,15 @@ class Plot:
 
     @property
     def letters(self) -> set[Symbol]:
-        return letters_in((*self.shown, *self.ends, *self.values))
+        return self.letters_of_curves | letters_in(self.ends)
+
+    @property
+    def letters_of_curves(self) -> set[Symbol]:
+        """Return the symbols in everything that is drawn."""
+        others = [other.expr for other in self.others]
+        outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
+        in_plane = {letter for each in self.outlines for letter in each.plane}
+        return letters_in((*self.shown, *others, *self.values, *outlines)) - in_plane
 
     @property
     def ends(self) -> tuple[Any, ...]:

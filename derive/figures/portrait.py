@@ -88,6 +88,15 @@ def _contours(across: Any, up: Any, heights: Any, value: float) -> Sequence[Any]
     return lines
 
 
+def lines_of(
+    expr: Expr, plane: tuple[Symbol, Symbol], box: tuple[float, float, float, float]
+) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """Return the lines in a box on which an expression vanishes; `box` is left, below, right, above."""
+    across, up = np.linspace(box[0], box[2], STEPS + 1), np.linspace(box[1], box[3], STEPS + 1)
+    heights = _on(expr, plane, *np.meshgrid(across, up))
+    return tuple(tuple((float(x), float(y)) for x, y in line) for line in _contours(across, up, heights, 0.0))
+
+
 def _along(
     points: Any, rate: tuple[Expr, Expr], plane: tuple[Symbol, Symbol], inner: tuple[float, float], is_thick: bool
 ) -> Iterator[LevelLine]:

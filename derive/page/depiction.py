@@ -8,6 +8,7 @@ drawing to a later part, but never to an earlier one.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -20,12 +21,23 @@ from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
-from derive.page.plots import Curve, Curves, curves_of, is_closed, panel_letters, told_value, with_unit
+from derive.page.plots import (
+    Curve,
+    Curves,
+    curve_letters,
+    curves_of,
+    is_closed,
+    plots_with_cases,
+    told_value,
+    with_unit,
+)
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
 CURVE = "way"  # the phrase for a dashed curve
+_VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
+ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
 FOUND = -1  # the index of the statement; part (a) has the index 0
 
@@ -68,7 +80,8 @@ def depictions(
     """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
-    faults += [f for drawing in drawings for f in _outside_its_case(problem, drawing, derivation)]
+    outside = {drawing.key: _outside_its_case(problem, drawing, derivation) for drawing in drawings}
+    faults += [f for found in outside.values() for f in found]
     numbers = caption_numbers(problem, drawings, derivation)
     found: list[tuple[int, Depicted]] = []
     said: set[str] = set()
@@ -78,7 +91,7 @@ def depictions(
         index = _index(problem, drawing, derivation)
         if fault:
             faults.append(fault)
-        elif index is not None:
+        elif index is not None and not outside[drawing.key]:
             own = placement.caption if placement else None
             caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words, said)
             caption += _not_shown(drawing, words, bool(caption))
@@ -192,13 +205,14 @@ def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     if placement is None or not isinstance(drawing, m.Plot):
         return found
     before: list[dict[Symbol, Expr]] = []
+    of_several = bool(drawing.others)  # then each case belongs to another quantity
     for i, case in enumerate(placement.cases):
         for number in (each for each in case if each.symbol == drawing.variable):
             along = "the horizontal axis of" if drawing.across is None else "the path"
             message = f"`{number.symbol}` varies along {along} `{drawing.key}`, so it has no number"
             found.append(Complaint("unused-key", message, number.place, help="leave it out"))
         numbers = {number.symbol: number.si for number in (*placement.cases[0], *case)}
-        if numbers in before:
+        if numbers in before and not of_several:
             place = case[0].place if case else placement.place
             same = case_label(before.index(numbers))
             message = f"case {case_label(i)} of the plot `{drawing.key}` is the same as case {same}"
@@ -213,14 +227,18 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
     placement = placement_of(problem, drawing.key)
     if not isinstance(drawing, m.Plot):
         return []
-    conditions = _conditions_for(drawing, derivation)
     names = {name: explicit(value) for step in derivation.steps for name, value in step.names}
-    first, *more = (placement.cases if placement else ()) or ((),)
+    try:
+        pairs = plots_with_cases(drawing, placement)
+    except Rejected:  # the description of the plot reports this error
+        return []
+    first, *more = (case for _, case in pairs)
     found: list[Complaint] = []
-    for i, case in enumerate((first, *more)):
+    for i, (plot, case) in enumerate(pairs):
         numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
         numbers |= {number.symbol: number.si for number in (*first, *case)}
         numbers.pop(drawing.variable, None)
+        conditions = _conditions_for(plot, case, derivation)
         broken = next((each for each in conditions if _is_broken(each, names, numbers)), None)
         if broken is not None:
             which = f"case {case_label(i)} of the plot `{drawing.key}`" if more else f"the plot `{drawing.key}`"
@@ -231,8 +249,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
     return found
 
 
-def _conditions_for(plot: m.Plot, derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results."""
+def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
+    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If the
+    case gives a number to a letter that these steps have replaced, its value is such a condition: b = 2 sqrt(k m)."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -240,8 +259,14 @@ def _conditions_for(plot: m.Plot, derivation: Derivation) -> list[Relation]:
         if key in steps and key not in seen:
             seen[key] = None
             waiting += steps[key].inputs
-    told = [each for key in seen for role, each in steps[key].roles if role in CONDITIONS]
-    return [each for each in dict.fromkeys(told) if isinstance(each, Relation)]
+    replaced = {number.symbol for number in case} - plot.letters
+    told = [
+        each
+        for key in seen
+        for role, each in steps[key].roles
+        if isinstance(each, Relation) and (role in CONDITIONS or _VALUE.fullmatch(role) and each.left in replaced)
+    ]
+    return list(dict.fromkeys(told))
 
 
 def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:
@@ -253,7 +278,12 @@ def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[S
     for _ in names:  # the value of a name may contain other names
         value = bound(value, names)
     value = explicit(value).xreplace(dict(numbers))
-    return not value.free_symbols and truth_known(value) is False
+    if value.free_symbols:
+        return False
+    if condition.operator == "=" and value.left.is_real and value.right.is_real:
+        left, right = float(value.left), float(value.right)
+        return abs(left - right) > ROUNDED * max(abs(left), abs(right))
+    return truth_known(value) is False
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
@@ -281,7 +311,7 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
-        said = {"range": placement.range is not None, "cases": bool(placement.cases)}
+        said = {"range": placement.range is not None, "cases": bool(placement.cases), "panels": bool(placement.panels)}
         for name in (name for name in said if said[name] and no_plot):
             message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
             place = placement.range.place if placement.range and name == "range" else placement.place
@@ -414,21 +444,22 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
     names = {
-        "quantity": _named(plot.label),
+        "quantity": joined([_named(label) for label in plot.labels], words.labels["and"]),
         "variable": _named(plot.variable),
-        "lower": with_unit(first.lower * curves.per_unit, curves.unit),
-        "upper": with_unit(first.upper * curves.per_unit, curves.unit),
+        "lower": with_unit(first.lower * curves.variable.per_unit, curves.variable.unit),
+        "upper": with_unit(first.upper * curves.variable.per_unit, curves.variable.unit),
     }
     if plot.levels is not None:
         return _spaced([*_portraits(plot, curves, words, names), *_shared(curves, words)])
     if plot.across is not None:
-        return _spaced([*_paths(plot, curves, words, names), *_shared(curves, words)])
+        return _spaced([*_paths(plot, curves, words, names), *_surfaces(plot, words), *_shared(curves, words)])
     told = [filled(words.drawings["plot"], names)]
-    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
+    for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
         last = words.labels["and"]
         numbers = _put_in(curve.numbers)
         turns = joined(_turns(plot, curves, curve, words), last)
         own = {"letter": letter, "numbers": joined(numbers, last), "turns": turns, "count": len(curve.extrema)}
+        own["own_name"] = _named(curve.label) if curves.labels_differ else ()
         told.append(filled(words.drawings["curve"], own))
     return _spaced([*told, *_shared(curves, words)])
 
@@ -443,7 +474,7 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
     assert plot.levels is not None
     yield filled(words.drawings["portrait"], names)
     last = words.labels["and"]
-    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
+    for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
         assert curve.portrait is not None
         own = {
             "letter": letter,
@@ -462,9 +493,10 @@ def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) 
     assert plot.across is not None
     names |= {"across": _named(plot.across.label), "several": len(curves.curves) > 1}
     yield filled(words.drawings["path"], names)
-    for letter, curve in zip(panel_letters(curves), curves.curves, strict=True):
+    across, up = curves.across, curves.up
+    for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
         ends = [
-            f"({with_unit(x, plot.across.unit)}, {with_unit(y, plot.unit_up)})"
+            f"({with_unit(x * across.per_unit, across.unit)}, {with_unit(y * up.per_unit, up.unit)})"
             for x, y in (curve.path[0], curve.path[-1])
         ]
         own = {
@@ -475,6 +507,14 @@ def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) 
             "closed": is_closed(curve.path),
         }
         yield filled(words.drawings["path_ends"], own)
+
+
+def _surfaces(plot: m.Plot, words: Phrases) -> Iterator[tuple[Inline, ...]]:
+    """Yield words for the surfaces that are drawn with a path."""
+    if plot.outlines:
+        names = [(Text(outline.name.replace("_", " ")),) for outline in plot.outlines]
+        own = {"names": joined(names, words.labels["and"]), "several": len(names) > 1}
+        yield filled(words.drawings["outlines"], own)
 
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
@@ -498,8 +538,8 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
             {
                 "kind": words.drawings[extremum.kind],
                 "variable": _named(plot.variable),
-                "at": with_unit(extremum.at * curves.per_unit, curves.unit) if extremum.at else "0",
-                "value": told_value(plot, extremum),
+                "at": with_unit(extremum.at * curves.variable.per_unit, curves.variable.unit) if extremum.at else "0",
+                "value": told_value(curves.up, extremum),
             },
         )
         for extremum in curve.marked

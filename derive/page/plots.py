@@ -6,8 +6,9 @@ symbol of the curve, the problem must have a number for this symbol.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -18,29 +19,35 @@ from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
 from derive.course.stock import told_at
+from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
 from derive.figures.extrema import NOISE, Extremum, extrema, values_along
-from derive.figures.marks import Plot, letters_in
+from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
     from derive.figures.portrait import Portrait
 
 Path: TypeAlias = tuple[tuple[float, float], ...]
 
-DEGREE, DEGREES = pi / 180, "°"
+DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
 
+STEPS = 240  # number of steps of a curve
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
+MOST_TOGETHER = 4  # the curves that different lines can distinguish in one panel
+FLATTEST = 1 / 6  # least size of a curve, divided by the size of all curves, that is readable in their panel
 
 
 @dataclass(frozen=True)
 class Curve:
     """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted.
 
+    label    the name of the quantity
     across   the quantity on the horizontal axis of a path; a path has no extrema
     path     points of a path in the order of the motion
     portrait the curves of a phase portrait
+    outlines surfaces in the plane of a path
     """
 
     expr: Expr
@@ -49,9 +56,16 @@ class Curve:
     upper: float
     numbers: tuple[Measured, ...]
     extrema: tuple[Extremum, ...]
+    label: Any = None
     across: Expr | None = None
     path: Path = field(default=(), repr=False)
     portrait: Portrait | None = None
+    outlines: tuple[Outline, ...] = ()
+
+    @cached_property
+    def spots(self) -> Path:
+        """Return points of the curve, in SI units."""
+        return self.path or tuple(values_along(self.expr, self.variable, self.lower, self.upper, STEPS))
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
@@ -61,35 +75,122 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Curves:
-    """The curves of a plot, the numbers that all curves share, and the unit of the horizontal axis.
+class Axis:
+    """The unit of an axis; one SI unit equals `per_unit` of these units."""
 
-    `unit` is the name of the unit of the horizontal axis; one SI unit equals `per_unit` of these units.
+    unit: str
+    per_unit: float = 1.0
+
+    @property
+    def in_degrees(self) -> bool:
+        return self.unit == DEGREES
+
+
+IN_DEGREES = Axis(DEGREES, float(1 / DEGREE))
+
+
+@dataclass(frozen=True)
+class Curves:
+    """The curves of a plot, the numbers that all curves share, and the units of the axes.
+
+    variable      the unit of the symbol that varies: on the horizontal axis, or along a path
+    up            the unit of the vertical axis
+    across        the unit of the horizontal axis
+    is_together   whether all curves are in one panel
     """
 
     curves: tuple[Curve, ...]
-    unit: str
-    per_unit: float
+    variable: Axis
+    up: Axis
+    across: Axis
     shared: tuple[Measured, ...] = ()
+    is_together: bool = False
+
+    @property
+    def panels(self) -> tuple[tuple[Curve, ...], ...]:
+        """Return the curves of each panel."""
+        return (self.curves,) if self.is_together else tuple((curve,) for curve in self.curves)
+
+    @property
+    def labels_differ(self) -> bool:
+        """Whether the curves are those of quantities with different names."""
+        return len({curve.label for curve in self.curves}) > 1
 
 
 def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curves:
     """Return every curve of the plot with its extrema; raise `Rejected` if a curve cannot be drawn, for example because
     a symbol has no number."""
     written = _ends(plot, placement)
-    letters = letters_in((*plot.shown, *written, *plot.values))
-    given = placement.cases if placement and placement.cases else ((),)
-    # A number for a symbol that does not occur in the curve would be shown although it has no effect.
-    cases = [tuple(number for number in case if number.symbol in letters) for case in given]
-    changed = {number.symbol for case in cases[1:] for number in case}
+    letters = plot.letters_of_curves | letters_in(written)
+    pairs = plots_with_cases(plot, placement)
+    # A number for a symbol that does not occur in any curve would be shown although it has no effect.
+    cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
+    changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
     shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
-    own = [tuple(number for number in case if number not in shared) for case in cases]
+    own = [_own(problem, cases[0], case, changed) if len(cases) > 1 else case for case in cases]
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     ends = [_range(problem, plot, placement, plot.variable, written[:2], each) for each in numbers]
-    found = tuple(_curve(problem, plot, placement, *each) for each in zip(numbers, own, ends, strict=True))
+    found = tuple(
+        _curve(problem, each, placement, known, shown, both)
+        for (each, _), known, shown, both in zip(pairs, numbers, own, ends, strict=True)
+    )
     in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for both in ends for end in both)
-    unit = (DEGREES, float(1 / DEGREE)) if in_degrees else (_unit(plot.of), 1.0)
-    return Curves(found, *unit, shared)
+    variable = IN_DEGREES if in_degrees else Axis(_unit(plot.of))
+    if plot.others and len({(curve.label, curve.numbers) for curve in found}) < len(found):
+        message = f"two curves of the plot `{plot.key}` have the same name and the same numbers"
+        help_line = "give the answers different symbols, or write a case for each curve"
+        raise Rejected(Complaint("drawing", message, _place(problem, placement), help=help_line))
+    across = _axis(plot.across.unit) if plot.across else variable
+    together = _are_together(problem, plot, placement, found)
+    return Curves(found, variable, _axis(plot.unit_up), across, shared, together)
+
+
+def plots_with_cases(plot: Plot, placement: Placement | None) -> list[tuple[Plot, tuple[Measured, ...]]]:
+    """Return the plot of each curve with the numbers of its case: one plot in several cases, or several plots, each in
+    its own case or all in the same case."""
+    plots, cases = plot.each, placement.cases if placement and placement.cases else ((),)
+    if len(plots) == 1:
+        return [(plots[0], case) for case in cases]
+    if len(cases) not in (1, len(plots)):
+        message = f"the plot `{plot.key}` has {len(plots)} curves but {len(cases)} cases"
+        place = placement.place if placement else None
+        raise Rejected(Complaint("drawing", message, place, help="write one case for each curve, or one for all"))
+    return list(zip(plots, cases if len(cases) > 1 else cases * len(plots), strict=True))
+
+
+def _own(
+    problem: Problem, first: tuple[Measured, ...], case: tuple[Measured, ...], changed: Iterable[Symbol]
+) -> tuple[Measured, ...]:
+    """Return the number of a case for each symbol whose number differs between the cases."""
+    known = {number.symbol: number for number in (*first, *case)}
+    missing = [symbol for symbol in changed if symbol not in known]
+    known |= {number.symbol: number for number in (problem.measured if missing else ()) if number.symbol in missing}
+    return tuple(known[symbol] for symbol in changed if symbol in known)
+
+
+def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
+    """Return whether the curves are in one panel: as the problem states, else the curves of several quantities, and the
+    cases of one quantity that have the same range, if none of them is much smaller than all of them."""
+    stated = placement.panels if placement else None
+    if len(curves) < 2 or plot.levels is not None or stated == APART:
+        return False
+    if stated == TOGETHER and len(curves) > MOST_TOGETHER:
+        message = f"the panel of `{plot.key}` has room for at most {MOST_TOGETHER} curves, but there are {len(curves)}"
+        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="leave `panels` out"))
+    if stated == TOGETHER or len(curves) > MOST_TOGETHER or plot.others:
+        return len(curves) <= MOST_TOGETHER
+    has_one_range = bool(curves[0].path) or len({(curve.lower, curve.upper) for curve in curves}) == 1
+    with told_at(_place(problem, placement)):
+        return has_one_range and _are_of_comparable_size(curves)
+
+
+def _are_of_comparable_size(curves: Sequence[Curve]) -> bool:
+    """Return whether every curve, or for a path its width or its height, is readable in a panel for all curves."""
+    spans = [[(min(values), max(values)) for values in zip(*curve.spots, strict=True)] for curve in curves]
+    whole = [max(high for _, high in each) - min(low for low, _ in each) for each in zip(*spans, strict=True)]
+    parts = [[high - low for low, high in each] for each in spans]
+    measured = (0, 1) if curves[0].path else (1,)
+    return all(any(part[k] >= FLATTEST * whole[k] for k in measured) for part in parts)
 
 
 def _unit(kind: str) -> str:
@@ -98,9 +199,14 @@ def _unit(kind: str) -> str:
     return unit_of_kind(kind)
 
 
+def _axis(unit: str) -> Axis:
+    """Return the axis of a quantity with this SI unit; angles are in degrees."""
+    return IN_DEGREES if unit == RADIANS else Axis(unit)
+
+
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
     """Return the ends of the range; the engine has read the range of a plot that the problem requests."""
-    if placement and placement.range and not placement.plot:
+    if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
 
@@ -179,11 +285,19 @@ def _curve(
             plane = (plot.variable, plot.levels.up), (lower, upper, float(low), float(high))
             from derive.figures.portrait import portrait_of  # imports NumPy
 
-            return Curve(expr, plot.variable, lower, upper, own, (), portrait=portrait_of(expr, *plane, values))
+            portrait = portrait_of(expr, *plane, values)
+            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait)
         if across:
             path = _path((across[0], expr), plot.variable, lower, upper)
-            return Curve(expr, plot.variable, lower, upper, own, (), across[0], path)
-        return Curve(expr, plot.variable, lower, upper, own, extrema(expr, plot.variable, lower, upper))
+            outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
+            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
+        found = extrema(expr, plot.variable, lower, upper)
+        return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+
+
+def _with_numbers(outline: Outline, numbers: Mapping[Any, Expr]) -> Outline:
+    corners = tuple(float(each.xreplace(numbers)) for each in outline.corners)
+    return replace(outline, expr=outline.expr.xreplace(numbers), corners=corners)
 
 
 def _path(shown: tuple[Expr, Expr], variable: Symbol, lower: float, upper: float) -> Path:
@@ -202,20 +316,30 @@ def is_closed(path: Path) -> bool:
 
 def panel_letters(curves: Curves) -> list[str]:
     """Return the letter of each panel, or empty letters if there is only one panel."""
-    several = len(curves.curves) > 1
-    return [case_label(i) if several else "" for i, _ in enumerate(curves.curves)]
+    several = len(curves.panels) > 1
+    return [case_label(i) if several else "" for i, _ in enumerate(curves.panels)]
 
 
-def told_value(plot: Plot, extremum: Extremum) -> str:
+def curve_letters(curves: Curves) -> list[str]:
+    """Return the letter of the panel of each curve."""
+    letters = zip(panel_letters(curves), curves.panels, strict=True)
+    return [letter for letter, panel in letters for _ in panel]
+
+
+def told_value(up: Axis, extremum: Extremum) -> str:
     """Return the value at an extremum with its unit, to four figures, for the plot, its description and its caption."""
-    shown = f"{extremum.value:#.4g}".rstrip(".") if extremum.value else "0"
-    return _signed(f"{shown} {plot.unit_up}")
+    value = extremum.value * up.per_unit
+    shown = f"{value:#.4g}".rstrip(".") if value else "0"
+    return _signed(f"{shown}{_gap(up.unit)}{up.unit}")
 
 
 def with_unit(value: float, unit: str) -> str:
     """Return a number to four figures with its unit; a degree sign has no space before it."""
-    gap = "" if unit == "\u00b0" else " "
-    return _signed(f"{value:.4g}{gap}{unit}")
+    return _signed(f"{value:.4g}{_gap(unit)}{unit}")
+
+
+def _gap(unit: str) -> str:
+    return "" if unit == DEGREES else " "
 
 
 def _signed(told: str) -> str:

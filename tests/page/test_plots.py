@@ -6,26 +6,31 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, cos, pi, symbols
+from sympy import Expr, Integer, cos, pi, sin, symbols
 
+from derive.course.given import Measured
 from derive.course.placement import Placement
 from derive.errors import Place, Rejected
 from derive.figures.extrema import MAXIMUM, Extremum
-from derive.figures.marks import Plot
-from derive.page.plots import Curves, curves_of, panel_letters, told_value, with_unit
+from derive.figures.marks import Across, Further, Plot
+from derive.page.plots import IN_DEGREES, Axis, Curves, curve_letters, curves_of, panel_letters, told_value, with_unit
 
 a, k = symbols("a k", positive=True)
 theta = symbols("theta", real=True)
 SCRIPT, DRAWN = Place("one.yaml", 2), Place("one.yaml", 9)
 
 
-def curves(expr: Expr, *ends: Expr, of: str = "angle", amounts: Any = None, cases: Any = None) -> Curves:
-    problem: Any = SimpleNamespace(amounts=amounts or {}, place_of=lambda _: SCRIPT)
+def curves(
+    expr: Expr, *ends: Expr, of: str = "angle", amounts: Any = None, cases: Any = None, panels: str | None = None
+) -> Curves:
+    values = amounts or {}
+    own = [Measured(letter, n, "", n) for letter, n in values.items()]
+    problem: Any = SimpleNamespace(amounts=values, measured=own, place_of=lambda _: SCRIPT)
     plot = Plot("potential", theta, expr, theta, *(ends or (-pi / 2, pi / 2)), "energy", of)
     placement = None
     if cases is not None:
-        measured = [tuple(SimpleNamespace(symbol=s, si=Integer(n)) for s, n in case.items()) for case in cases]
-        placement = Placement("potential", DRAWN, cases=tuple(measured))  # type: ignore[arg-type]
+        measured = [tuple(Measured(s, Integer(n), "", Integer(n)) for s, n in case.items()) for case in cases]
+        placement = Placement("potential", DRAWN, cases=tuple(measured), panels=panels)
     return curves_of(problem, plot, placement)
 
 
@@ -81,24 +86,23 @@ def test_a_range_goes_from_a_smaller_number_to_a_larger(ends: tuple[Expr, Expr])
 
 
 def test_an_angle_is_told_in_degrees_if_its_ends_are() -> None:
-    assert curves(theta).unit == "°"
-    assert curves(theta).per_unit == pytest.approx(57.29578)
-    assert (curves(theta, Integer(-1), Integer(1)).unit, curves(theta, Integer(-1), Integer(1)).per_unit) == (
-        "rad",
-        1.0,
-    )
-    assert curves(theta, -pi, pi, of="length").unit == "m"
+    assert curves(theta).variable.unit == "°"
+    assert curves(theta).variable.per_unit == pytest.approx(57.29578)
+    assert curves(theta, Integer(-1), Integer(1)).variable == Axis("rad")
+    assert curves(theta, -pi, pi, of="length").variable.unit == "m"
 
 
 def test_panels_have_letters_where_there_are_several() -> None:
     assert panel_letters(curves(a * cos(theta), amounts={a: Integer(3)})) == [""]
-    assert panel_letters(curves(a * cos(theta), cases=[{a: 2}, {a: 3}])) == ["i", "ii"]
+    apart = curves(a * cos(theta), cases=[{a: 2}, {a: 3}], panels="apart")
+    assert (panel_letters(apart), curve_letters(apart)) == (["i", "ii"], ["i", "ii"])
+    together = curves(a * cos(theta), cases=[{a: 2}, {a: 3}])
+    assert (panel_letters(together), curve_letters(together)) == ([""], ["", ""])
 
 
 def test_an_extremum_is_told_with_its_value_and_unit() -> None:
     (curve,) = curves(a * cos(theta), amounts={a: Integer(3)}).curves
-    plot = Plot("potential", theta, a * cos(theta), theta, -pi / 2, pi / 2, "energy", "angle")
-    assert [told_value(plot, each) for each in curve.extrema] == ["3.000 J"]
+    assert [told_value(Axis("J"), each) for each in curve.extrema] == ["3.000 J"]
     assert (with_unit(-2.20549, "J"), with_unit(30.0, "\u00b0"), with_unit(0.5, "")) == (
         "\u22122.205 J",
         "30\u00b0",
@@ -107,6 +111,95 @@ def test_an_extremum_is_told_with_its_value_and_unit() -> None:
 
 
 def test_a_value_has_as_many_figures_in_a_plot_as_in_the_text() -> None:
-    plot = Plot("potential", theta, a * cos(theta), theta, -pi / 2, pi / 2, "energy", "angle")
-    told = [told_value(plot, Extremum(0.0, value, "maximum")) for value in (2.45, 2.20549, -0.5, 0.0, 2450.0)]
+    told = [told_value(Axis("J"), Extremum(0.0, value, "maximum")) for value in (2.45, 2.20549, -0.5, 0.0, 2450.0)]
     assert told == ["2.450 J", "2.205 J", "\u22120.5000 J", "0 J", "2450 J"]
+
+
+def test_an_angle_is_told_in_degrees() -> None:
+    assert told_value(IN_DEGREES, Extremum(0.0, float(pi) / 6, "maximum")) == "30.00°"
+
+
+@pytest.mark.parametrize(
+    ("cases", "together"),
+    [
+        ([{a: 3}], False),
+        ([{a: 3}, {a: 2}], True),
+        ([{a: 11}, {a: 2}], True),
+        ([{a: 13}, {a: 2}], False),
+        ([{a: 5}, {a: 4}, {a: 3}, {a: 2}], True),
+        ([{a: 6}, {a: 5}, {a: 4}, {a: 3}, {a: 2}], False),
+    ],
+)
+def test_up_to_four_curves_of_comparable_height_share_a_panel(cases: Any, together: bool) -> None:
+    """The least height is a sixth of the height of all curves."""
+    assert curves(a * cos(theta), cases=cases).is_together is together
+
+
+def test_curves_with_different_ranges_have_panels_of_their_own() -> None:
+    cases = [{a: 1}, {a: 2}]
+    assert not curves(theta, -a, a, of="length", cases=cases).is_together
+    assert curves(theta, -a, a, of="length", cases=cases, panels="together").is_together
+
+
+def test_a_problem_chooses_the_panels() -> None:
+    flat = [{a: 100}, {a: 1}]
+    assert curves(a * cos(theta), cases=flat, panels="together").is_together
+    assert not curves(a * cos(theta), cases=[{a: 1}, {a: 2}], panels="apart").is_together
+    complaint = refusal(a * cos(theta), cases=[{a: n} for n in range(1, 6)], panels="together")
+    assert complaint.message == "the panel of `potential` has room for at most 4 curves, but there are 5"
+
+
+@pytest.mark.parametrize(("size", "together"), [(2, True), (7, False)])
+def test_paths_of_comparable_size_share_a_panel(size: int, together: bool) -> None:
+    path = Plot("path", theta, a * sin(theta), theta, -pi, pi, "length", "angle", across=Across(k, a * cos(theta), "m"))
+    numbers = [(Measured(a, Integer(n), "m", Integer(n)),) for n in (1, size)]
+    found = curves_of(FREE, path, Placement("path", DRAWN, cases=tuple(numbers)))
+    assert found.is_together is together
+
+
+FREE: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: SCRIPT)
+
+
+def of_two(first: Expr, second: Expr, labels: Any = (k, k), cases: Any = ()) -> Curves:
+    further = (Further(labels[1], second, "second"),)
+    plot = Plot("two", labels[0], first, theta, -pi, pi, "length", "angle", ("first", "second", "end"), others=further)
+    numbers = tuple(tuple(Measured(a, Integer(n), "m", Integer(n)) for n in case) for case in cases)
+    return curves_of(FREE, plot, Placement("two", DRAWN, cases=numbers))
+
+
+def test_each_of_several_answers_has_its_own_case() -> None:
+    one, two = of_two(a * cos(theta), a * sin(theta), cases=[[1], [2]]).curves
+    assert (one.expr, two.expr) == (cos(theta), 2 * sin(theta))
+    assert [[each.number for each in curve.numbers] for curve in (one, two)] == [[1], [2]]
+
+
+def test_a_number_belongs_to_a_curve_although_its_formula_does_not_contain_the_letter() -> None:
+    """In the border case of damping, b is replaced by 2 sqrt(k m)."""
+    one, two = of_two(a * cos(theta), 3 * sin(theta), cases=[[1], [2]]).curves
+    assert [[each.number for each in curve.numbers] for curve in (one, two)] == [[1], [2]]
+
+
+def test_several_answers_may_share_their_numbers_if_their_names_differ() -> None:
+    found = of_two(a * cos(theta), a * sin(theta), (k, a), [[2]])
+    assert [curve.label for curve in found.curves] == [k, a]
+    assert found.labels_differ
+    assert [number.symbol for number in found.shared] == [a]
+    for cases, said in [
+        ([[2]], "two curves of the plot `two` have the same name and the same numbers"),
+        ([[2], [3], [4]], "the plot `two` has 2 curves but 3 cases"),
+    ]:
+        with pytest.raises(Rejected) as caught:
+            of_two(a * cos(theta), a * sin(theta), cases=cases)
+        assert caught.value.complaints[0].message == said
+
+
+def test_the_steps_of_each_curve_are_known() -> None:
+    further = (Further(k, a * sin(theta), "second"),)
+    plot = Plot("two", k, theta, theta, -pi, pi, "length", "angle", ("first", "second", "end"), others=further)
+    assert [each.keys for each in plot.each] == [("first", "end"), ("second",)]
+    assert plot.letters == {theta, a}
+
+
+def test_the_number_of_the_problem_names_a_curve_whose_case_does_not_state_it() -> None:
+    one, two = curves(a * cos(theta), amounts={a: Integer(3)}, cases=[{}, {a: 5}]).curves
+    assert [[(each.symbol, each.number) for each in curve.numbers] for curve in (one, two)] == [[(a, 3)], [(a, 5)]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
@@ -9,15 +10,31 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, symbols
 
+from derive.course.given import Measured
+from derive.course.placement import Placement
+from derive.errors import Place
 from derive.figures.encoding import drawings_from_data, drawings_to_data
-from derive.figures.marks import Across, Levels, Plot
+from derive.figures.marks import Across, Further, Levels, Outline, Plot
 from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
 from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
 from derive.render.drawing.lettering import letters_of
-from derive.render.drawing.plotting import CM, Frame, Panel, Writing, _names_with_room, line_of, panel_of, plot_sheet
+from derive.render.drawing.panels import Panel, panel_of
+from derive.render.drawing.plotting import (
+    AROUND,
+    CM,
+    PENS_OF_CURVES,
+    TALL,
+    Frame,
+    Names,
+    Writing,
+    _names,
+    _names_with_room,
+    line_of,
+    plot_sheet,
+)
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
@@ -32,27 +49,28 @@ def plot_of(expr: Expr, lower: Expr = -pi / 2, upper: Expr = pi / 2, of: str = "
     return Plot("potential", V, expr, theta, lower, upper, "energy", of)
 
 
-def curves(plot: Plot, *cases: int) -> Curves:
+def curves(plot: Plot, *cases: int, panels: str | None = "apart") -> Curves:
     """One curve, or one for each number of `a`."""
-    problem: Any = SimpleNamespace(amounts={}, place_of=lambda _: None)
-    numbers = [(SimpleNamespace(symbol=a, si=Integer(n), number=Integer(n), unit="m", factor=1),) for n in cases]
-    placement: Any = SimpleNamespace(cases=numbers, range=None, place=None)
+    problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    numbers = tuple((Measured(a, Integer(n), "m", Integer(n)),) for n in cases)
+    placement = Placement("potential", Place("one.yaml", 9), cases=numbers, panels=panels)
     return curves_of(problem, plot, placement)
 
 
-def sheet(plot: Plot, *cases: int, width: float | None = None, alt: str = "") -> Sheet:
-    return plot_sheet(plot, curves(plot, *cases), Notation(), WORDS, width, alt)
+def sheet(plot: Plot, *cases: int, width: float | None = None, alt: str = "", together: str | None = "apart") -> Sheet:
+    return plot_sheet(plot, curves(plot, *cases, panels=together), Notation(), WORDS, width, alt)
 
 
-def panels(plot: Plot, *cases: int) -> list[Panel]:
-    found = curves(plot, *cases)
-    return [panel_of(plot, curve, found, Notation(), WORDS) for curve in found.curves]
+def panels(plot: Plot, *cases: int, together: str | None = "apart") -> list[Panel]:
+    found = curves(plot, *cases, panels=together)
+    height = TALL * CM - AROUND
+    return [panel_of(plot, own, found, Notation(), WORDS, height=height) for own in found.panels]
 
 
 def test_every_curve_has_a_panel_of_the_same_width() -> None:
     one, two = sheet(plot_of(a * cos(theta)), 1), sheet(plot_of(a * cos(theta)), 1, 2)
     assert (two.width, two.height) == pytest.approx((2 * one.width, one.height))
-    assert sheet(plot_of(a * cos(theta)), 1, width=3.0).height == pytest.approx(one.height / 2)
+    assert sheet(plot_of(a * cos(theta)), 1, width=3.75).height == pytest.approx(one.height / 2)
 
 
 def test_ticks_are_a_few_round_numbers_within_the_range() -> None:
@@ -87,9 +105,9 @@ def test_each_extremum_is_named_clear_of_the_curve() -> None:
 
 def test_the_numbers_of_a_case_stand_over_its_panel() -> None:
     one, two = panels(plot_of(a * cos(theta)), 1, 2)
-    assert (one.numbers, two.numbers) == (r"$a = 1\,\mathrm{m}$", r"$a = 2\,\mathrm{m}$")
-    assert {one.numbers, *one.names} <= set(one.texts())
-    assert panels(plot_of(cos(theta)))[0].numbers == ""
+    assert (one.numbers, two.numbers) == ((r"$a = 1\,\mathrm{m}$",), (r"$a = 2\,\mathrm{m}$",))
+    assert {*one.numbers, *one.names} <= set(one.texts())
+    assert panels(plot_of(cos(theta)))[0].numbers == ()
 
 
 @pytest.fixture
@@ -153,14 +171,14 @@ def test_a_curve_that_is_level_has_an_axis_all_the_same() -> None:
 def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -> None:
     found = curves(plot_of(a * cos(theta)), 1, 2)
     one, two = (
-        panel_of(plot_of(a * cos(theta)), curve, found, Notation(), WORDS, letter)
-        for letter, curve in zip("ab", found.curves, strict=True)
+        panel_of(plot_of(a * cos(theta)), own, found, Notation(), WORDS, letter)
+        for letter, own in zip("ab", found.panels, strict=True)
     )
     assert [names for panel in (one, two) for _, _, names in panel.turns] == [
         (r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$", r"$1.000\,\mathrm{J}$"),
         (r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$", r"$2.000\,\mathrm{J}$"),
     ]
-    assert one.numbers.startswith(r"$({\mathrm{a}})") and two.numbers.startswith(r"$({\mathrm{b}})")
+    assert one.numbers[0].startswith(r"$({\mathrm{a}})") and two.numbers[0].startswith(r"$({\mathrm{b}})")
 
 
 def path_of(across: Expr, up: Expr, unit: str = "J", upper: Expr = 2 * pi) -> Plot:
@@ -173,7 +191,7 @@ def test_a_path_has_dots_at_its_ends_and_an_arrowhead_in_the_direction_of_the_mo
     pieces = list(line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))))
     curve, head = (piece for piece in pieces if isinstance(piece, Stroke))
     assert [piece.spot for piece in pieces if isinstance(piece, Bullet)] == [(0, 0), (4, 0)]
-    assert (curve.spots, curve.head, head.head) == (panel.points, False, True)
+    assert (curve.spots, curve.head, head.head) == (panel.traces[0].points, False, True)
     (before, _), (tip, _) = head.spots
     assert 0 < before < tip < 4
     assert panel.turns == (), "extrema are not marked"
@@ -201,8 +219,8 @@ def test_axes_with_different_units_have_scales_of_their_own() -> None:
 
 
 def test_panels_of_paths_have_their_own_heights() -> None:
-    found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two")
-    one = sheet(path_of(cos(theta), 2 * sin(theta)))
+    found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two", width=6.0)
+    one = sheet(path_of(cos(theta), 2 * sin(theta)), width=6.0)
     assert found.width == pytest.approx(2 * one.width)
 
 
@@ -219,7 +237,7 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
         levels=levels,
     )  # fmt: skip
     (panel,) = panels(portrait)
-    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,\mathrm{kg\,m^{2}/s}$")
+    assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,(\mathrm{kg\,m^{2}/s})$")
     assert panel.values == (-90, -2, 90, 2)
     strokes = [each for each in line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))) if isinstance(each, Stroke)]
     assert [(stroke.pen, stroke.head) for stroke in strokes] == [
@@ -249,3 +267,140 @@ def test_the_name_of_an_extremum_is_clear_of_the_ticks_of_the_axis() -> None:
     writing = Writing(letters_of(set(panel.texts())))
     ((middle, _, name, _),) = _names_with_room(panel, Frame((0.0, 0.0, 120.0, 90.0), panel.values), writing)
     assert middle - writing.size(name, plotting.SMALLEST)[0] / 2 > plotting.TICK + 3
+
+
+def strokes(panel: Panel) -> list[Stroke]:
+    frame = Frame((0.0, 0.0, 1.0, 1.0), panel.values)
+    return [each for each in line_of(panel, frame) if isinstance(each, Stroke)]
+
+
+def test_curves_in_one_panel_have_different_lines() -> None:
+    (panel,) = panels(plot_of(a * cos(theta)), 4, 3, 2, 1, together="together")
+    assert [stroke.pen for stroke in strokes(panel)] == list(PENS_OF_CURVES)
+    assert len({canvas.PENS[pen].dashes for pen in PENS_OF_CURVES}) == 4, "different in black and white"
+    assert [trace.name for trace in panel.traces] == [rf"$a = {n}\,\mathrm{{m}}$" for n in (4, 3, 2, 1)]
+    assert panel.numbers == ()
+    assert sheet(plot_of(a * cos(theta)), 1, 2, together="together").width == sheet(plot_of(a * cos(theta)), 1).width
+
+
+def named(plot: Plot, *cases: int, size: tuple[float, float] = (180.0, 90.0)) -> tuple[Panel, Names]:
+    (panel,) = panels(plot, *cases, together="together")
+    writing = Writing(letters_of(set(panel.texts())))
+    return panel, _names(panel, Frame((0.0, 0.0, *size), panel.values), writing)
+
+
+def test_each_curve_has_its_name_next_to_it_and_extrema_are_marked_where_there_is_room() -> None:
+    panel, names = named(plot_of(a * cos(theta)), 4, 1)
+    assert len(names.curves) == 2 and not any(shape.width for shape in names.curves), "no lines of a legend"
+    assert names.above == 0
+    assert names.marked == panel.turns and len(names.turns) == 2
+    texts = [box(shape) for shape in names.curves]
+    assert texts[0][1] > texts[1][1], "the name of the upper curve is above that of the lower curve"
+
+
+def test_extrema_that_would_be_close_to_another_curve_are_not_marked() -> None:
+    panel, names = named(plot_of(cos(a * theta)), 2, 3)
+    assert len(panel.turns) > len(names.marked)
+    assert {turn for trace in panel.traces[:1] for turn in trace.turns}.isdisjoint(names.marked), (
+        "all or none of a curve"
+    )
+
+
+def test_names_without_room_next_to_the_curves_are_in_a_legend() -> None:
+    """The curves coincide nearly, so that a name next to one of them would also be next to the other."""
+    near = plot_of(cos(theta) + a / 100)
+    _, inside = named(near, 1, 2)
+    assert len([shape for shape in inside.curves if shape.width]) == 2, "a line for each curve"
+    assert inside.above == 0, "the legend is in a corner of the panel"
+    _, outside = named(plot_of(sin(8 * theta) + a / 100), 1, 2)
+    assert len([shape for shape in outside.curves if shape.width]) == 2
+    assert outside.above > 90.0, "above the panel"
+
+
+def test_the_axis_of_several_quantities_has_all_their_names(drawn: list[Shape]) -> None:
+    U = Symbol("U")
+    both = Plot("both", V, cos(theta), theta, -pi / 2, pi / 2, "energy", "angle", others=(Further(U, sin(theta), "U"),))
+    (panel,) = panels(both, together=None)
+    assert panel.names[1] == r"$V,\,U\,/\,\mathrm{J}$"
+    assert [trace.name for trace in panel.traces] == ["$V$", "$U$"]
+    assert drawings_from_data(drawings_to_data([both])) == (both,)
+
+
+def test_two_paths_in_one_panel_have_one_scale_and_arrowheads_of_their_own() -> None:
+    (panel,) = panels(path_of(a * cos(theta), a * sin(theta)), 1, 2, together=None)
+    assert panel.shape == pytest.approx(1)
+    left, low, right, high = panel.values
+    assert left < -2 < 2 < right and low < -2 < 2 < high
+    assert [(stroke.pen, stroke.head) for stroke in strokes(panel)] == [
+        ("curve", False), ("curve", True), ("dashed_curve", False), ("dashed_curve", True)
+    ]  # fmt: skip
+
+
+def test_the_axes_of_a_path_have_powers_of_ten_and_one_power_if_they_have_one_scale() -> None:
+    far = Integer(10) ** 11
+    (panel,) = panels(path_of(far * cos(theta), far * sin(theta) / 2, unit="m"))
+    assert panel.names == (r"$x\,/\,(10^{11}\,\mathrm{m})$", r"$z\,/\,(10^{10}\,\mathrm{J})$")
+    (same,) = panels(path_of(far * cos(theta), far * sin(theta) / 20))
+    assert same.names == (r"$x\,/\,(10^{11}\,\mathrm{J})$", r"$z\,/\,(10^{11}\,\mathrm{J})$")
+
+
+def test_an_angle_on_an_axis_of_a_path_or_of_a_curve_is_in_degrees() -> None:
+    turning = Plot("path", V, theta / 4, theta, Integer(0), pi, "angle", "angle", across=Across(a, cos(theta), "rad"))
+    (panel,) = panels(turning)
+    assert panel.names == (r"$a\,/\,{}^{\circ}$", r"$V\,/\,{}^{\circ}$")
+    assert panel.traces[0].points[-1] == pytest.approx((-57.29578, 45.0))
+    (curve,) = panels(Plot("angle", V, sin(theta) / 2, theta, Integer(0), Integer(3), "angle", "time"))
+    assert curve.names[1] == r"$V\,/\,{}^{\circ}$"
+    assert curve.turns[0][2][1] == r"$28.65{}^{\circ}$"
+
+
+def test_the_axes_of_a_phase_portrait_have_powers_of_ten() -> None:
+    momentum, size = Symbol("p", real=True), Integer(10) ** 7
+    levels = Levels(momentum, -size, size, ((Integer(1), False),), "J")
+    portrait = Plot(
+        "portrait", momentum, (momentum / size) ** 2 + theta**2, theta, Integer(-2), Integer(2), "number", "angle", (),
+        "kg m^2/s", levels=levels,
+    )  # fmt: skip
+    (panel,) = panels(portrait)
+    assert panel.names[1] == r"$p\,/\,(10^{7}\,\mathrm{kg\,m^{2}/s})$"
+    assert [text for _, text in panel.up] == ["$-1.0$", "$-0.5$", "$0.0$", "$0.5$", "$1.0$"]
+
+
+def test_a_steep_path_has_a_narrow_panel() -> None:
+    steep, flat = sheet(path_of(cos(theta), 2 * sin(theta))), sheet(path_of(2 * cos(theta), sin(theta)))
+    assert steep.width < flat.width == pytest.approx(plotting.PANEL * CM)
+    assert steep.height < (plotting.TALLEST + 1.5) * CM
+
+
+def test_many_numbers_are_in_several_rows_above_a_panel(drawn: list[Shape]) -> None:
+    letters = symbols("c d e f g", positive=True)
+    plot = plot_of(sum(letters) * cos(theta))
+    problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    numbers = tuple(Measured(letter, Integer(1234567), "m", Integer(1)) for letter in letters)
+    placement = Placement("potential", Place("one.yaml", 9), cases=(numbers,))
+    plot_sheet(plot, curves_of(problem, plot, placement), Notation(), WORDS, None, "")
+    texts = [box(shape) for shape in drawn if shape.fill == canvas.QUIET][-5:]
+    assert len({round(each[1]) for each in texts}) > 1
+    assert all(0 < each[0] < each[2] < plotting.PANEL * CM for each in texts)
+    assert all(one[2] <= two[0] or abs(one[1] - two[1]) > 5 for one, two in combinations(texts, 2))
+
+
+def test_a_unit_that_is_a_product_or_a_quotient_is_in_parentheses() -> None:
+    (panel,) = panels(Plot("v", V, theta, theta, Integer(0), Integer(3), "speed", "time"))
+    assert panel.names == (r"$\theta\,/\,\mathrm{s}$", r"$V\,/\,(\mathrm{m/s})$")
+
+
+def test_the_surfaces_of_a_path_are_in_its_panel() -> None:
+    x, y = symbols("x y", real=True)
+    circle = Outline("circle", x**2 + y**2 - a**2, (x, y), (-a, -a, a, a))
+    line = Outline("line", y + a, (x, y))
+    path = replace(path_of(theta, theta, upper=Integer(1)), outlines=(circle, line))
+    (panel,) = panels(path, 2)
+    left, low, right, high = panel.values
+    assert left < -2 < 2 < right and low < -2 < 2 < high, "all of the circle"
+    around, level = panel.outlines
+    assert all(x**2 + y**2 == pytest.approx(4, abs=0.01) for x, y in around)
+    assert all(y == pytest.approx(-2) for _, y in level)
+    assert {level[0][0], level[-1][0]} == {left, right}
+    assert [stroke.pen for stroke in strokes(panel)][:2] == ["edge", "edge"]
+    assert drawings_from_data(drawings_to_data([path])) == (path,)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Symbol, cos, pi, simplify, sin
+from sympy import Symbol, cos, pi, simplify, sin, sqrt
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
 from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
-from derive.figures.marks import Plot
+from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, loaded, messages
@@ -368,3 +368,148 @@ def test_the_ends_of_a_range_may_have_units_of_several_parts(tmp_path: Path) -> 
     text = text.replace("energy., answer: potential_energy", "frequency of small oscillations., answer: frequency")
     text += "drawings: {swing: {plot: frequency, against: g, range: [1 m/s^2, 20 m/s^2]}}\n"
     assert '"key": "swing"' in rendered(course_with(tmp_path, text), "trial/one", only={"json"}).texts["json"]
+
+
+def plot_in(tmp_path: Path, text: str) -> Plot:
+    run = Run()
+    run_solve(loaded(tmp_path, text), run)
+    return next(each for each in run.drawings if isinstance(each, Plot))
+
+
+def test_a_result_without_a_kind_has_the_unit_of_its_dimension(tmp_path: Path) -> None:
+    text = edited(
+        THROW,
+        ("    top: {", "    product: {value: path_x*t, symbol: u}\n    top: {"),
+        ("[path_x, path_z, top]", "[path_x, path_z, product, top]"),
+        ("plot: [path_x, path_z]", "plot: product"),
+    )
+    assert plot_in(tmp_path, text).unit_up == "m s"
+
+
+BOTH = [("plot: [path_x, path_z]", "curves: [path_x, path_z]")]
+
+
+def test_the_curves_of_several_answers_share_a_plot(tmp_path: Path) -> None:
+    both = plot_in(tmp_path, edited(THROW, *BOTH))
+    (further,) = both.others
+    assert (str(both.label), str(further.label), further.key) == ("x", "z", "path_z")
+    assert (both.unit_up, both.of, both.keys) == ("m", "time", ("path_x", "path_z", "top_t"))
+    page = " ".join(rendered(course_with(tmp_path, edited(THROW, *BOTH)), "trial/one", only=("html",)).html.split())
+    assert "A plot of x and z against t from 0 s to 1.02 s." in page
+    assert "x has no extremum within the range." in page
+    assert "z has a maximum of 1.276 m at t = 0.5102 s." in page
+
+
+@pytest.mark.parametrize(
+    ("edits", "line", "said"),
+    [
+        ([("curves: [", "plot: path_x\n    curves: [")], 20, "the plot `path` has `plot` or `curves`, but not both"),
+        ([("[path_x, path_z]\n    ag", "[path_x, path_x]\n    ag")], 19, "`path_x` has two curves"),
+        ([("[path_x, path_z]\n    ag", "[path_x, top]\n    ag")], 19, "`top` is several results"),
+        ([("[path_x, path_z]\n    ag", "[path_x, path_y]\n    ag")], 19, "`path_y` is not the name of an answer"),
+        ([("[path_x, path_z]\n    ag", "[path_x, lagrangian]\n    ag")], 20, "`lagrangian` does not depend on `t`"),
+        ([("[path_x, path_z]\n    ag", "[]\n    ag")], 19, "`curves` must be a list of answers"),
+        ([("    against: t\n", "")], 18, "the plot `path` needs `against`"),
+        ([("    cases:\n", "    panels: beside\n    cases:\n")], 23, "`panels` must be together or apart"),
+        ([("    cases:\n", "    labels: [x, y]\n    cases:\n")], 23, "`labels` has no effect on `path`"),
+    ],
+)
+def test_a_mistake_in_curves_of_several_answers_is_reported(
+    tmp_path: Path, edits: list[tuple[str, str]], line: int, said: str
+) -> None:
+    found = complaints(tmp_path, edited(edited(THROW, *BOTH), *edits))
+    told = [(each.place.line if each.place else 0, each.message) for each in found]
+    assert any(at == line and said in message for at, message in told), told
+
+
+def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
+    product = ("    top: {", "    double: {value: path_x*t, symbol: w}\n    top: {")
+    text = edited(THROW, product, ("plot: [path_x, path_z]", "curves: [path_x, double]"))
+    (found,) = complaints(tmp_path, text)
+    assert found.message == "`double` is in m s and `path_x` in m, so they share no axis"
+
+
+@pytest.mark.parametrize(
+    ("cases", "said"),
+    [
+        ("[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 2 kg/s}, {b: 5 kg/s}]", ""),
+        ("[{x_0: 1 m, m: 1 kg, k: 3 N/m, b: 1 kg/s}, {b: 3.46 kg/s}, {b: 5 kg/s}]", ""),
+        (
+            "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 3 kg/s}, {b: 5 kg/s}]",
+            "the numbers of case ii of the plot `curve` do not satisfy b = 2*sqrt(k)*sqrt(m), on which its result "
+            "depends",
+        ),
+        (
+            "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 2 kg/s}, {b: 1 kg/s}]",
+            "the numbers of case iii of the plot `curve` do not satisfy beta > omega_0, on which its result depends",
+        ),
+        (
+            "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 2 kg/s}]",
+            "the plot `curve` has 3 curves but 2 cases",
+        ),
+    ],
+)
+def test_each_curve_has_numbers_of_its_own_case(tmp_path: Path, cases: str, said: str) -> None:
+    """The critically damped motion needs b = 2 sqrt(k m), although its formula does not contain b."""
+    curve = f"curve: {{curves: [weak, border, strong], against: t, range: [0 s, 9 s], at: d, cases: {cases}}}\n"
+    before, _, after = DAMPED.partition("drawings:\n")
+    text = before + "drawings:\n  " + curve + after[after.index("parts:\n") :]
+    try:
+        rendered(course_with(tmp_path, text), "trial/one", only=("text",))
+        found = ""
+    except DeriveError as error:
+        (found,) = [each.message for each in error.complaints]
+    assert found == said
+
+
+def test_the_axes_of_a_path_may_have_names_in_place_of_formulas(tmp_path: Path) -> None:
+    long = ("[path_x, path_z]", "[path_x + 2*path_z, 3*path_z]\n    labels: [u, w_1]")
+    path = path_of(tmp_path, long)
+    assert path.across is not None
+    assert (str(path.across.label), str(path.label), path.unit_up) == ("u", "w_1", "m")
+    for labels, said in [("[u]", "`labels` must be the names of two axes"), ("[u, 2*w]", "`2*w` is not a letter")]:
+        found = complaints(tmp_path, edited(THROW, (long[0], long[1].replace("[u, w_1]", labels))))
+        assert any(said in each.message for each in found), found
+
+
+def test_panels_has_no_effect_on_a_single_curve_or_a_portrait(tmp_path: Path) -> None:
+    (found,) = complaints(tmp_path, edited(THROW, ("    cases:\n", "    panels: apart\n    cases:\n")))
+    assert found.message == "`panels` has no effect on `path`, which has only one curve"
+    two = "      - {m: 1 kg, l: 1 m, g: 9.8 m/s^2}\n"
+    several = edited(SWING, (two, two + "      - {l: 2 m}\n"), ("    cases:\n", "    panels: together\n    cases:\n"))
+    assert any("`panels` has no effect on the phase portrait" in each for each in messages(tmp_path, several))
+
+
+SLIDE = (ROOT / "problems" / "library" / "constraints" / "off_a_sphere.yaml").read_text(encoding="utf-8")
+
+
+def surfaces_of(tmp_path: Path, *edits: tuple[str, str]) -> tuple[Outline, ...]:
+    run = Run()
+    run_solve(loaded(tmp_path, edited(SLIDE, *edits)), run)
+    return next(each.outlines for each in run.drawings if isinstance(each, Plot) and each.key == "path")
+
+
+def test_a_path_shows_surfaces(tmp_path: Path) -> None:
+    sphere, floor = surfaces_of(tmp_path)
+    (x, y), (R,) = sphere.plane, {symbol for symbol in sphere.expr.free_symbols if symbol.name == "R"}
+    assert simplify(sphere.expr - (sqrt(x**2 + y**2) - R)) == 0
+    assert sphere.corners == (-R, -R, R, R)
+    assert (simplify(floor.expr - y - R), floor.corners) == (0, ())
+    page = " ".join(rendered(course_with(tmp_path, SLIDE), "trial/one", only=("html",)).html.split())
+    assert "The plot also shows the surfaces sphere and floor." in page
+
+
+@pytest.mark.parametrize(
+    ("edits", "said"),
+    [
+        ([("surfaces: [sphere, floor]", "surfaces: [sphere, flor]")], "no surface is called `flor`"),
+        ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
+        ([("plot: [flight_x, flight_y]", "plot: [flight_x, flight_y/R]")], "the path is not in the plane of `sphere`"),
+        ([("plot: [flight_x, flight_y]", "plot: flight_y")], "`surfaces` has no effect on `path`, which is not a path"),
+    ],
+)
+def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
+    tmp_path: Path, edits: list[tuple[str, str]], said: str
+) -> None:
+    found = messages(tmp_path, edited(SLIDE, *edits))
+    assert any(said in each for each in found), found

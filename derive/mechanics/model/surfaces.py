@@ -88,6 +88,11 @@ class Surface(ABC):
             return self.moves
         return self.place if self.moves is None else self.place + self.moves
 
+    @property
+    def corners(self) -> tuple[Location, ...]:
+        """Two opposite corners of a box around the surface, if it is bounded."""
+        return ()
+
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(self, of=moved(self.of, known))
 
@@ -145,6 +150,11 @@ class Circle(Surface):
     @property
     def place(self) -> Location:
         return self.centre
+
+    @property
+    def corners(self) -> tuple[Location, ...]:
+        size = Location((self.radius,) * len(self.centre.components))
+        return self.centre - size, self.centre + size
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(super().moved(known), centre=self.centre.with_values(known), radius=self.radius.subs(known))

@@ -1,7 +1,10 @@
-"""A plot as files: one panel for each curve, with quantity and unit at each axis and with marked extrema.
+"""A plot as files: one panel for each curve or for all, with quantity and unit at each axis and with marked extrema.
 
 A path has dots at its start and at its end and an arrowhead in the direction of the motion. If both quantities of a
 path have the same unit, both axes have the same scale.
+
+Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
+names are in a legend above the panel.
 
 Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
 """
@@ -10,75 +13,41 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import accumulate, combinations, pairwise
-from math import ceil, dist, floor, log10
-from typing import Any, TypeAlias
+from math import dist
+from typing import TypeAlias
 
-from derive.algebra.expressions import Amount
-from derive.figures.extrema import MINIMUM, values_along
 from derive.figures.marks import Plot
 from derive.figures.pieces import Bullet, Piece, Stroke
-from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Curve, Curves, panel_letters, told_value
+from derive.page.plots import Curves, panel_letters
 from derive.page.wording import Phrases
 from derive.render.drawing.canvas import LINE, QUIET, shapes_of
+from derive.render.drawing.curve_names import beside_curves, corner_for, dots_of, is_clear, is_inside, rows_of
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
-from derive.render.drawing.mathtext import runs
+from derive.render.drawing.panels import Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
-from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
-STEPS = 240
-MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
-ROOM = 0.42  # margin above and below a curve, in units of its height
-PANEL, TALL = 6.0, 4.2  # centimetres
-MARGIN = 0.08  # margin around a path, in units of its width and height
-PORTRAIT = 0.85  # height divided by width of a phase portrait
-FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
+PANEL, TALL = 7.5, 5.0  # centimetres
+WIDEST = 16.5  # centimetres: the width of all panels, if it is not given
+TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the width of its panel is not given
 CM = 72 / 2.54
-USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
-SMALL, SMALLER, SMALLEST = 0.9, 0.85, 0.8  # font scales: at the axes, above a panel, at extrema
+SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # in points: the distance of the name of an axis from its numbers, and of a name from its dot
 EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
 DOT = 2.2  # in points: the radius of the dot at an extremum
+AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
+ROW = 17.0  # in points: the height of one row of numbers above a panel, and of the margin; more rows make a plot higher
+SPACE = 7.0  # in points: the distance between two numbers above a panel
+SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
+PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
 
-Ticks: TypeAlias = tuple[tuple[float, str], ...]
 
-
-@dataclass(frozen=True)
-class Panel:
-    """The contents of one panel, before the panel has a size.
-
-    points           the curve, in the units of the axes
-    across, up       the ticks of both axes, with their numbers
-    names            the names of both axes
-    values           the ranges of the axes: left, below, right, above
-    turns            the extrema: the point, whether it is a minimum, and its names, with and without the kind
-    numbers          the numbers that were substituted
-    is_path          whether the curve is a path, which has dots at its ends and an arrowhead
-    lines            the curves of a phase portrait
-    shape            height divided by width, if it is not that of the paper
-    """
-
-    points: tuple[Spot, ...]
-    across: Ticks
-    up: Ticks
-    names: tuple[str, str]
-    values: Extent
-    turns: tuple[tuple[Spot, bool, tuple[str, str]], ...]
-    numbers: str
-    is_path: bool = False
-    shape: float | None = None
-    lines: tuple[LevelLine, ...] = ()
-
-    def texts(self) -> Iterator[str]:
-        yield from (text for _, text in (*self.across, *self.up))
-        yield from (name for _, _, names in self.turns for name in names)
-        yield from (*self.names, *([self.numbers] if self.numbers else []))
+Named: TypeAlias = tuple[float, float, str, bool]  # a name: x of its middle, y of its edge, text, whether it is below
 
 
 @dataclass(frozen=True)
@@ -97,6 +66,9 @@ class Frame:
             )
         )
         return x, y
+
+    def spots(self, places: Sequence[Spot]) -> tuple[Spot, ...]:
+        return tuple(map(self.spot, places))
 
 
 @dataclass(frozen=True)
@@ -121,6 +93,11 @@ class Writing:
         )
         return Shape(moved(contour, (left, below), scale), colour)
 
+    def on(self, spot: Spot, text: str, scale: float, colour: str) -> Shape:
+        """Place a text that begins at a point of its base line."""
+        contour, extent = self.known[text]
+        return Shape(moved(contour, (spot[0] - scale * extent[0], spot[1]), scale), colour)
+
 
 def plot_sheet(
     plot: Plot,
@@ -132,221 +109,70 @@ def plot_sheet(
     letters: Letters = letters_of,
 ) -> Sheet:
     """Return the panels side by side; `width` is the width of one panel."""
-    wide = (width or PANEL) * CM
+    wide = (width or min(PANEL, WIDEST / len(curves.panels))) * CM
+    height = wide * TALL / PANEL - AROUND
     panels = [
-        panel_of(plot, curve, curves, notation, words, letter)
-        for letter, curve in zip(panel_letters(curves), curves.curves, strict=True)
+        panel_of(plot, own, curves, notation, words, letter, height)
+        for letter, own in zip(panel_letters(curves), curves.panels, strict=True)
     ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
-    room = _room(panels, writing)
-    widest = max((writing.size(panel.numbers, 1.0)[0] for panel in panels if panel.numbers), default=1.0)
-    size = min(SMALLER, (wide - 2 * EDGE) / widest)  # the numbers above all panels have the same size
-    across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - room[3]
+    room = _room(panels, writing, wide)
+    if width is None and (steepest := max((panel.shape for panel in panels if panel.shape), default=0.0)):
+        wide = min(wide, room[0] + room[2] + TALLEST * CM / steepest)
+        room = _room(panels, writing, wide)
+    across, usual = wide - room[0] - room[2], wide * TALL / PANEL - room[1] - min(room[3], ROW)
     heights = [usual if panel.shape is None else across * panel.shape for panel in panels]
-    tall = max(heights) + room[1] + room[3]
     shapes: list[Shape] = []
+    tallest = max(heights) + room[1] + room[3]
     for i, (panel, height) in enumerate(zip(panels, heights, strict=True)):
         paper = i * wide + room[0], room[1], (i + 1) * wide - room[2], room[1] + height
-        shapes += _drawn(panel, Frame(paper, panel.values), writing, (i * wide, (i + 1) * wide), size)
-    return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tall), alt)
+        frame = Frame(paper, panel.values)
+        names = _names(panel, frame, writing)
+        shapes += _drawn(panel, frame, writing, names, (i * wide, (i + 1) * wide))
+        tallest = max(tallest, names.above + EDGE)
+    return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tallest), alt)
 
 
-# --- contents of a panel ---------------------------------------------------------------------------------------------
-
-
-def panel_of(plot: Plot, curve: Curve, curves: Curves, notation: Notation, words: Phrases, letter: str = "") -> Panel:
-    """Return the panel of one curve; the axes leave room for the words below a minimum and above a maximum."""
-    if curve.path:
-        return path_panel(plot, curve, notation, letter)
-    if curve.portrait:
-        return portrait_panel(plot, curve, curve.portrait, curves, notation, letter)
-    points = values_along(curve.expr, curve.variable, curve.lower, curve.upper, STEPS)
-    low, high = min(y for _, y in points), max(y for _, y in points)
-    room = ROOM * ((high - low) or abs(high) or 1.0)
-    start, end = curve.lower * curves.per_unit, curve.upper * curves.per_unit
-    wide, tall = (0 if curves.unit == DEGREES else _power(start, end)), _power(low, high)
-    return Panel(
-        points=tuple((x * curves.per_unit, y) for x, y in points),
-        values=(start, low - room, end, high + room),
-        across=_scaled_ticks(wide, start, end, MOST_ACROSS, curves.unit == DEGREES),
-        up=_scaled_ticks(tall, low, high, MOST_UP, room=room),
-        names=(
-            _axis_name(plot.variable, curves.unit, notation, wide),
-            _axis_name(plot.label, plot.unit_up, notation, tall),
-        ),
-        turns=tuple(
-            (
-                (each.at * curves.per_unit, each.value),
-                each.kind == MINIMUM,
-                _names_of(words.drawings[each.kind], _mathtext_of_value(told_value(plot, each))),
-            )
-            for each in curve.marked
-        ),
-        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
-    )
-
-
-def path_panel(plot: Plot, curve: Curve, notation: Notation, letter: str = "") -> Panel:
-    """Return the panel of a path."""
-    assert plot.across is not None
-    (left, right), (low, high) = (_with_margin(min(part), max(part)) for part in zip(*curve.path, strict=True))
-    shape = None
-    if plot.across.unit == plot.unit_up:
-        wide, tall = right - left, high - low
-        shape = max(FLATTEST, min(tall / wide, STEEPEST))
-        left, right = _widened(left, right, max(wide, tall / shape))
-        low, high = _widened(low, high, max(tall, wide * shape))
-    return Panel(
-        points=curve.path,
-        values=(left, low, right, high),
-        across=_ticks(left, right, MOST_ACROSS),
-        up=_ticks(low, high, MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1),
-        names=(
-            _axis_name(plot.across.label, plot.across.unit, notation),
-            _axis_name(plot.label, plot.unit_up, notation),
-        ),
-        turns=(),
-        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
-        is_path=True,
-        shape=shape,
-    )
-
-
-def portrait_panel(
-    plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
-) -> Panel:
-    """Return the panel of a phase portrait, whose axes end with the ranges."""
-    start, end = curve.lower * curves.per_unit, curve.upper * curves.per_unit
-    return Panel(
-        points=(),
-        values=(start, portrait.low, end, portrait.high),
-        across=_ticks(start, end, MOST_ACROSS, curves.unit == DEGREES),
-        up=_ticks(portrait.low, portrait.high, MOST_UP),
-        names=(
-            _axis_name(plot.variable, curves.unit, notation),
-            _axis_name(plot.label, plot.unit_up, notation),
-        ),
-        turns=(),
-        numbers=_title(letter, _numbers(curve, notation) if curve.numbers else ""),
-        shape=PORTRAIT,
-        lines=tuple(
-            replace(line, points=tuple((x * curves.per_unit, y) for x, y in line.points)) for line in portrait.lines
-        ),
-    )
-
-
-def _with_margin(low: float, high: float) -> tuple[float, float]:
-    room = MARGIN * ((high - low) or abs(high) or 1.0)
-    return low - room, high + room
-
-
-def _widened(low: float, high: float, size: float) -> tuple[float, float]:
-    """Return a range of this size with the same middle."""
-    middle = (low + high) / 2
-    return middle - size / 2, middle + size / 2
-
-
-def _names_of(kind: str, value: str) -> tuple[str, str]:
-    """Return the names of an extremum, with and without its kind."""
-    return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
-
-
-def _power(low: float, high: float) -> int:
-    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size."""
-    greatest = max(abs(low), abs(high))
-    power = floor(log10(greatest)) if greatest > 0 else 0
-    return 0 if USUAL[0] <= power <= USUAL[1] else power
-
-
-def _scaled_ticks(power: int, low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
-    """Return the ticks with numbers that are divided by a power of ten."""
-    if not power:
-        return _ticks(low, high, most, in_degrees, room)
-    unit = 10.0**power
-    return tuple((at * unit, text) for at, text in _ticks(low / unit, high / unit, most, in_degrees, room / unit))
-
-
-def _title(letter: str, numbers: str) -> str:
-    """Return the text above a panel: the letter of the panel, if there are several, and the numbers."""
-    if not letter:
-        return numbers
-    return f"$({{\\mathrm{{{letter}}}}})\\;\\;{numbers.strip('$')}$"
-
-
-def _ticks(low: float, high: float, most: int, in_degrees: bool = False, room: float = 0.0) -> Ticks:
-    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
-
-    They have at most `most` intervals between the ends of the range. If there is room, the numbers continue beyond both
-    ends of the range, so that each end lies between two numbers.
-    """
-    span = high - low or abs(high) or 1.0
-    tens = 10.0 ** floor(log10(span))
-    steps = (
-        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
-        if in_degrees and span >= 20
-        else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
-    )
-    step = next((step for step in steps if span / step <= most), steps[-1])
-    first = max(floor(low / step + 1e-9), ceil((low - room) / step - 1e-9))
-    last = min(ceil(high / step - 1e-9), floor((high + room) / step + 1e-9))
-    decimals = max(0, -floor(log10(step) + 1e-9))
-    return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
-
-
-def _axis_name(symbol: Any, unit: str, notation: Notation, power: int = 0) -> str:
-    """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
-    `U / (10^33 J)`."""
-    name = _mathtext(notation.layout(symbol))
-    parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
-    divisor = rf"({parts[0]}\,{parts[1]})" if len(parts) > 1 else "".join(parts)
-    over = rf"\,/\,{divisor}" if divisor else ""
-    return f"${name}{over}$"
-
-
-def _numbers(curve: Curve, notation: Notation) -> str:
-    items = []
-    for measured in curve.numbers:
-        amount = Amount(measured.number, measured.unit, measured.factor)
-        items.append(rf"{_mathtext(notation.layout(measured.symbol))} = {_mathtext(notation.layout(amount))}")
-    return "$" + r",\;\; ".join(items) + "$"
-
-
-def _mathtext(layout: Any) -> str:
-    return "".join(run.text.strip("$") for run in runs(layout))
-
-
-def _mathtext_of_value(told: str) -> str:
-    """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
-    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # in braces, so that no space follows the sign
-    return rf"{number}\,{unit_latex(unit)}" if unit else number
-
-
-def _mathtext_of_unit(unit: str) -> str:
-    return r"{}^{\circ}" if unit == DEGREES else unit_latex(unit)
-
-
-# --- positions on paper ----------------------------------------------------------------------------------------------
-
-
-def _room(panels: Sequence[Panel], writing: Writing) -> Extent:
-    """Return the distances from the edges of every panel to its axes: left, below, right, above."""
+def _room(panels: Sequence[Panel], writing: Writing, width: float) -> Extent:
+    """Return the distances from the edges of every panel of this width to its axes: left, below, right, above."""
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
     names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
-    numbers = [writing.size(panel.numbers, SMALLER)[1] + PAD for panel in panels if panel.numbers]
+    numbers = [sum(high for _, _, high in _title(panel, writing, width)) for panel in panels]
     wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
+    highest = max((h for _, h in up), default=0.0) / 2  # of a number at the upper end of an axis
     return (
         EDGE + max(names[1]) + PAD + wide + TICK,
         EDGE + max(names[0]) + PAD + high + TICK,
         EDGE + max((w for w, _ in across), default=0.0) / 2,
-        EDGE + max(numbers, default=0.0),
+        EDGE + max([*numbers, highest]),
     )
 
 
-def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float) -> Iterator[Shape]:
-    """Yield all shapes of a panel with left and right edges `ends`; `size` scales the numbers above the panel."""
+def _title(panel: Panel, writing: Writing, width: float) -> list[tuple[tuple[str, ...], float, float]]:
+    """Return the rows of the text above a panel: the items, their scale and the height of the row."""
+    room = width - 2 * EDGE
+    sizes = [writing.size(text, SMALLER) for text in panel.numbers]
+    high = max((high for _, high in sizes), default=0.0) + PAD
+    found = []
+    for row in rows_of([wide + SPACE for wide, _ in sizes], room + SPACE):
+        wide = _width_of_row([sizes[i][0] for i in row])
+        found.append((tuple(panel.numbers[i] for i in row), SMALLER * min(1.0, room / wide), high))
+    return found
+
+
+def _width_of_row(widths: Sequence[float]) -> float:
+    return sum(widths) + SPACE * (len(widths) - 1)
+
+
+def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot) -> Iterator[Shape]:
+    """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame)))
+    yield from shapes_of([piece for turn in names.marked for piece in _dot(turn, frame)])
+    for middle, y, name, is_lowest in names.turns:
+        yield writing.at((middle, y), name, SMALLEST, (0.5, float(is_lowest)))
+    yield from names.curves
     for x, text in panel.across:
         yield writing.at((frame.spot((x, 0.0))[0], below - TICK), text, SMALL, (0.5, 1.0))
     for y, text in panel.up:
@@ -356,15 +182,124 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, ends: Spot, size: float
     leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
     yield writing.at((leftmost, (below + above) / 2), up, SMALL, (1.0, 0.5), upwards=True)
-    for middle, y, name, is_lowest in _names_with_room(panel, frame, writing):
-        yield writing.at((middle, y), name, SMALLEST, (0.5, float(is_lowest)))
-    if panel.numbers:
-        half = EDGE + writing.size(panel.numbers, size)[0] / 2
-        middle = max(ends[0] + half, min((left + right) / 2, ends[1] - half))
-        yield writing.at((middle, above + PAD), panel.numbers, size, (0.5, 0.0), QUIET)
+    base = above + PAD
+    for texts, scale, high in reversed(_title(panel, writing, ends[1] - ends[0])):
+        widths = [writing.size(text, scale)[0] for text in texts]
+        half = EDGE + _width_of_row(widths) / 2
+        x = max(ends[0] + half, min((left + right) / 2, ends[1] - half)) - half + EDGE
+        for text, wide in zip(texts, widths, strict=True):
+            yield writing.on((x, base), text, scale, QUIET)
+            x += wide + SPACE
+        base += high
 
 
-def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[tuple[float, float, str, bool]]:
+@dataclass(frozen=True)
+class Names:
+    """The names of the curves of a panel and of their extrema.
+
+    curves   the names of several curves, as shapes
+    marked   the extrema that have dots
+    turns    the names of extrema
+    above    the height up to which a legend above the panel reaches
+    """
+
+    curves: tuple[Shape, ...]
+    marked: tuple[Turn, ...]
+    turns: tuple[Named, ...]
+    above: float = 0.0
+
+
+def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
+    """Return the names in a panel. If there are several curves, extrema are marked only where their values have room.
+    The names of the curves are next to them, else in a legend in the panel, else in a legend above it."""
+    if not panel.has_several:
+        return Names((), panel.turns, tuple(_names_with_room(panel, frame, writing)))
+    lines = [dots_of(frame.spots(trace.points)) for trace in panel.traces]
+    sizes = [writing.size(trace.name, SMALLEST) for trace in panel.traces]
+    left, below, right, above = frame.paper
+    inner = left + TICK + PAD, below + TICK + PAD, right, above
+    outlines = [dot for line in panel.outlines for dot in dots_of(frame.spots(line))]
+    turns = _clear_of_curves(panel, frame, writing, lines, ())
+    boxes = beside_curves(lines, sizes, inner, [box for _, _, box in turns], outlines)
+    if boxes is None and (boxes := beside_curves(lines, sizes, inner, (), outlines)):
+        turns = _clear_of_curves(panel, frame, writing, lines, boxes)
+    marked, named = tuple(turn for turn, _, _ in turns), tuple(name for _, name, _ in turns)
+    if boxes:
+        every = zip(panel.traces, boxes, strict=True)
+        shapes = [writing.at(box[:2], trace.name, SMALLEST, (0.0, 0.0)) for trace, box in every]
+        return Names(tuple(shapes), marked, named)
+    size = _size_of_legend(sizes)
+    box = corner_for(
+        size, [dot for line in (*lines, outlines) for dot in line], [box for _, _, box in turns], frame.paper
+    )
+    if box:
+        legend = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
+        return Names(tuple(legend), marked, named)
+    rows = rows_of([SAMPLE + PAD + wide + BETWEEN for wide, _ in sizes], right - left)
+    top = above + PAD + size[1] / len(sizes) * len(rows)
+    return Names(tuple(_legend(panel, writing, sizes, rows, (left, top))), marked, named, top)
+
+
+def _size_of_legend(sizes: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """Return the width and height of a legend whose entries are below each other."""
+    return SAMPLE + PAD + max(wide for wide, _ in sizes), len(sizes) * (PAD + max(high for _, high in sizes))
+
+
+def _legend(
+    panel: Panel,
+    writing: Writing,
+    sizes: Sequence[tuple[float, float]],
+    rows: Sequence[Sequence[int]],
+    corner: Spot,
+) -> Iterator[Shape]:
+    """Yield the lines and the names of a legend with this upper left corner."""
+    high = _size_of_legend(sizes)[1] / len(sizes)
+    for k, row in enumerate(rows):
+        x, y = corner[0], corner[1] - high * (k + 0.5)
+        for i in row:
+            yield from shapes_of([Stroke(((x, y), (x + SAMPLE, y)), PENS_OF_CURVES[i % len(PENS_OF_CURVES)])])
+            yield writing.at((x + SAMPLE + PAD, y), panel.traces[i].name, SMALLEST, (0.0, 0.5))
+            x += SAMPLE + PAD + sizes[i][0] + BETWEEN
+
+
+def _dot(turn: Turn, frame: Frame) -> Iterator[Piece]:
+    place, is_lowest, _ = turn
+    yield Bullet(frame.spot(place), DOT, "ink")
+    if not is_lowest:
+        yield Bullet(frame.spot(place), 0.64 * DOT, "blank")
+
+
+def _clear_of_curves(
+    panel: Panel, frame: Frame, writing: Writing, lines: Sequence[Sequence[Spot]], taken: Sequence[Extent]
+) -> list[tuple[Turn, Named, Extent]]:
+    """Return the extrema of each curve on which all values have room between the curves, with the positions and the
+    boxes of the values.
+
+    lines   the points of each curve
+    taken   boxes of other names
+    """
+    found: list[tuple[Turn, Named, Extent]] = []
+    for i, trace in enumerate(panel.traces):
+        used = [*taken, *(box for _, _, box in found)]
+        named = [_beside_dot(*turn[:2], turn[2][1], frame, writing) for turn in trace.turns]
+        boxes = [box for _, box in named]
+        links = [_between(frame.spot(turn[0]), box) for turn, box in zip(trace.turns, boxes, strict=True)]
+        others = [dot for k, dots in enumerate(lines) if k != i for dot in dots]
+        if (
+            all(is_inside(box, frame.paper) and is_clear(box, [*others, *lines[i]], used) for box in boxes)
+            and all(is_clear(link, others, used) for link in links)
+            and not any(_overlap(*pair) for pair in combinations(boxes, 2))
+        ):
+            found += [(turn, name, box) for turn, (name, box) in zip(trace.turns, named, strict=True)]
+    return found
+
+
+def _between(spot: Spot, box: Extent) -> Extent:
+    """Return the space between an extremum and its name."""
+    return spot[0], min(spot[1], box[3]), spot[0], max(spot[1], box[1])
+
+
+def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[Named]:
     """Return the name of each extremum with its position in the panel: x of its middle, and y of its edge next to the
     dot. Also return whether the extremum is a minimum.
 
@@ -378,9 +313,7 @@ def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[tuple
     return []
 
 
-def _beside_dot(
-    place: Spot, is_lowest: bool, name: str, frame: Frame, writing: Writing
-) -> tuple[tuple[float, float, str, bool], Extent]:
+def _beside_dot(place: Spot, is_lowest: bool, name: str, frame: Frame, writing: Writing) -> tuple[Named, Extent]:
     """Return the name of an extremum with its position, clear of the ticks of the axis on the left, and its box."""
     left, _, right, _ = frame.paper
     x, y = frame.spot(place)
@@ -396,20 +329,21 @@ def _overlap(one: Extent, other: Extent) -> bool:
 
 
 def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
-    """Yield the curve; a path has an arrowhead, and dots at its start and at its end."""
+    """Yield the curves; a path has an arrowhead, and dots at its start and at its end."""
     for line in panel.lines:
-        spots, pen = tuple(map(frame.spot, line.points)), "separatrix" if line.is_thick else "level"
+        spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield Stroke(spots, pen)
         yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
-    if not panel.points:
-        return
-    spots = tuple(map(frame.spot, panel.points))
-    yield Stroke(spots, "curve")
-    if panel.is_path:
-        at = _index_of(HEAD, spots)
-        yield Stroke(spots[at - 1 : at + 1], "curve", head=True)
-        yield Bullet(spots[0], DOT, "ink")
-        yield Bullet(spots[-1], DOT, "ink")
+    for outline in panel.outlines:
+        yield Stroke(frame.spots(outline), "edge")
+    for i, trace in enumerate(panel.traces):
+        spots, pen = frame.spots(trace.points), PENS_OF_CURVES[i % len(PENS_OF_CURVES)]
+        yield Stroke(spots, pen)
+        if panel.is_path:
+            at = _index_of(HEAD, spots)
+            yield Stroke(spots[at - 1 : at + 1], pen, head=True)
+            yield Bullet(spots[0], DOT, "ink")
+            yield Bullet(spots[-1], DOT, "ink")
 
 
 def _index_of(part: float, spots: Sequence[Spot]) -> int:
@@ -428,7 +362,3 @@ def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
     for y, _ in panel.up:
         at = frame.spot((0.0, y))[1]
         yield Stroke(((left, at), (left + TICK, at)), "tick")
-    for place, is_lowest, _ in panel.turns:
-        yield Bullet(frame.spot(place), DOT, "ink")
-        if not is_lowest:
-            yield Bullet(frame.spot(place), 0.64 * DOT, "blank")

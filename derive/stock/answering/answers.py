@@ -124,10 +124,10 @@ class StockAnswers(Answers[W]):
         objects."""
         found = self.by_name.answers(asked)
         for drawing in drawings:
-            plotted = Plotted(drawing, self.by_name.named, self.coordinates)
+            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces)
             if drawing.is_portrait:
                 plotted.draw_levels()
-            elif drawing.plot and drawing.against and drawing.range:
+            elif drawing.is_of_engine and drawing.against and drawing.range:
                 plotted.draw(drawing.against, drawing.range)
         return found
 

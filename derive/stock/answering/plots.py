@@ -1,15 +1,16 @@
-"""`plot` under `drawings:`: the curve of one answer, the path of two answers or formulas, or a phase portrait."""
+"""`plot` and `curves` under `drawings:`: curves of answers, the path of two answers or formulas, or a phase portrait."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.algebra.expressions import TIME, explicit
+from derive.algebra.expressions import TIME, explicit, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension, unit_of_dimension, unit_of_kind
 from derive.course.expression import Declared
 from derive.course.given import read_end
@@ -18,11 +19,14 @@ from derive.course.stock import told_at
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import did_you_mean, rejected
 from derive.figures import plot
-from derive.figures.marks import Across, Levels, Plot, noted
+from derive.figures.marks import Across, Further, Levels, Outline, Plot, noted
 from derive.mechanics import Coordinate
+from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
-from derive.stock.keys.formulas import Formula, right_side
+from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
+
+_LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -42,40 +46,107 @@ class Plotted:
 
     named         a function that returns the steps that a name denotes
     coordinates   the coordinates of the system, by name
+    surfaces      returns the surfaces, by name
     """
 
     drawing: Placement
     named: Callable[[Word], tuple[Quantity, ...]]
     coordinates: Mapping[str, Coordinate]
+    surfaces: Callable[[], Mapping[str, Any]] = dict
 
     def draw(self, against: Word, ends: Range) -> None:
         """Draw the plot against a coordinate, the time or a declared symbol."""
-        if len(self.drawing.plot) == 1:
+        if self.drawing.curves:
+            self._curves(self.drawing.curves, against, ends)
+        elif len(self.drawing.plot) == 1:
             self._curve(self.drawing.plot[0], against, ends)
         else:
             self._path([self._shown(each.scalar) for each in self.drawing.plot], against, ends)
 
     def _curve(self, answer: Word, against: Word, ends: Range) -> None:
         quantity = self._one(answer)
-        message = f"`{answer}` does not depend on `{against}`, so there is no curve"
-        variable, kind = self._variable(against, explicit(quantity.value).free_symbols, message)
+        variable, kind = self._variable(against, *self._letters_of_curve(answer, quantity, against))
         (lower, upper), keys = self._range(ends, kind)
         with told_at(answer.place):
-            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys)
+            unit = self._unit(quantity)
+            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
+
+    def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
+        """Draw the curves of several answers in one panel, so all answers have the same unit."""
+        quantities = [self._one(answer) for answer in answers]
+        for i, (answer, quantity) in enumerate(zip(answers, quantities, strict=True)):
+            if answer in answers[:i]:
+                rejected("twice", f"`{answer}` has two curves", answer.place, "leave one of them out")
+            variable, kind = self._variable(against, *self._letters_of_curve(answer, quantity, against))
+            self._check_unit(answer, quantity, answers[0], quantities[0])
+        (lower, upper), keys = self._range(ends, kind)
+        first, *more = quantities
+        others = tuple(Further(each.symbol, explicit(each.value), each.key) for each in more)
+        with told_at(answers[0].place):
+            noted(
+                Plot(self.drawing.key, first.symbol, explicit(first.value), variable, lower, upper,
+                     first.step.kind or "number", kind, tuple(q.key for q in quantities) + keys,
+                     self._unit(first), others=others)
+            )  # fmt: skip
+
+    def _unit(self, quantity: Quantity) -> str:
+        """Return the SI unit of an answer: that of its kind, else that of its dimension."""
+        if quantity.step.kind:
+            return unit_of_kind(quantity.step.kind)
+        return unit_of_dimension(dimension_of_answer(quantity, explicit(quantity.value), self._letters))
+
+    def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
+        """Return the letters of an answer, and the error if the letter that varies is not one of them."""
+        expr = explicit(quantity.value)
+        message = f"`{answer}` does not depend on `{against}`, so there is no curve"
+        return expr.free_symbols if isinstance(expr, Expr) else set(), message
+
+    def _check_unit(self, answer: Word, quantity: Quantity, other: Word, first: Quantity) -> None:
+        """Check that an answer has the unit of the first answer."""
+        one, two = (self._unit(each) for each in (quantity, first))
+        if one != two:
+            message = f"`{answer}` is in {one or 'no unit'} and `{other}` in {two or 'no unit'}, so they share no axis"
+            rejected("wrong-argument", message, answer.place, "draw two plots")
 
     def _path(self, shown: list[Shown], against: Word, ends: Range) -> None:
-        across, up = shown
+        across, up = self._named(shown)
         written = " nor ".join(f"`{each}`" for each in self.drawing.plot)
         message = f"neither {written} depends on `{against}`, so there is no path"
         variable, kind = self._variable(against, across.expr.free_symbols | up.expr.free_symbols, message)
         (lower, upper), keys = self._range(ends, kind)
         horizontal = Across(across.label, across.expr, across.unit)
         keys = tuple(dict.fromkeys((*across.keys, *up.keys, *keys)))
+        outlines = tuple(self._outline(name, (across, up)) for name in self.drawing.surfaces)
         with told_at(self.drawing.plot[0].place):
             noted(
                 Plot(self.drawing.key, up.label, up.expr, variable, lower, upper, up.kind, kind, keys, up.unit,
-                     horizontal)
+                     horizontal, outlines=outlines)
             )  # fmt: skip
+
+    def _named(self, shown: list[Shown]) -> list[Shown]:
+        """Return the quantities of a path, named by `labels` if the problem states them."""
+        for label in self.drawing.labels:
+            if not _LETTER.fullmatch(label):
+                message = f"`{label}` is not a letter, so it cannot name an axis"
+                rejected("wrong-argument", message, label.place, "such as `x`, `r_1` or `theta`")
+        names = self.drawing.labels or [None] * len(shown)
+        return [replace(each, label=scalar(name)) if name else each for name, each in zip(names, shown, strict=True)]
+
+    def _outline(self, name: Word, shown: tuple[Shown, Shown]) -> Outline:
+        """Return a surface in the plane of a path, which must be at rest."""
+        known = self.surfaces()
+        if name not in known:
+            rejected("undefined-name", f"no surface is called `{name}`", name.place, did_you_mean(name, known))
+        surface, plane = known[name], (stand_in("x"), stand_in("y"))
+        moving = {TIME, *(each.symbol for each in self.coordinates.values())}
+        if len(surface.place.components) != 2 or any(each.unit != unit_of_kind("length") for each in shown):
+            message = f"the path is not in the plane of `{name}`"
+            rejected("wrong-argument", message, name.place, "only a path of two lengths in a plane shows surfaces")
+        expr = explicit(surface.distance(Location(plane)))
+        if expr.free_symbols & moving:
+            rejected("wrong-argument", f"`{name}` moves, so a path cannot show it", name.place, "leave it out")
+        corners = tuple(explicit(c) for corner in surface.corners for c in corner.components)
+        return Outline(str(name), expr, plane, corners)
 
     def draw_levels(self) -> None:
         """Draw a phase portrait: curves in the plane of a coordinate and its momentum."""

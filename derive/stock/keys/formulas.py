@@ -80,11 +80,15 @@ class Formula:
         value = explicit(right_side(quantity.value))
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)
-        declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
-        table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
-        has = dimension_of(value, table)
         mark = Dummy(str(name), real=True, positive=True if value.is_positive else None)
-        return OfKnownDimension(str(name), mark, "", has=has if has is not None else Dimension())
+        return OfKnownDimension(str(name), mark, "", has=dimension_of_answer(quantity, value, self.letters))
+
+
+def dimension_of_answer(quantity: Quantity, value: Expr, letters: Mapping[str, Declared]) -> Dimension:
+    """Return the dimension of the value of an answer; a value of unknown dimension counts as a number."""
+    declared = {letter.symbol: letter.dimension for letter in letters.values()}
+    table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
+    return dimension_of(value, table) or Dimension()
 
 
 def right_side(value: Any) -> Any:

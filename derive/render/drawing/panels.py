@@ -1,0 +1,354 @@
+"""The contents of the panels of a plot, before a panel has a size: curves, ticks, and the names of axes and curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import ceil, floor, log10
+from typing import Any, TypeAlias
+
+from derive.algebra.expressions import Amount
+from derive.course.given import Measured
+from derive.figures.extrema import MINIMUM
+from derive.figures.marks import Outline, Plot
+from derive.figures.portrait import LevelLine, Portrait
+from derive.figures.space import Spot
+from derive.page.plots import DEGREES, Axis, Curve, Curves, told_value
+from derive.page.wording import Phrases
+from derive.render.drawing.mathtext import runs
+from derive.render.drawing.sheets import Extent
+from derive.render.notation.latex import unit_latex
+from derive.render.notation.notation import Notation
+
+MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
+NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
+MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
+HEIGHT = 88.0  # in points: the usual height of a panel between its axes
+MARGIN = 0.08  # any other margin around a curve or a path, in units of its size
+PORTRAIT = 0.85  # height divided by width of a phase portrait
+FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
+USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
+
+Ticks: TypeAlias = tuple[tuple[float, str], ...]
+Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """One curve of a panel.
+
+    points   the curve, in the units of the axes
+    turns    the extrema: the point, whether it is a minimum, and its names, with and without the kind
+    name     the name of the curve; empty if it is the only one in its panel
+    """
+
+    points: tuple[Spot, ...]
+    turns: tuple[Turn, ...] = ()
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The contents of one panel, before the panel has a size.
+
+    traces           the curves
+    across, up       the ticks of both axes, with their numbers
+    names            the names of both axes
+    values           the ranges of the axes: left, below, right, above
+    numbers          the texts above the panel: its letter, and the numbers that were substituted
+    is_path          whether the curves are paths, which have dots at their ends and an arrowhead
+    lines            the curves of a phase portrait
+    outlines         the lines of surfaces in the plane of a path
+    shape            height divided by width, if it is not that of the paper
+    """
+
+    traces: tuple[Trace, ...]
+    across: Ticks
+    up: Ticks
+    names: tuple[str, str]
+    values: Extent
+    numbers: tuple[str, ...] = ()
+    is_path: bool = False
+    shape: float | None = None
+    lines: tuple[LevelLine, ...] = ()
+    outlines: tuple[tuple[Spot, ...], ...] = ()
+
+    @property
+    def has_several(self) -> bool:
+        return len(self.traces) > 1
+
+    @property
+    def turns(self) -> tuple[Turn, ...]:
+        """Return the extrema of all curves."""
+        return tuple(turn for trace in self.traces for turn in trace.turns)
+
+    def texts(self) -> Iterator[str]:
+        yield from (text for _, text in (*self.across, *self.up))
+        yield from (name for _, _, names in self.turns for name in names)
+        yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
+
+
+def panel_of(
+    plot: Plot,
+    own: Sequence[Curve],
+    curves: Curves,
+    notation: Notation,
+    words: Phrases,
+    letter: str = "",
+    height: float = HEIGHT,
+) -> Panel:
+    """Return the panel of these curves; `height` is the usual height of a panel between its axes, in points."""
+    if own[0].path:
+        return path_panel(plot, own, curves, notation, letter)
+    if own[0].portrait:
+        return portrait_panel(plot, own[0], own[0].portrait, curves, notation, letter)
+    return curve_panel(plot, own, curves, notation, words, letter, height)
+
+
+def curve_panel(
+    plot: Plot,
+    own: Sequence[Curve],
+    curves: Curves,
+    notation: Notation,
+    words: Phrases,
+    letter: str,
+    height: float,
+) -> Panel:
+    """Return the panel of curves; the axes leave room for the words below a minimum and above a maximum."""
+    traces = tuple(
+        Trace(
+            _scaled(curve.spots, curves.variable, curves.up),
+            tuple(
+                (
+                    (each.at * curves.variable.per_unit, each.value * curves.up.per_unit),
+                    each.kind == MINIMUM,
+                    _names_of(words.drawings[each.kind], _mathtext_of_value(told_value(curves.up, each))),
+                )
+                for each in curve.marked
+            ),
+            _name(curve, curves, notation) if len(own) > 1 else "",
+        )
+        for curve in own
+    )
+    _, low, _, high = _box(traces)
+    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.upper)]
+    start, end = min(ends), max(ends)
+    tall = (high - low) or abs(high) or 1.0
+    lowest = {is_lowest for trace in traces for _, is_lowest, _ in trace.turns}
+    below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
+    powers = _power(start, end, curves.variable), _power(low, high, curves.up)
+    return Panel(
+        traces=traces,
+        values=(start, low - below, end, high + above),
+        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees),
+        up=_scaled_ticks(powers[1], low, high, MOST_UP, curves.up.in_degrees, (below, above)),
+        names=(
+            _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
+            _axis_name(_labels(own), curves.up.unit, notation, powers[1]),
+        ),
+        numbers=_title(letter, own, curves, notation),
+    )
+
+
+def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, letter: str = "") -> Panel:
+    """Return the panel of paths."""
+    assert plot.across is not None
+    traces = tuple(
+        Trace(
+            _scaled(curve.path, curves.across, curves.up),
+            name=_name(curve, curves, notation) if len(own) > 1 else "",
+        )
+        for curve in own
+    )
+    surfaces = tuple(dict.fromkeys(outline for curve in own for outline in curve.outlines))
+    corners = [tuple(zip(each.corners[::2], each.corners[1::2], strict=True)) for each in surfaces]
+    left, low, right, high = _box([*traces, *map(Trace, filter(None, corners))])
+    (left, right), (low, high) = _with_margin(left, right), _with_margin(low, high)
+    shape = None
+    powers = _power(left, right, curves.across), _power(low, high, curves.up)
+    if curves.across == curves.up:
+        wide, tall = right - left, high - low
+        shape = max(FLATTEST, min(tall / wide, STEEPEST))
+        left, right = _widened(left, right, max(wide, tall / shape))
+        low, high = _widened(low, high, max(tall, wide * shape))
+        powers = (max(powers, key=abs),) * 2
+    most_up = MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1
+    return Panel(
+        traces=traces,
+        values=(left, low, right, high),
+        across=_scaled_ticks(powers[0], left, right, MOST_ACROSS, curves.across.in_degrees),
+        up=_scaled_ticks(powers[1], low, high, most_up, curves.up.in_degrees),
+        names=(
+            _axis_name((plot.across.label,), curves.across.unit, notation, powers[0]),
+            _axis_name((plot.label,), curves.up.unit, notation, powers[1]),
+        ),
+        numbers=_title(letter, own, curves, notation),
+        is_path=True,
+        shape=shape,
+        outlines=_lines_of(surfaces, (left, low, right, high)),
+    )
+
+
+def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...], ...]:
+    """Return the lines of surfaces in a panel whose axes have these ranges."""
+    if not surfaces:
+        return ()
+    from derive.figures.portrait import lines_of  # imports NumPy
+
+    return tuple(line for each in surfaces for line in lines_of(each.expr, each.plane, box))
+
+
+def portrait_panel(
+    plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
+) -> Panel:
+    """Return the panel of a phase portrait, whose axes end with the ranges."""
+    start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
+    powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
+    return Panel(
+        traces=(),
+        values=(start, portrait.low, end, portrait.high),
+        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees),
+        up=_scaled_ticks(powers[1], portrait.low, portrait.high, MOST_UP),
+        names=(
+            _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
+            _axis_name((plot.label,), curves.up.unit, notation, powers[1]),
+        ),
+        numbers=_title(letter, [curve], curves, notation),
+        shape=PORTRAIT,
+        lines=tuple(replace(line, points=_scaled(line.points, curves.variable, curves.up)) for line in portrait.lines),
+    )
+
+
+# --- ranges and ticks ------------------------------------------------------------------------------------------------
+
+
+def _scaled(points: Sequence[Spot], across: Axis, up: Axis) -> tuple[Spot, ...]:
+    """Return points in the units of the axes."""
+    return tuple((x * across.per_unit, y * up.per_unit) for x, y in points)
+
+
+def _box(traces: Sequence[Trace]) -> Extent:
+    xs, ys = ([spot[k] for trace in traces for spot in trace.points] for k in (0, 1))
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _room(sides: int, height: float) -> float:
+    """Return the margin for names at one or both sides of a curve, in units of the height of the curve."""
+    part = min(NAME / height, MOST_NAME)
+    return part / (1 - 2 * part) if sides == 2 else part * (1 + MARGIN) / (1 - part)
+
+
+def _with_margin(low: float, high: float) -> tuple[float, float]:
+    room = MARGIN * ((high - low) or abs(high) or 1.0)
+    return low - room, high + room
+
+
+def _widened(low: float, high: float, size: float) -> tuple[float, float]:
+    """Return a range of this size with the same middle."""
+    middle = (low + high) / 2
+    return middle - size / 2, middle + size / 2
+
+
+def _power(low: float, high: float, axis: Axis) -> int:
+    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size and for
+    degrees."""
+    greatest = max(abs(low), abs(high))
+    power = floor(log10(greatest)) if greatest > 0 else 0
+    return 0 if axis.in_degrees or USUAL[0] <= power <= USUAL[1] else power
+
+
+def _scaled_ticks(
+    power: int, low: float, high: float, most: int, in_degrees: bool = False, room: tuple[float, float] = (0.0, 0.0)
+) -> Ticks:
+    """Return the ticks with numbers that are divided by a power of ten."""
+    unit = 10.0**power
+    below, above = (each / unit for each in room)
+    found = _ticks(low / unit, high / unit, most, in_degrees, (below, above))
+    return tuple((at * unit, text) for at, text in found) if power else found
+
+
+def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[float, float]) -> Ticks:
+    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
+
+    They have at most `most` intervals between the ends of the range. If there is room below and above, the numbers
+    continue beyond both ends of the range, so that each end lies between two numbers.
+    """
+    span = high - low or abs(high) or 1.0
+    tens = 10.0 ** floor(log10(span))
+    steps = (
+        (5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+        if in_degrees and span >= 20
+        else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
+    )
+    step = next((step for step in steps if span / step <= most), steps[-1])
+    first = max(floor(low / step + 1e-9), ceil((low - room[0]) / step - 1e-9))
+    last = min(ceil(high / step - 1e-9), floor((high + room[1]) / step + 1e-9))
+    decimals = max(0, -floor(log10(step) + 1e-9))
+    return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
+
+
+# --- names -----------------------------------------------------------------------------------------------------------
+
+
+def _names_of(kind: str, value: str) -> tuple[str, str]:
+    """Return the names of an extremum, with and without its kind."""
+    return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
+
+
+def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> tuple[str, ...]:
+    """Return the texts above a panel of one curve: the letter of the panel and the name of the curve, if there are
+    several panels, and the numbers."""
+    if len(own) > 1:
+        return ()
+    items = _distinction(own[0], curves, notation)
+    marked = [f"({{\\mathrm{{{letter}}}}})\\;\\;{items[0] if items else ''}", *items[1:]] if letter else items
+    return tuple(f"${item}{',' if i < len(marked) else ''}$" for i, item in enumerate(marked, 1))
+
+
+def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
+    """Return the name of one of several curves in a panel."""
+    return "$" + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
+
+
+def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:
+    """Return what distinguishes a curve from the others: its quantity, if there are several, and its numbers."""
+    quantity = [_mathtext(notation.layout(curve.label))] if curves.labels_differ else []
+    return [*quantity, *_numbers(curve.numbers, notation)]
+
+
+def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
+    return tuple(dict.fromkeys(curve.label for curve in own))
+
+
+def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0) -> str:
+    """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
+    `v / (m/s)`, `U / (10^33 J)`."""
+    name = r",\,".join(_mathtext(notation.layout(symbol)) for symbol in symbols)
+    parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
+    is_product = len(parts) > 1 or any(sign in unit for sign in " /")
+    divisor = r"\,".join(parts)
+    divisor = f"({divisor})" if is_product else divisor
+    over = rf"\,/\,{divisor}" if divisor else ""
+    return f"${name}{over}$"
+
+
+def _numbers(numbers: Sequence[Measured], notation: Notation) -> list[str]:
+    items = []
+    for measured in numbers:
+        amount = Amount(measured.number, measured.unit, measured.factor)
+        items.append(rf"{_mathtext(notation.layout(measured.symbol))} = {_mathtext(notation.layout(amount))}")
+    return items
+
+
+def _mathtext(layout: Any) -> str:
+    return "".join(run.text.strip("$") for run in runs(layout))
+
+
+def _mathtext_of_value(told: str) -> str:
+    """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
+    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # in braces, so that no space follows the sign
+    return rf"{number}\,{unit_latex(unit)}" if unit else number.replace(DEGREES, _mathtext_of_unit(DEGREES))
+
+
+def _mathtext_of_unit(unit: str) -> str:
+    return r"{}^{\circ}" if unit == DEGREES else unit_latex(unit)
