@@ -1,4 +1,4 @@
-"""`plot` and `curves` under `drawings:`: curves of answers, the path of two answers or formulas, or a phase portrait."""
+"""`plot` and `curves` under `drawings:`: curves of answers, paths of two answers or formulas, phase portraits."""
 
 from __future__ import annotations
 
