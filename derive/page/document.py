@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from sympy import MatrixBase, preorder_traversal
@@ -417,7 +418,7 @@ class _Writer:
         own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
-            nodes = self._told(prose.pieces, own, self.formulas.in_solution)
+            nodes = self._told(prose.pieces, own, partial(self.formulas.in_solution, key=step.key))
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
