@@ -92,6 +92,7 @@ def plot(
     of: str = "angle",
     shown: Expr | None = None,
     also: Sequence[str] = (),
+    unit: str = "",
 ) -> Plot:
     """Return the curve of a quantity as a function of a symbol. The curve is recorded for the problem; the problem
     gives the numbers for the other symbols.
@@ -103,6 +104,7 @@ def plot(
     of         the kind of the symbol
     shown      an expression that is drawn instead of the value of the quantity
     also       the keys of further steps that the plot shows, such as an end of the range
+    unit       the SI unit of a quantity without a kind
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -110,7 +112,7 @@ def plot(
         raise Rejected(Complaint("wrong-argument", message))
     lower, upper = (as_expr(end) for end in between)
     kind = quantity.step.kind or "number"
-    found = Plot(key, quantity.symbol, expr, against, lower, upper, kind, of, (quantity.key, *also))
+    found = Plot(key, quantity.symbol, expr, against, lower, upper, kind, of, (quantity.key, *also), unit)
     noted(found)
     return found
 

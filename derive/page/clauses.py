@@ -43,6 +43,10 @@ class Clauses:
         elif is_told:
             self.waiting.append(step)
 
+    def define_at_use(self, step: Step) -> None:
+        """Define the symbol of a step without words of its own where the page first uses the symbol."""
+        self.waiting.append(step)
+
     def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
         """Store the sentence of a step whose result earlier lines already show."""
         self.set_up += [*([Text(" ")] if self.set_up else []), *said]

@@ -34,7 +34,7 @@ from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.record import require_constant
 from derive.steps.rule import CHECK, ROUTE, Rule
-from derive.steps.step import Quantity, compared_with, is_zero, require_kind
+from derive.steps.step import Level, Quantity, compared_with, is_zero, require_kind
 
 __all__ = [
     "axis_of_symmetry",
@@ -242,12 +242,13 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     i = AXES.index(axis)
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
+    only_renames = symbol in (None, of.symbol.name)  # omega_z is another name of the component of omega
     return establish(
         VECTOR_COMPONENT,
         letter,
         lambda v: Component(v, axis),
         {"vector": of},
-        lines=Lines(put_in=None),
+        lines=Lines(put_in=None, law=Level.FULL if only_renames else Level.BRIEF),
         routes={"turned": compared_with(lambda: (turned * explicit(of.value))[0, 0])},
         outcome=lambda value: "zero" if is_zero(value) else "generic",
         key=key or f"{of.key}_{axis}",

@@ -22,7 +22,7 @@ from derive.figures.marks import Across, Levels, Plot, noted
 from derive.mechanics import Coordinate
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
-from derive.stock.keys.formulas import Formula, right_side
+from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,9 @@ class Plotted:
         message = f"`{answer}` does not depend on `{against}`, so there is no curve"
         variable, kind = self._variable(against, explicit(quantity.value).free_symbols, message)
         (lower, upper), keys = self._range(ends, kind)
+        unit = "" if quantity.step.kind else unit_of_dimension(dimension_of_answer(quantity, self._letters))
         with told_at(answer.place):
-            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys)
+            plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
 
     def _path(self, shown: list[Shown], against: Word, ends: Range) -> None:
         across, up = shown

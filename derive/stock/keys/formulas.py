@@ -80,11 +80,19 @@ class Formula:
         value = explicit(right_side(quantity.value))
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)
-        declared = {letter.symbol: letter.dimension for letter in self.letters.values()}
-        table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
-        has = dimension_of(value, table)
         mark = Dummy(str(name), real=True, positive=True if value.is_positive else None)
-        return OfKnownDimension(str(name), mark, "", has=has if has is not None else Dimension())
+        return OfKnownDimension(str(name), mark, "", has=dimension_of_answer(quantity, self.letters))
+
+
+def dimension_of_answer(quantity: Quantity, letters: Mapping[str, Declared]) -> Dimension:
+    """Return the dimension of an answer, or of the right side of a relation; zero counts as a number.
+
+    letters     the symbols of the problem, by name
+    """
+    declared = {letter.symbol: letter.dimension for letter in letters.values()}
+    table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
+    has = dimension_of(explicit(right_side(quantity.value)), table)
+    return has if has is not None else Dimension()
 
 
 def right_side(value: Any) -> Any:
