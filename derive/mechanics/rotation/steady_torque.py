@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from sympy import Integer, MatAdd
 
 from derive.algebra.expressions import (
@@ -107,7 +109,9 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
     named = {parent.key[-2:]: parent for parent in _moments(inertia)}
     letters = {parent.value: parent.symbol for parent in named.values()}
     values = [inertia.value[k, k] for k in range(3)]
-    I = [named[axis * 2].symbol if axis * 2 in named else letters.get(m) for axis, m in zip(AXES, values, strict=True)]
+    I: list[Any] = [
+        named[axis * 2].symbol if axis * 2 in named else letters.get(m) for axis, m in zip(AXES, values, strict=True)
+    ]
     I = values if None in I else I
     w = component_names(omega.symbol.name)
     parts = [
