@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from sympy import MatrixBase, Symbol, preorder_traversal
+from sympy import MatrixBase, preorder_traversal
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.equality import Compared
@@ -39,7 +39,7 @@ from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
 from derive.page.repeats import Stated, noted, results, told_by_number
-from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection, is_short
+from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.unused import laws_without_steps, unused_definitions
@@ -212,10 +212,10 @@ class _Writer:
         return defined, set(filter(could_stand, numbers))
 
     def _can_be_defined(self, key: str) -> bool:
-        """Return whether a clause may define the symbol of a step that the author hides: the result is short, and no
-        text of the author contains the symbol."""
+        """Return whether a clause may define the symbol of a step that the author hides: no text of the author contains
+        the symbol."""
         step = self.derivation.step(key)
-        if self.problem.show.get(key) != HIDDEN_STEP or not is_short(step) or not isinstance(step.symbol, Symbol):
+        if self.problem.show.get(key) != HIDDEN_STEP or not self.clauses.can_define(step):
             return False
         texts = self.problem.texts
         said = {name for prose in texts for formula in prose.formulas for name in formula.names}

@@ -121,3 +121,9 @@ def test_if_the_first_step_with_a_symbol_is_hidden_another_one_introduces_it(tmp
 def test_a_moment_without_a_step_has_the_symbol_of_an_equal_moment(tmp_path: Path) -> None:
     text = rendered(course_with(tmp_path, THIN_ROD), "trial/one", "full", only={"text"}).texts["text"]
     assert "((I_zz - I_xx) ω_y ω_z, (I_xx - I_zz) ω_z ω_x, 0)" in text
+
+
+def test_a_hidden_tensor_is_defined_by_its_meaning(tmp_path: Path) -> None:
+    hidden = THIN_ROD.replace("definition: hidden}", "definition: hidden, inertia_tensor: hidden}")
+    text = rendered(course_with(tmp_path, hidden), "trial/one", only={"text"}).texts["text"]
+    assert "I⃡ is the inertia tensor about the centre" in " ".join(text.split())
