@@ -24,7 +24,7 @@ class MassIntegral(MatrixNode):
 
     @property
     def variables(self) -> tuple[Any, ...]:
-        return tuple(x for x, *_ in self.args[5:])
+        return (self.args[1], *(x for x, *_ in self.args[5:]))
 
     def doit(self, **hints: Any) -> Value:
         integrand, r, density, position, jacobian, *limits = self.args
@@ -33,11 +33,17 @@ class MassIntegral(MatrixNode):
         return at.applyfunc(lambda f: outside * explicit(Integral(inside * f * jacobian, *limits)))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        integrand, r, density, position, jacobian, *limits = self.args
-        inner = dimensions_of_variables(limits, of)
-        inner[r] = common(position, lambda entry: of(entry, inner))
+        integrand, _, density, _, jacobian, *limits = self.args
+        inner = self.dimensions_inside(of)
         parts = [of(part, inner) for part in (integrand, density, jacobian)]
         return product([*parts, *(inner[x] for x, *_ in limits)])
+
+    def dimensions_inside(self, of: DimensionOf) -> dict[Any, Dimension | None]:
+        """The dimensions of the variables that the integral binds."""
+        _, r, _, position, _, *limits = self.args
+        inner = dimensions_of_variables(limits, of)
+        inner[r] = common(position, lambda entry: of(entry, inner))
+        return inner
 
     def lowered(self, text: TextOf) -> str:
         integrand, r, density, position, jacobian, *limits = self.args

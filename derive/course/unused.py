@@ -86,9 +86,10 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
 
 
 def _texts(written: ProblemKeys) -> Iterator[Prose]:
-    """Yield the prose in whose formulas a letter counts as used."""
+    """Yield the prose in whose formulas a letter counts as used: the statement, the questions, and the solution."""
     yield from (part.ask for part in written.parts)
     yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
+    yield from (prose for outcomes in written.wording.values() for prose in outcomes.values())
 
 
 def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:

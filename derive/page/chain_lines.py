@@ -211,8 +211,11 @@ def names_results(symbol: Any) -> bool:
 
 
 def listed(names: Any, values: Any) -> tuple[ChainLine, ...]:
-    """Return a line for each distinct value with all its names, such as I_1 = I_2 = a and I_3 = b."""
+    """Return a line for each distinct value with all its names, such as I_1 = I_2 = a and I_3 = b; the lines share a
+    row if there is room."""
     found: dict[Any, Any] = {}
     for name, value in zip(names, values, strict=True):
         found[value] = Relation(found[value], "=", name) if value in found else name
-    return tuple(ChainLine(left, "equals", value, presented=True) for value, left in found.items())
+    return tuple(
+        ChainLine(left, "equals", value, presented=True, beside=i > 0) for i, (value, left) in enumerate(found.items())
+    )

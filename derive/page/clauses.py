@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sympy import MatrixBase
+from sympy import MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.expressions import explicit
 from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.selection import is_short
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step
 
@@ -19,6 +20,7 @@ class Clauses:
     """The clauses of one page.
 
     waiting  steps whose symbols are to be defined at the first use
+    by_name  keys of the waiting steps whose clause states the meaning of the symbol and not its value
     told     keys of the steps whose symbols have been defined
     said     the sentence before the lines just shown; the clause after the lines also defines symbols of this sentence
     set_up   text from steps without lines, for example about axes, that is printed before the next sentence
@@ -27,6 +29,7 @@ class Clauses:
     def __init__(self, words: Phrases):
         self.words = words
         self.waiting: list[Step] = []
+        self.by_name: set[str] = set()
         self.told: set[str] = set()
         self.said: tuple[Inline, ...] = ()
         self.set_up: list[Inline] = []
@@ -42,6 +45,18 @@ class Clauses:
             self.told.add(step.key)
         elif is_told:
             self.waiting.append(step)
+
+    def define_at_use(self, step: Step) -> None:
+        """Define the symbol of a step without words of its own where the page first uses the symbol. A long result is
+        left out: `where J is the inertia tensor`."""
+        self.waiting.append(step)
+        self.by_name |= set() if is_short(step) else {step.key}
+
+    def can_define(self, step: Step) -> bool:
+        """Return whether a clause can define the symbol of a step: the result is short, or a phrase states the meaning
+        of the symbol."""
+        has_phrase = step.outcome in self.words.clauses.get(step.rule, {})
+        return isinstance(step.symbol, Symbol | MatrixSymbol) and (is_short(step) or has_phrase)
 
     def point_out(self, step: Step, said: tuple[Inline, ...]) -> None:
         """Store the sentence of a step whose result earlier lines already show."""
@@ -91,7 +106,7 @@ class Clauses:
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
         """Return `rho = M/(6 a^3) is the density`; if there is no phrase, only `rho = M/(6 a^3)`."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
-        names = self._names(step)
+        names, by_value = self._names(step), by_value and step.key not in self.by_name
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})
 
     def _names(self, step: Step) -> dict[str, Any]:

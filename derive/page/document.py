@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from sympy import MatrixBase, preorder_traversal
@@ -65,6 +66,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
+HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
 CASES = "cases"  # in a question, the numbers of the cases of its plots
 HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
@@ -204,10 +206,22 @@ class _Writer:
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
         known = {*self.problem.dimensions, *moving, *(rate(q, order) for q in moving for order in (1, 2))}
-        letters = wanting(whole, {*self.numbers, *self.clauses.told}, self.derivation.steps, known)
+        steps = sorted(self.derivation.steps, key=lambda step: self.problem.show.get(step.key) == HIDDEN_STEP)
+        letters = wanting(whole, {*self.numbers, *self.clauses.told}, steps, known)
         numbers = (references_in(whole) | self.references.named) & set(self.symbols) - set(self.numbers)
         could_stand = self.selection.could_stand
-        return set(filter(could_stand, letters)), set(filter(could_stand, numbers))
+        defined = set(filter(could_stand, letters)) | set(filter(self._can_be_defined, letters))
+        return defined, set(filter(could_stand, numbers))
+
+    def _can_be_defined(self, key: str) -> bool:
+        """Return whether a clause may define the symbol of a step that the author hides: no text of the author contains
+        the symbol."""
+        step = self.derivation.step(key)
+        if self.problem.show.get(key) != HIDDEN_STEP or not self.clauses.can_define(step):
+            return False
+        texts = self.problem.texts
+        said = {name for prose in texts for formula in prose.formulas for name in formula.names}
+        return not {step.symbol.name, key} & {*said, *(each.name for prose in texts for each in prose.mentions)}
 
     def without_number(self, document: Document) -> list[Complaint]:
         """Return an error for each hidden equation to which the sentence of another step refers."""
@@ -350,7 +364,9 @@ class _Writer:
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
         """
         mode = self.problem.show.get(step.key, "")
-        if mode == "hidden" and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
+        if mode == HIDDEN_STEP and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
+            if step.key in self.selection.needed.letters:
+                self.clauses.define_at_use(step)
             return
         if step.key not in self.asked and step.display.repeats in self.numbers:
             self.numbers[step.key] = self.numbers[step.display.repeats]
@@ -361,7 +377,7 @@ class _Writer:
                 said = pointed_out(self._phrase(step), step, self.selection.having_it(step), self.words)
                 self.clauses.point_out(step, said)
             return
-        nodes = (Chain(),) if goes_on or mode == "hidden" or step.key == self.told_before else self._phrase(step)
+        nodes = (Chain(),) if goes_on or mode == HIDDEN_STEP or step.key == self.told_before else self._phrase(step)
         nodes = (*self.theorems.before(step), *nodes)
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
@@ -438,7 +454,7 @@ class _Writer:
         own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
-            nodes = self._told(prose.pieces, own, self.formulas.in_solution)
+            nodes = self._told(prose.pieces, own, partial(self.formulas.in_solution, key=step.key))
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""

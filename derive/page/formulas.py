@@ -28,6 +28,7 @@ from derive.course.transcript import Transcript
 from derive.errors import Complaint, Rejected
 from derive.page.wording import Math, Text
 from derive.steps.chain import short
+from derive.steps.homogeneity import variables_of_integrals
 from derive.steps.step import Step, is_zero
 from derive.steps.trial_numbers import assumptions_about, everywhere, trial_points
 
@@ -62,6 +63,8 @@ class Formulas:
 
     known   the dimensions of all symbols of the page; None for a symbol whose dimension is unknown
     steps   the steps of the page
+
+    A formula of the solution may also contain the variables of integration of the steps.
     """
 
     def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None], steps: Iterable[Step] = ()):
@@ -80,19 +83,30 @@ class Formulas:
             symbol: values for symbol, values in results.items() if symbol in unknown or symbol not in self.given
         }
         self.given -= self.results.keys()
+        self.integrated = {step.key: variables_of_integrals(step, known) for step in steps}
+        for name in (name for variables in self.integrated.values() for name in variables):
+            self.vectors |= {name.name: name} if isinstance(name, MatrixSymbol) else {}
+            self.scalars |= {name} if isinstance(name, Symbol) else set()
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
 
-    def in_solution(self, formula: TexFormula) -> Math | Text:
-        """Return a formula of the solution, which must agree with the results of the page."""
-        return self.node(formula, is_of_solution=True)
+    def in_solution(self, formula: TexFormula, key: str = "") -> Math | Text:
+        """Return a formula of the solution, which must agree with the results of the page.
 
-    def node(self, formula: TexFormula, is_of_solution: bool = False) -> Math | Text:
-        """Return the formula for the page; if it cannot be printed, its characters as text."""
+        key     the step whose `wording:` contains the formula, if any; a letter that several integrals use has the
+                dimension that it has in this step
+        """
+        return self.node(formula, self._with_variables(key))
+
+    def node(self, formula: TexFormula, of_solution: Mapping[str, Declared] | None = None) -> Math | Text:
+        """Return the formula for the page; if it cannot be printed, its characters as text.
+
+        of_solution     the letters that the formula may contain, if it belongs to the solution
+        """
         from derive.course.latex.quoting import quoted_formula  # imported here, because few problems need it
 
         try:
-            read = self._read(formula, is_of_solution)
+            read = self._read(formula, of_solution)
         except Rejected as error:
             is_printable = self._complain(formula, error.complaints)
             return Math(Transcript(quoted_formula(formula.tex))) if is_printable else Text(formula.tex)
@@ -103,22 +117,31 @@ class Formulas:
         vectors = [vector for name, vector in self.vectors.items() if name in letters]
         return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
 
+    def _with_variables(self, key: str) -> Mapping[str, Declared]:
+        """Return the symbols that a formula of the solution may contain, with the variables of integration."""
+        found: dict[Any, Dimension | None] = {}
+        for variables in self.integrated.values():
+            for name, dimension in variables.items():
+                found[name] = dimension if found.get(name, dimension) == dimension else None
+        return {**_by_name({**found, **self.integrated.get(key, {})}), **self.letters}
+
     def _letter(self, symbol: Symbol, is_vector: bool) -> Any:
         """Return a lone letter as the page prints it. The result is the vector of that name if the author wrote a
         vector, or if no scalar has the name."""
         vector = self.vectors.get(symbol.name)
         return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
-    def _read(self, formula: TexFormula, is_of_solution: bool) -> ReadMath:
+    def _read(self, formula: TexFormula, of_solution: Mapping[str, Declared] | None) -> ReadMath:
         from derive.course.latex import read_latex
         from derive.course.latex.quoting import Unquotable, quoted_formula
 
+        letters = self.letters if of_solution is None else of_solution
         try:
-            read = read_latex(formula.scalar, self.letters, in_prose=True)
+            read = read_latex(formula.scalar, letters, in_prose=True)
         except Rejected as error:
             if not self.unknown or error.complaints[0].code != "dimension":
                 raise
-            read = read_latex(formula.scalar, self.letters, in_prose=True, homogeneous=False)
+            read = read_latex(formula.scalar, letters, in_prose=True, homogeneous=False)
             if not self._has_unknown(read):
                 raise
         else:
@@ -126,7 +149,7 @@ class Formulas:
                 if not self._has_unknown(read):
                     _compare(left, right)
                 self._check_number(left, right, mark)
-                if is_of_solution and mark == "=":
+                if of_solution is not None and mark == "=":
                     self._check_result(left, right)
                     self._check_result(right, left)
                     self._check_equation(left, right)
@@ -260,12 +283,17 @@ def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[st
     and time."""
     found: dict[str, Declared] = {axis: Declared(axis, scalar(axis), "length") for axis in AXES}
     found[TIME.name] = Declared(TIME.name, TIME, "time")
-    for vector in (symbol for symbol in known if isinstance(symbol, MatrixSymbol)):
-        found[vector.name] = _derived(Symbol(vector.name, real=True), known[vector])
-    found.update({symbol.name: _derived(symbol, known[symbol]) for symbol in known if isinstance(symbol, Symbol)})
+    found.update(_by_name(known))
     found.update({each.name: each for each in problem.letters})
     variants = {f"var{name}": found[name] for name in found if name.partition("_")[0] in _VARIANTS}
     return {**variants, **found}
+
+
+def _by_name(known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
+    """Return the scalars, and the vectors whose names no scalar has, by name."""
+    vectors = [symbol for symbol in known if isinstance(symbol, MatrixSymbol)]
+    found = {each.name: _derived(Symbol(each.name, real=True), known[each]) for each in vectors}
+    return {**found, **{each.name: _derived(each, known[each]) for each in known if isinstance(each, Symbol)}}
 
 
 def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:

@@ -73,6 +73,7 @@ def wanting(shown: Any, told: Set[str], steps: Iterable[Step], known: Collection
 
     shown   the piece of the page
     told    keys of the steps that the page explains
+    steps   the steps that the page may explain
     known   symbols of inputs, and coordinates with their rates
     """
     sources: dict[Any, list[str]] = {}

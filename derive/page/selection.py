@@ -149,7 +149,7 @@ class Selection:
             manner = LEFT_OUT
         for _ in range(self.needed.letters.get(step.key, 0)):
             manner = LESS[manner]
-        return OWN if manner is TOLD and not _is_short(step) else manner
+        return OWN if manner is TOLD and not is_short(step) else manner
 
     def _only_for_quoted(self, steps: Sequence[Step]) -> set[str]:
         """Return the steps on which only quoted results depend, such as the density for a quoted moment of inertia."""
@@ -205,7 +205,7 @@ class Selection:
         return tuple(form for form in step.chain[:-1] if level.shows(form.level)) + step.chain[-1:]
 
 
-def _is_short(step: Step) -> bool:
+def is_short(step: Step) -> bool:
     """Return whether the step has a symbol and a result that is short enough for a sentence: `rho = M/V`."""
     value = step.result
     if step.symbol is None or isinstance(value, Relation | MatrixBase) and not _is_row(value):

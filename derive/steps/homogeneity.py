@@ -7,7 +7,7 @@ other dimension.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 from zlib import crc32
@@ -33,7 +33,7 @@ from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension, exponents, power, product
 from derive.algebra.equality import Grade
 from derive.algebra.kinds import Inhomogeneous, common, dimension_of_kind, kind_with_article
-from derive.algebra.mass_integral import dimensions_of_variables
+from derive.algebra.mass_integral import MassIntegral, dimensions_of_variables
 from derive.algebra.node import DimensionOf, Node
 from derive.errors import Complaint, Place, Rejected
 from derive.steps.step import Step
@@ -125,6 +125,41 @@ def dimension_table(
         table.update(local)
         table.update(_names_of(step, dimension))
     return table, complaints
+
+
+def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) -> Table:
+    """Return the dimensions of the variables in the integrals of a step: the variables of integration, and the vector
+    r of an integral over the mass. If two integrals give a variable different dimensions, its dimension is None.
+
+    table   the dimensions of the other names in the lines of the step
+    """
+    found: Table = {}
+    for form in step.chain:
+        for name, dimension in _variables_in(form.expr, table):
+            found[name] = dimension if found.get(name, dimension) == dimension else None
+    return found
+
+
+def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[tuple[Any, Dimension | None]]:
+    """Yield the variables of the integrals in an expression; an integral over the mass does not print the coordinates
+    of its region."""
+
+    def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
+        return dimension_of(part, {**table, **variables} if variables else table)
+
+    inner: Table = {}
+    if isinstance(expr, MassIntegral):
+        r = expr.args[1]
+        yield r, expr.dimensions_inside(of)[r]
+        return
+    if isinstance(expr, Integral):
+        inner = dimensions_of_variables(expr.limits, of)
+    elif isinstance(expr, ex.Bracket):
+        _, x, *limits = expr.args
+        inner = {x: common(limits, of)}
+    yield from inner.items()
+    for part in expr.args:
+        yield from _variables_in(part, {**table, **inner} if inner else table)
 
 
 def _moving_names(step: Step) -> Table:

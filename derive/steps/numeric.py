@@ -321,10 +321,11 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 def is_plain(answer: Quantity) -> bool:
     """Whether the number of an answer is clearer unchanged than in decimals: a rational number, pi/2, the square root
-    of an integer, or 2 pi in front of symbols."""
+    of an integer, or 2 pi in front of symbols; for a vector, also the square roots of rational numbers, such as
+    1/sqrt(2)."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
-        return all(_is_plain_number(entry) for entry in value)
+        return all(_is_plain_number(entry) or (entry**2).is_Rational for entry in value)
     number, _ = value.as_independent(*value.free_symbols, as_Add=False)
     return _is_plain_number(number)
 

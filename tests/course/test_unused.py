@@ -52,6 +52,11 @@ def test_what_a_description_says_without_effect_is_a_warning(
         [("  gravity: g\n", "  gravity: g\n  at: {theta: 0}\n"), ("answer: equations_of_motion", "answer: frequency")],
         [("l: length,", "l: length, b: length,"), ("parts:", "limits: [{of: motion_theta, letter: b}]\nparts:")],
         [("l: length,", "l: length, b: length,"), ("[l*sin(theta), -l*cos(theta)]", "[b*sin(theta), -l*cos(theta)]")],
+        [("l: length,", "l: length, b: length,"), ("statement: A bob.", "statement: A bob.\nnote: If $b = 2l$.")],
+        [
+            ("l: length,", "l: length, b: length,"),
+            ("statement: A bob.", "statement: A bob.\nwording: {motion_theta: 'For $b = 2l$, <<chain>>'}"),
+        ],
     ],
 )
 def test_what_is_used_somewhere_is_not_told_of(edits: list[tuple[str, str]], tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from derive.mechanics import (
     torque,
     vector_component,
 )
-from derive.steps.step import Quantity
+from derive.steps.step import Level, Quantity
 
 A, B, C, a, M, p, r = symbols("A B C a M p r", positive=True)
 
@@ -78,6 +78,19 @@ def test_one_component_of_a_vector() -> None:
     _, _, L = free(A, B, C, omega=(p, 0, r))
     assert [vector_component(L, axis, key=f"L_{axis}").value for axis in "xyz"] == [A * p, 0, C * r]
     assert vector_component(L, "z", key="again").symbol.name == "L_z"
+
+
+def test_a_component_with_the_symbol_of_its_vector_has_its_value_as_the_only_line() -> None:
+    """L_z = (L)_z would only rename it; v_z = (L)_z says more."""
+    _, _, L = free(A, B, C, omega=(p, 0, r))
+    lines = {
+        symbol: [
+            form.expr for form in vector_component(L, "z", symbol, "own").step.chain if form.level is not Level.FULL
+        ]
+        for symbol in (None, "v")
+    }
+    assert lines[None] == [C * r]
+    assert len(lines["v"]) == 2
 
 
 @pytest.mark.parametrize("moments", [(A, B, C), (A, A, A)])

@@ -189,6 +189,18 @@ def test_a_joint_that_pulls_at_the_wrong_point_is_refused(tmp_path: Path, monkey
         solved(tmp_path, RODS)
 
 
+def test_in_a_plane_the_force_of_a_joint_has_no_component_r_z(tmp_path: Path) -> None:
+    """So R_z may be another symbol of the problem."""
+    declared = edited(RODS, ("g: acceleration}", "g: acceleration, R_z: spring constant}"))
+    with_spring = edited(
+        declared, ("  gravity: g\n", "  gravity: g\n  springs: {constant: R_z, from: [0, 0], to: [x, y]}\n")
+    )
+    energy = solved(tmp_path, with_spring)["potential_energy"].value
+    assert "R_z" in {letter.name for letter in energy.free_symbols}
+    with pytest.raises(DeriveError, match="`R_y`"):
+        solved(tmp_path, with_spring.replace("R_z", "R_y"))
+
+
 RODS = """\
 title: Two rods
 solve: system

@@ -10,7 +10,15 @@ from hypothesis import strategies as st
 from sympy import Expr, Matrix, Rational, diag, eye, symbols, zeros
 
 from derive.errors import Rejected
-from derive.mechanics import Cuboid, Rod, centre_of_mass, inertia_tensor, moved_from_centre, moved_to
+from derive.mechanics import (
+    Cuboid,
+    Rod,
+    centre_of_mass,
+    inertia_tensor,
+    moment_of_inertia,
+    moved_from_centre,
+    moved_to,
+)
 from derive.mechanics.rotation.claims import is_standard_moment
 from derive.steps.rule import Judged
 from derive.steps.subject import Subject
@@ -157,6 +165,12 @@ def test_a_tensor_that_is_already_about_the_centre_is_not_moved() -> None:
 def test_an_unknown_point_is_refused() -> None:
     with pytest.raises(Rejected, match='a cuboid has no point "top"'):
         inertia_tensor(Cuboid((a, b, c), M), about="top")
+
+
+def test_a_moment_about_an_axis_that_does_not_exist_is_rejected() -> None:
+    with pytest.raises(Rejected, match='about "x", "y" or "z", not about "w"') as refused:
+        moment_of_inertia(Cuboid((a, b, c), M), "w")
+    assert [each.code for each in refused.value.complaints] == ["no-such-axis"]
 
 
 @pytest.mark.parametrize(

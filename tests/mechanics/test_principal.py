@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -9,7 +10,7 @@ from sympy import Integer, Matrix, eye, simplify, sqrt, symbols, zeros
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
-from derive.errors import Rejected
+from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Cone,
     Cuboid,
@@ -22,7 +23,10 @@ from derive.mechanics import (
     principal_moments,
 )
 from derive.mechanics.bodies.body import Body
+from derive.mechanics.rotation import principal
 from derive.mechanics.rotation.principal import PrincipalOf
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import in_one_line
 from tests.mechanics.round_bodies import M, R, a, h
 
 b, c = symbols("b c", positive=True)
@@ -64,6 +68,44 @@ def test_a_cube_about_its_corner_has_a_sixth_about_the_diagonal_and_eleven_twelf
 def test_roots_come_in_increasing_order() -> None:
     moments = moments_of(Plate((a, 2 * a), M), "corner").value.subs({a: 1, M: 1})
     assert sorted(moments, key=float) == list(moments)
+
+
+@pytest.mark.parametrize(
+    ("body", "polynomial"),
+    [
+        (
+            Plate((a, b), M),
+            lambda x: (M * (a**2 + b**2) / 3 - x) * ((M * b**2 / 3 - x) * (M * a**2 / 3 - x) - (M * a * b / 4) ** 2),
+        ),
+        (Cuboid((a, a, a), M), lambda x: (M * a**2 / 6 - x) * (11 * M * a**2 / 12 - x) ** 2),
+        (
+            Cuboid((a, a, 2 * a), M),
+            lambda x: (23 * M * a**2 / 12 - x) * (x**2 - 25 * M * a**2 * x / 12 + 4 * M**2 * a**4 / 9),
+        ),
+    ],
+)
+def test_the_characteristic_equation_is_stated_with_its_factors(body: Body, polynomial: Callable[[Any], Any]) -> None:
+    (told,) = [formula for role, formula in moments_of(body, "corner").step.roles if role == "equation"]
+    (determinant, product), zero = told.left.sides, told.right
+    (unknown,) = explicit(product).free_symbols - {M, a, b}
+    assert zero == 0 and simplify(explicit(product) - polynomial(unknown)) == 0
+    assert in_one_line(Notation().layout(determinant)) == "det(J⃡ - λ 1⃡)"
+
+
+def test_a_wrong_characteristic_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = principal._characteristic_equation
+
+    def wrong(inertia: Any, roots: Any) -> Relation:
+        return right(inertia, [2 * root for root in roots])
+
+    monkeypatch.setattr(principal, "_characteristic_equation", wrong)
+    with pytest.raises(Unverified, match="`equation`"):
+        moments_of(Cuboid((a, a, a), M), "corner")
+
+
+def test_a_principal_axis_along_a_coordinate_axis_is_written_without_roots() -> None:
+    axes = principal_axes(moments_of(Plate((a, b), M), "corner"))
+    assert list(axes[2].value) == [0, 0, 1]
 
 
 def test_a_cubic_without_a_rational_factor_is_refused() -> None:

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.solution import rendered
 from derive.page.clauses import Clauses
 from derive.page.wording import Inline, Math, Text, phrases
 from derive.steps.step import Step
 from tests.courses import ROOT, course_in, solved_once
+from tests.stock.described import course_with
 
 WORDS = phrases(ROOT / "templates")
 
@@ -64,3 +66,64 @@ def test_each_clause_has_its_definition_or_points_to_one() -> None:
             assert "<<definition>>" in phrase or "<<shown>>" in phrase, (rule, outcome)
             assert outcome in WORDS.rules[rule]
     assert Path(ROOT / "templates" / "phrases").is_dir()
+
+
+ROD = """\
+title: A rod as a pendulum
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  bodies: {rod: {shape: rod, length: l, mass: m, from: [0, 0], along: [sin(theta), -cos(theta)]}}
+  gravity: g
+statement: A rod.
+show: {moment_of_inertia: hidden}
+parts:
+  - ask: Find the kinetic energy.
+    answer: kinetic_energy
+"""
+
+
+@pytest.mark.parametrize("detail", ["brief", "standard", "full"])
+def test_the_symbol_of_a_hidden_step_is_defined_where_it_is_used(tmp_path: Path, detail: str) -> None:
+    text = rendered(course_with(tmp_path, ROD), "trial/one", detail, only={"text"}).texts["text"]
+    assert "where I = 1/3 m l²." in text
+
+
+def test_a_symbol_that_the_author_introduces_is_not_defined_again(tmp_path: Path) -> None:
+    told = ROD + "wording: {kinetic_energy: 'With $I = ml^2/3$ about its end, <<chain>>'}\n"
+    text = rendered(course_with(tmp_path, told), "trial/one", only={"text"}).texts["text"]
+    assert "With I = m l²/3 about its end," in text and "where I" not in text
+
+
+THIN_ROD = """\
+title: A rod on a shaft
+solve: rotation
+symbols: {l: length, M: mass, alpha: angle, omega: angular speed}
+given:
+  body: {shape: rod, length: l, mass: M}
+  rate: omega
+  along: [sin(alpha), 0, cos(alpha)]
+statement: A rod.
+show: {inertia_tensor_definition: hidden}
+parts:
+  - ask: Find the torque.
+    answer: torque
+"""
+
+
+@pytest.mark.parametrize("detail", ["brief", "standard"])
+def test_if_the_first_step_with_a_symbol_is_hidden_another_one_introduces_it(tmp_path: Path, detail: str) -> None:
+    text = rendered(course_with(tmp_path, THIN_ROD), "trial/one", detail, only={"text"}).texts["text"]
+    assert "I⃡ = 1/12 M l²" in text
+
+
+def test_a_moment_without_a_step_has_the_symbol_of_an_equal_moment(tmp_path: Path) -> None:
+    text = rendered(course_with(tmp_path, THIN_ROD), "trial/one", "full", only={"text"}).texts["text"]
+    assert "((I_zz - I_xx) ω_y ω_z, (I_xx - I_zz) ω_z ω_x, 0)" in text
+
+
+def test_a_hidden_tensor_is_defined_by_its_meaning(tmp_path: Path) -> None:
+    hidden = THIN_ROD.replace("definition: hidden}", "definition: hidden, inertia_tensor: hidden}")
+    text = rendered(course_with(tmp_path, hidden), "trial/one", only={"text"}).texts["text"]
+    assert "I⃡ is the inertia tensor about the centre" in " ".join(text.split())

@@ -17,7 +17,7 @@ from derive.course.problem import Problem, load_problem
 from derive.course.prose import TexFormula
 from derive.course.transcript import Transcript
 from derive.course.yaml_tree import Scalar, Source
-from derive.errors import Complaint
+from derive.errors import Complaint, DeriveError
 from derive.page.document import document_of
 from derive.page.formulas import Formulas
 from derive.page.hints import with_hints
@@ -252,3 +252,45 @@ def test_a_ratio_of_roots_of_sums_is_compared_at_trial_numbers(tmp_path: Path) -
     wrong = edited(DOUBLE, ("1 + ", "2 + "))
     (warning,) = rendered(course_with(tmp_path / "wrong", wrong), "trial/one", only={"text"}).warnings
     assert warning.code == "differs-from-result"
+
+
+CYLINDER = """\
+title: A cylinder
+solve: body
+symbols: {a: length, h: length, m: mass}
+given:
+  body: {shape: cylinder, radius: a, height: h, mass: m}
+  about: base
+statement: A solid cylinder.
+strategy: Cut it into rings of radius $r$.
+wording:
+  inertia_tensor: 'With $y = r\\sin\\theta$ and $r < a$, <<chain>>'
+parts:
+  - ask: Find the tensor.
+    answer: inertia_tensor
+"""
+WORDING = r"With $y = r\sin\theta$ and $r < a$, <<chain>>"
+
+
+def test_the_solution_may_mention_variables_of_integration(tmp_path: Path) -> None:
+    page = rendered(course_with(tmp_path, CYLINDER), "trial/one", only={"text"})
+    assert "Cut it into rings of radius r." in page.texts["text"]
+    assert "With y = r sin θ and r < a," in page.texts["text"]
+    assert not page.warnings
+
+
+@pytest.mark.parametrize(
+    ("edit", "code", "message"),
+    [
+        ((r"$r < a$", r"$r < m$"), "dimension", "`r` is a length, but `m` is a mass: they cannot be compared"),
+        ((r"$r < a$", r"$\theta < a$"), "dimension", r"`\theta` is a number, but `a` is a length"),
+        (("A solid cylinder.", r"Let $r < a$."), "undeclared-symbol", "`r` is not declared"),
+        ((r"$r < a$", r"$s < a$"), "undeclared-symbol", "`s` is not declared"),
+    ],
+)
+def test_a_variable_of_integration_has_its_dimension_and_belongs_to_the_solution(
+    tmp_path: Path, edit: tuple[str, str], code: str, message: str
+) -> None:
+    with pytest.raises(DeriveError) as refused:
+        rendered(course_with(tmp_path, edited(CYLINDER, edit)), "trial/one", only={"text"})
+    assert [(each.code, message in each.message) for each in refused.value.complaints] == [(code, True)]

@@ -14,7 +14,7 @@ from derive.algebra import expressions as ex
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.kinds import Inhomogeneous, dimension_of_kind
 from derive.steps.establish import Lines, establish
-from derive.steps.homogeneity import dimension_of, dimension_table
+from derive.steps.homogeneity import dimension_of, dimension_table, variables_of_integrals
 from derive.steps.step import Form, Quantity, Step
 from tests.mechanics import slab
 from tests.mechanics.block import M, a, known_block, omega
@@ -182,3 +182,18 @@ def test_dimensions_multiply_as_their_quantities_do(first: tuple[Any, ...], seco
     assert dimension_of(ex.Factors(p, q), TABLE) == dimensions[0] * dimensions[1]
     assert dimension_of(ex.Ratio(p, q), TABLE) == dimensions[0] / dimensions[1]
     assert dimension_of(ex.Root(p * q), TABLE) == (dimensions[0] * dimensions[1]) ** Fraction(1, 2)
+
+
+def test_a_variable_of_integration_has_the_dimension_of_its_limits() -> None:
+    r, phi = ex.scalar("r"), ex.scalar("phi")
+    over_both = Integral(M * r / a**2, (r, 0, a), (phi, 0, 2 * pi))
+    (step,) = steps_of(made(ex.explicit(over_both), None, over_both))
+    assert variables_of_integrals(step, DECLARED) == {r: LENGTH, phi: NUMBER}
+
+
+def test_a_variable_of_two_integrals_with_different_dimensions_has_no_dimension() -> None:
+    u = ex.scalar("u")
+    sum_of_both = ex.explicit(Integral(u, (u, 0, a))) / a**2 + ex.explicit(Integral(u, (u, 0, 1)))
+    lines = Integral(u, (u, 0, a)) / a**2 + Integral(u, (u, 0, 1))
+    (step,) = steps_of(made(sum_of_both, None, lines))
+    assert variables_of_integrals(step, DECLARED) == {u: None}

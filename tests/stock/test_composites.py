@@ -10,6 +10,8 @@ from sympy import Rational, symbols
 from derive.algebra.equality import equal
 from derive.building.solution import rendered
 from derive.errors import DeriveError
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import in_one_line
 from tests.stock.described import complaints, course_with, edited, solved
 
 g, l, m, M, R = symbols("g l m M R", positive=True)
@@ -140,3 +142,27 @@ parts:
     assert "the origin at the centre of mass" in " ".join(
         rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"].split()
     )
+
+
+DUMBBELL = """\
+title: A dumbbell
+solve: body
+symbols: {R: length, l: length, M: mass, m: mass}
+given:
+  body:
+    parts:
+      stick: {shape: rod, length: l, mass: m, at: [0, 0, -l/2]}
+      ball: {shape: ball, radius: R, mass: M, at: [0, 0, -l - R]}
+    points: {pivot: [0, 0, 0]}
+  about: pivot
+statement: A dumbbell.
+parts:
+  - ask: Find the moment about a horizontal axis.
+    answer: moment_of_inertia_x
+"""
+
+
+def test_distances_of_parallel_axes_are_written_without_minus_signs(tmp_path: Path) -> None:
+    moment = solved(tmp_path, DUMBBELL)["moment_of_inertia_x"].step.chain[0].expr
+    text = in_one_line(Notation().layout(moment))
+    assert "(l/2)²" in text and "(R + l)²" in text

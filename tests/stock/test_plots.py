@@ -54,6 +54,32 @@ def test_a_plot_that_is_added_after_a_build_is_drawn(tmp_path: Path) -> None:
     assert '"key": "energy"' in second.texts["json"]
 
 
+ROTATING_ROD = """\
+title: A bob on a rotating rod
+solve: system
+symbols: {m: mass, g: acceleration, l: length, omega: angular speed}
+given:
+  coordinates: {theta: angle}
+  axes: {B: [{z: omega*t}]}
+  particles: {bob: {mass: m, at: {in: B, by: [l*sin(theta), 0, -l*cos(theta)]}}}
+  gravity: g
+  results:
+    circle: {put_in: motion_theta, values: {theta: pi/3, theta_ddot: 0}}
+    field: {roots: circle, for: g, symbol: g_0}
+values: {m: 1 kg, l: 1 m}
+statement: A bob of mass <<m>> on a light rod of length <<l>> that rotates at the rate <<omega>>.
+parts: [{ask: 'For which $g$ is the bob at rest on the rod?', answer: field}]
+drawings: {curve: {plot: field, against: omega, range: [1 rad/s, 3 rad/s]}}
+"""
+
+
+def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> None:
+    run = Run()
+    run_solve(loaded(tmp_path, ROTATING_ROD), run)
+    (curve,) = (each for each in run.drawings if isinstance(each, Plot))
+    assert (str(curve.label), curve.kind, curve.unit_up) == ("g_0", "number", "m/s^2")
+
+
 @pytest.mark.parametrize(
     ("edits", "said"),
     [

@@ -188,9 +188,15 @@ def _of_whole(called: str) -> dict[str, str]:
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
-    """Return the squared distance of a point from axis k, as a sum of squares of the other components."""
-    squares = [Pow(x, 2, evaluate=not x.is_Mul) for i, x in enumerate(way) if i != k and x != 0]
+    """Return the squared distance of a point from axis k, as a sum of squares of the other components; a component
+    without a positive term is replaced by its negative: (R + l)^2 in place of (-R - l)^2."""
+    sizes = [-x if _is_all_negative(x) else x for i, x in enumerate(way) if i != k and x != 0]
+    squares = [Pow(x, 2, evaluate=not x.is_Mul) for x in sizes]
     return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)
+
+
+def _is_all_negative(x: Expr) -> bool:
+    return all(term.as_coeff_Mul()[0].is_negative for term in Add.make_args(x))
 
 
 def _squared_distance(r: ImmutableMatrix, k: int) -> Expr:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from math import prod
 from typing import Any
 
 from sympy import (
@@ -118,6 +119,17 @@ ROUND_TENSORS = {"round": tensor(2, round_body=True), "round_isotropic": tensor(
 
 def moments(different: int, diagonal: bool) -> Predicate:
     return lambda facts: _different(facts.result) == different and _products_vanish(facts.inputs["inertia"]) == diagonal
+
+
+def characteristic_equation(facts: Judged, equation: Any) -> bool:
+    """Whether the equation is det(I - x 1) = p(x) = 0 for the tensor I, and the moments are the roots of p."""
+    (determinant, polynomial), zero = equation.left.sides, equation.right
+    unknown = next(iter(determinant.args[0].free_symbols - {facts.quantities["inertia"].symbol}))
+    tensor = Matrix(explicit(facts.inputs["inertia"]))
+    named = determinant.args[0].xreplace({facts.quantities["inertia"].symbol: ImmutableDenseMatrix(tensor)})
+    is_matrix = is_zero(explicit(named) - (tensor - unknown * Matrix.eye(3)))
+    product = prod(moment - unknown for moment in explicit(facts.result))
+    return zero == 0 and is_matrix and bool(is_zero((explicit(polynomial) - product).expand()))
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:

@@ -242,13 +242,13 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     i = AXES.index(axis)
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
-    says_nothing = letter == component_names(of.symbol.name)[i]  # y_C = (r_C)_y
+    only_renames = letter == component_names(of.symbol.name)[i]  # omega_z is another name of the component of omega
     return establish(
         VECTOR_COMPONENT,
         letter,
         lambda v: Component(v, axis),
         {"vector": of},
-        lines=Lines(law=Level.FULL if says_nothing else Level.BRIEF, put_in=None),
+        lines=Lines(put_in=None, law=Level.FULL if only_renames else Level.BRIEF),
         routes={"turned": compared_with(lambda: (turned * explicit(of.value))[0, 0])},
         outcome=lambda value: "zero" if is_zero(value) else "generic",
         key=key or f"{of.key}_{axis}",

@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from sympy import Expr, Identity, ImmutableDenseMatrix, Integer, MatAdd, MatrixBase, MatrixSymbol, cos, sin
 
 from derive.algebra.expressions import (
+    AXES,
     Cross,
     Dot,
     Factors,
@@ -138,9 +139,12 @@ def moment_of_inertia(
     Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
     over its cells.
     The moment of a composite body is derived from its parts.
-    Errors: the body has no such point.
+    Errors: there is no such axis; the body has no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
     """
+    if axis not in AXES:
+        message = f'a moment of inertia is about "x", "y" or "z", not about "{axis}"'
+        raise Rejected(Complaint("no-such-axis", message))
     return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
 
 

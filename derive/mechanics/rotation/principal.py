@@ -6,12 +6,29 @@ plane of their axes is a principal axis; if all three are equal, every axis is a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Poly, Symbol, cos, sin, sqrt
+from sympy import (
+    Expr,
+    Identity,
+    ImmutableDenseMatrix,
+    Integer,
+    MatAdd,
+    MatMul,
+    MatrixBase,
+    MatrixSymbol,
+    Poly,
+    Pow,
+    Symbol,
+    cos,
+    sin,
+    sqrt,
+)
 
-from derive.algebra.expressions import Dot, column, explicit, scalar, vector
+from derive.algebra.amplitudes import Determinant
+from derive.algebra.expressions import Dot, Factors, Relation, Terms, column, explicit, scalar, vector
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.facts import OfBody
@@ -43,6 +60,7 @@ PRINCIPAL_MOMENTS = Rule(
     },
     evidence={"invariants": CHECK, "axis_by_axis": CHECK},
     statements=[claims.vanish_again],
+    named={"equation": claims.characteristic_equation},
     shown=Shown(
         result_in=dict.fromkeys(("isotropic", "two_equal", "distinct"), ("rotation.entry", "rotation.entry_moved"))
     ),
@@ -90,10 +108,59 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
         outcome=_multiplicity if inertia.value.is_diagonal() else _multiplicity_of_roots,
         kind="moment of inertia",
         lines=Lines(put_in=None),
-        phrase_data=PhraseData(words={"seen": "kept" if _was_diagonal(inertia) else "first"}),
+        phrase_data=PhraseData(
+            words={"seen": "kept" if _was_diagonal(inertia) else "first"},
+            named={} if inertia.value.is_diagonal() else {"equation": _characteristic_equation(inertia, roots)},
+        ),
         facts=[*inertia.facts, PrincipalOf(inertia)],
         key=key,
     )
+
+
+def _characteristic_equation(inertia: Quantity, roots: Any) -> Relation:
+    """Return det(I - lambda 1) = product = 0 for a tensor that is not diagonal.
+
+    If one axis is principal, the product has one factor for this axis and one for the plane of the other two axes.
+    Otherwise the polynomial is factored as far as its coefficients permit.
+    """
+    before = [inertia, *inertia.ancestors()]
+    taken = {getattr(letter, "name", "") for each in before for form in each.step.chain for letter in _letters(form)}
+    unknown = scalar(next(name for name in ("lambda", "kappa", "xi") if name not in taken))
+    tensor = inertia.value
+
+    def minus_unknown(moment: Expr) -> Expr:
+        return Terms(moment, -unknown)
+
+    alone = next((k for k in range(3) if all(tensor[k, i] == 0 for i in range(3) if i != k)), None)
+    if alone is not None:
+        i, j = (k for k in range(3) if k != alone)
+        diagonal = _product([minus_unknown(tensor[i, i]), minus_unknown(tensor[j, j])])
+        factors = [minus_unknown(tensor[alone, alone]), Terms(diagonal, -tidied(tensor[i, j] ** 2))]
+    else:
+        plain = [root for root in roots if not _has_root(root)]
+        factors = [minus_unknown(root) for root in plain]
+        if len(plain) == 1:
+            one, other = (root for root in roots if _has_root(root))
+            factors.append(Terms(unknown**2, -tidied(one + other) * unknown, tidied(one * other)))
+    matrix = MatAdd(inertia.symbol, MatMul(-unknown, Identity(3)))
+    return Relation(Relation(Determinant(matrix), "=", _product(factors)), "=", Integer(0))
+
+
+def _letters(form: Any) -> set[Any]:
+    return getattr(form.expr, "free_symbols", set())
+
+
+def _has_root(value: Expr) -> bool:
+    return any(not power.exp.is_Integer for power in value.atoms(Pow))
+
+
+def _product(factors: Sequence[Expr]) -> Expr:
+    """Return the product in this order, with equal factors as a power."""
+    found = [
+        Pow(factor, factors.count(factor), evaluate=False) if factors.count(factor) > 1 else factor
+        for factor in dict.fromkeys(factors)
+    ]
+    return Factors(*found) if len(found) > 1 else found[0]
 
 
 def _was_diagonal(inertia: Quantity) -> bool:
@@ -275,7 +342,12 @@ def _of_low_degree(part: Poly) -> list[Expr]:
 
 def _size(root: Expr) -> tuple[float, str]:
     """Return a sort key: the value with every symbol equal to 1, then the text."""
-    return float(root.subs(dict.fromkeys(root.free_symbols, 1))), str(root)
+    return _number(root), str(root)
+
+
+def _number(value: Expr) -> float:
+    """Return the value with every symbol equal to 1."""
+    return float(value.subs(dict.fromkeys(value.free_symbols, 1)))
 
 
 def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
@@ -300,7 +372,7 @@ def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
 
     The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. If two moments
     are equal, the first of their eigenvectors is any unit vector perpendicular to the eigenvector of the third moment.
-    The last eigenvector is the vector product of the other two.
+    The last eigenvector has the direction of the vector product of the other two.
     """
     alone = lone_moment(moments)
     first = alone if alone is not None else 0
@@ -311,6 +383,9 @@ def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
     else:
         frame[i] = _unit(next(v for v in (_across(frame[first], a) for a in range(3)) if not is_zero(v)))
     frame[j] = ImmutableDenseMatrix(frame[first].cross(frame[i]).applyfunc(tidied))
+    if alone is None:
+        last = _null_vector(tensor, moments[j])
+        frame[j] = last if _number(last.dot(frame[j])) > 0 else -last
     return [frame[k] for k in range(3)]
 
 

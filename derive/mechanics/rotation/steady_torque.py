@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sympy import MatAdd
+from typing import Any
+
+from sympy import Integer, MatAdd
 
 from derive.algebra.expressions import (
     AXES,
@@ -97,13 +99,25 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
     """Return the line ((I_z - I_y) omega_y omega_z, ...) along principal axes: Euler's equations without omega_dot. The
-    list is empty if the axes are not principal axes."""
+    list is empty if the axes are not principal axes.
+
+    A moment without a step of its own has the symbol of an equal moment; without such a moment, all moments are
+    replaced by their values.
+    """
     if not inertia.value.is_diagonal():
         return []
-    named = {parent.key[-2:]: parent.symbol for parent in _moments(inertia)}
-    I = [named.get(axis * 2, inertia.value[k, k]) for k, axis in enumerate(AXES)]
+    named = {parent.key[-2:]: parent for parent in _moments(inertia)}
+    letters = {parent.value: parent.symbol for parent in named.values()}
+    values = [inertia.value[k, k] for k in range(3)]
+    I: list[Any] = [
+        named[axis * 2].symbol if axis * 2 in named else letters.get(m) for axis, m in zip(AXES, values, strict=True)
+    ]
+    I = values if None in I else I
     w = component_names(omega.symbol.name)
-    parts = [Factors(Terms(I[k - 1], -I[k - 2]), w[k - 2], w[k - 1]) for k in range(3)]
+    parts = [
+        Factors(Terms(I[k - 1], -I[k - 2]), w[k - 2], w[k - 1]) if I[k - 1] != I[k - 2] else Integer(0)
+        for k in range(3)
+    ]
     return [Form(column(*parts), "euler")]
 
 

@@ -275,6 +275,9 @@ class Notation:
             return self.list_of(tuple(value))
         return Array(tuple(tuple(self.layout(value[i, j]) for j in range(columns)) for i in range(rows)))
 
+    def _in_determinant(self, value: Any) -> Layout:
+        return self._matrix(value) if isinstance(value, MatrixBase) else Fenced(self.layout(value), "(")
+
     def _matrix_product(self, expr: MatMul) -> Layout:
         scalars = [arg for arg in expr.args if not ex.is_matrix(arg)]
         others = [arg if scalars else present(arg) for arg in expr.args if ex.is_matrix(arg)]
@@ -455,6 +458,6 @@ class Notation:
         (ex.Truncated | Expansion | FirstOrder | SwingTimeOfNumbers, lambda self, expr: self.layout(expr.args[0])),
         (ex.Relation, _relation),
         (Approach, _approach),
-        (Determinant, lambda self, expr: Applied("det", self._matrix(expr.args[0]))),
+        (Determinant, lambda self, expr: Applied("det", self._in_determinant(expr.args[0]))),
         (Amplitudes, lambda self, expr: self._matrix(expr.column)),
     )

@@ -93,7 +93,7 @@ class Plotted:
         """Return the SI unit of an answer: that of its kind, else that of its dimension."""
         if quantity.step.kind:
             return unit_of_kind(quantity.step.kind)
-        return unit_of_dimension(dimension_of_answer(quantity, explicit(quantity.value), self._letters))
+        return unit_of_dimension(dimension_of_answer(quantity, self._letters))
 
     def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
         """Return the letters of an answer, and the error if the letter that varies is not one of them."""

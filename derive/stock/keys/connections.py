@@ -228,7 +228,7 @@ class ContactKeys(Record):
         FRICTION,
     )
 
-    def symbols(self) -> list[Word]:
+    def symbols(self, axes: str) -> list[Word]:
         friction = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
         return [word for word in (self.normal, friction) if word is not None]
 
@@ -241,7 +241,7 @@ class ContactKeys(Record):
             named["rolling"] = True
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
-        forces = tuple(map(str, [*self.symbols(), *self._components(known)]))
+        forces = tuple(map(str, [*self.symbols(known.places.axes_of_motion), *self._components(known)]))
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
     def _name(self) -> str:
@@ -338,7 +338,7 @@ class StringKeys(Record):
         TEXT,
     )
 
-    def symbols(self) -> list[Word]:
+    def symbols(self, axes: str) -> list[Word]:
         return [self.tension] if self.tension is not None else []
 
     def part(self, known: Connected) -> Deferred[Any]:
@@ -377,7 +377,7 @@ class MasslessRodKeys(Record):
         TEXT,
     )
 
-    def symbols(self) -> list[Word]:
+    def symbols(self, axes: str) -> list[Word]:
         return [self.force] if self.force is not None else []
 
     def part(self, known: Connected) -> Deferred[Any]:
@@ -400,18 +400,19 @@ class JointKeys(Record):
         "for a rigid joint in a plane: the symbol of the couple on the body that `of` names", TEXT
     )
 
-    def symbols(self) -> list[Word]:
-        components = [Word.at(f"{self.force}_{axis}", self.force.place) for axis in "xyz"]
+    def symbols(self, axes: str) -> list[Word]:
+        """Return the symbols of the components of the force along these axes, and the symbol of the couple."""
+        components = [Word.at(f"{self.force}_{axis}", self.force.place) for axis in axes]
         return [*components, *([self.torque] if self.torque else [])]
 
     def part(self, known: Connected) -> Deferred[Any]:
         ends = (_end(self.of, known, "of"), _end(self.to, known, "to"))
-        named = {"force": str(self.force)}
-        for word in self.symbols():
+        named, symbols = {"force": str(self.force)}, self.symbols(known.places.axes_of_motion)
+        for word in symbols:
             force_letter(word, known.letters)
         if self.torque:
             named["torque"] = str(self.torque)
-        forces = tuple(map(str, self.symbols()))
+        forces = tuple(map(str, symbols))
         return Deferred(weld if self.torque else pin, ends, named, forces=forces, place=self.places[""])
 
 
@@ -423,7 +424,7 @@ class MotorKeys(Record):
     turns: Tree = key("the value of the angle at each time, `Omega*t`", SCALAR, required=True)
     torque: Word = key("the symbol of the torque of the motor", TEXT, required=True)
 
-    def symbols(self) -> list[Word]:
+    def symbols(self, axes: str) -> list[Word]:
         return [self.torque]
 
     def part(self, known: Connected) -> Deferred[Any]:
@@ -441,7 +442,7 @@ class DashpotKeys(Record):
     start: WrittenPlace = key("one end", PLACE, called="from", required=True)
     end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
 
-    def symbols(self) -> list[Word]:
+    def symbols(self, axes: str) -> list[Word]:
         return []
 
     def part(self, known: Connected) -> Deferred[Any]:

@@ -81,14 +81,18 @@ class Formula:
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)
         mark = Dummy(str(name), real=True, positive=True if value.is_positive else None)
-        return OfKnownDimension(str(name), mark, "", has=dimension_of_answer(quantity, value, self.letters))
+        return OfKnownDimension(str(name), mark, "", has=dimension_of_answer(quantity, self.letters))
 
 
-def dimension_of_answer(quantity: Quantity, value: Expr, letters: Mapping[str, Declared]) -> Dimension:
-    """Return the dimension of the value of an answer; a value of unknown dimension counts as a number."""
+def dimension_of_answer(quantity: Quantity, letters: Mapping[str, Declared]) -> Dimension:
+    """Return the dimension of an answer, or of the right side of a relation; zero counts as a number.
+
+    letters     the symbols of the problem, by name
+    """
     declared = {letter.symbol: letter.dimension for letter in letters.values()}
     table, _ = dimension_table(declared, [q.step for q in with_ancestors([quantity]).values()])
-    return dimension_of(value, table) or Dimension()
+    has = dimension_of(explicit(right_side(quantity.value)), table)
+    return has if has is not None else Dimension()
 
 
 def right_side(value: Any) -> Any:

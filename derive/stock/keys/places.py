@@ -191,6 +191,11 @@ class Places:
         self.on_the_way: list[str] = []
         self.first: tuple[int, str] | None = None  # number of components of the first place, and name of this place
 
+    @property
+    def axes_of_motion(self) -> str:
+        """The axes along which a force has components: without z if the places read so far are in a plane."""
+        return "xyz"[: self.first[0]] if self.first else "xyz"
+
     def all_named(self) -> dict[str, Location | Material]:
         return dict(each([partial(self._with_name, Word.at(n, w.place)) for n, w in self.written.items()]))
 

@@ -222,7 +222,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
     energy = attempted(faults, _value, known.of_kind, written.potential, "potential", "energy")
     if energy is not None:
         parts["acting"] += (Deferred(potential, (energy,), place=written.values_at["potential"]),)
-    brought = _brought(written)
+    brought = _brought(written, places.axes_of_motion)
     attempted(faults, _check_different, brought)
     kept = attempted(faults, _kept, written.conserved, letters, known) or ()
     forces = _multipliers(parts["acting"])
@@ -391,10 +391,13 @@ def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
 
-def _brought(written: SystemKeys) -> list[Word]:
-    """Return the symbols that the description introduces for constraint forces and for constant momenta."""
+def _brought(written: SystemKeys, axes: str) -> list[Word]:
+    """Return the symbols that the description introduces for constraint forces and for constant momenta.
+
+    axes    the axes along which the forces have components
+    """
     forces = [one.force for one in written.constraints]
-    forces += [symbol for one in _connections(written) for symbol in one.symbols()]
+    forces += [symbol for one in _connections(written) for symbol in one.symbols(axes)]
     return [*(force for force in forces if force), *(symbol for symbol, _ in _symbols(written.conserved).values())]
 
 
