@@ -1,6 +1,7 @@
 """A slab that rocks on a fixed cylinder: its stability, its oscillation frequency and the contact force."""
 
-from sympy import S, cos, pi, sin
+from sympy import cos, pi, sin
+from sympy import solve as solve_linear
 
 from derive.figures import arrow, axes, dashed_at, length_mark, plot, point_mark, sketch
 from derive.given import *
@@ -51,8 +52,11 @@ def solve(
         "slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0})
     )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
-    # At rest the friction points uphill for each angle below pi/2, so F is negative there.
-    contact, size = radius * across, 2 / S(5)
-    pushes = arrow(across, contact, size, label=N), arrow(along, contact, size, label=F, is_reversed=True)
+    # The forces are those on the slab when it is released from rest. For each angle below pi/2 the friction points
+    # uphill then, so F is negative. Their lengths are relative to that of the weight, which is 2/5.
+    (start,) = solve_linear(motion.value.left.subs(theta.rate, 0), theta.acceleration)
+    contact, sizes = radius * across, [2 * force / (5 * mass * gravity) for force in (N.value, -F.value)]
+    push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
+    pushes = arrow(across, contact, push, label=N), arrow(along, contact, friction, label=F, is_reversed=True)
     sketch("forces", system, O, C, pushes, weights=True)
     return L, motion, swings, stable, level, minimum, again, N, F
