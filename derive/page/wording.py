@@ -153,8 +153,10 @@ class Phrases:
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
         keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
-        if before is not None and (before.rule, before.outcome, before.words) == (step.rule, step.outcome, step.words):
-            keys.insert(0, f"{step.outcome}{AFTER}{SAME}")
+        if before is not None and (before.rule, before.outcome) == (step.rule, step.outcome):
+            told = of_rule.get(step.outcome, "")
+            words = [{name: word for name, word in each.words if f"<<{name}>>" in told} for each in (before, step)]
+            keys[:0] = [f"{step.outcome}{AFTER}{SAME}"] if words[0] == words[1] else []
         phrase = next((of_rule[key] for key in keys if key in of_rule), None)
         if phrase is None:
             raise Rejected(no_phrase(step.key, step.rule, step.outcome, of_rule))

@@ -158,7 +158,7 @@ def is_taken(name: str) -> bool:
 
 @question
 def result_called(name: str) -> Quantity | None:
-    """Return the earlier result with this symbol; None if there is none."""
+    """Return the earlier result with this symbol, or None."""
     run = current_run.get()
     before = _before_call(run) if run is not None else ()
     return next((quantity for quantity in before if str(quantity.symbol) == name), None)

@@ -51,7 +51,7 @@ def test_a_node_of_ones_own_is_carried_out_compared_measured_and_kept(square: An
 def test_what_a_node_binds_is_no_name_of_its_own() -> None:
     r = ex.vector("r")
     whole = ex.MassIntegral(ex.Outer(r, r), r, a, ex.column(x, 0, 0), Integer(1), Tuple(x, 0, b))
-    assert whole.variables == (x,)
+    assert whole.variables == (r, x)
     assert ex.Bracket(x**2, x, Integer(0), a).variables == (x,)
     assert ex.Factors(x, a).variables == ()
 

@@ -82,15 +82,16 @@ UNEQUAL = edited(
     ("5*k", "K"),
 )
 ROD = """\
-title: A rod on two springs
+title: A rod on an axle, and a mass below its end
 solve: system
 symbols: {m: mass, k: spring constant, l: length, d: length}
 given:
-  coordinates: {y: length, theta: angle}
-  bodies: {bar: {shape: rod, length: 2*l, mass: m, centre: [0, y], along: [cos(theta), sin(theta)]}}
+  coordinates: {theta: angle, y: length}
+  bodies: {bar: {shape: rod, length: 2*l, mass: m, centre: [0, 0], along: [cos(theta), sin(theta)]}}
+  particles: {bob: {mass: m, at: [l, y - d]}}
   springs:
-    - {constant: k, length: d, from: [-l, -d], to: bar.end}
-    - {constant: k, length: d, from: [l, -d], to: bar.far_end}
+    - {constant: k, length: d, from: bob, to: bar.far_end}
+    - {constant: k, length: d, from: [l, -2*d], to: bob}
 statement: A rod.
 parts:
   - ask: Find the modes.
@@ -206,14 +207,14 @@ def test_the_signs_of_two_unequal_masses_are_known_for_all_letters(tmp_path: Pat
 
 
 def test_a_rod_that_only_rotates_has_an_arc(tmp_path: Path) -> None:
-    up, round_ = modes(tmp_path, ROD)
-    ((x, y),) = arrows(up)
-    assert x == 0 < y and up.mode is not None and up.mode.lengths == "alone"
-    (arc,) = (mark for mark in round_.marks if isinstance(mark, RotationArrow))
-    (stroke,) = arc.pieces(OnPaper(Numbers({}), FLAT, 60.0))
-    assert isinstance(stroke, Stroke) and stroke.head
-    assert stroke.spots[0][0] > stroke.spots[-1][0], "counterclockwise above the centre is to the left"
-    assert round_.mode is not None and [each[1:] for each in round_.mode.moves] == [((), "counterclockwise")]
+    together, against = modes(tmp_path, ROD)
+    for mode, way in ((together, 1), (against, -1)):
+        (arc,) = (mark for mark in mode.marks if isinstance(mark, RotationArrow))
+        (stroke,) = arc.pieces(OnPaper(Numbers({}), FLAT, 60.0))
+        assert isinstance(stroke, Stroke) and stroke.head
+        turns = stroke.spots[0][0] - stroke.spots[-1][0]  # a counterclockwise arrow above the centre is to the left
+        ((x, y),) = arrows(mode)
+        assert x == 0 and turns * y * way > 0
 
 
 def test_a_small_displacement_has_a_visible_arrow_and_the_caption_claims_no_sizes(tmp_path: Path) -> None:

@@ -149,7 +149,6 @@ def test_a_step_does_not_use_a_defined_letter(
 @pytest.mark.parametrize(
     ("text", "define", "answer", "said"),
     [
-        (SPRING, "omega_0: sqrt(k/m)", "frequency", "the step `frequency_squared` also uses this symbol"),
         (SPRING, "p_y: m*sqrt(k/m)", "hamiltonian", "also the key of a step"),
         (SPRING, "first: k/m", "first", "also the key of a step"),
         (CONE, "I_1: M*R**2", "principal_moments", "`principal_moments` also uses this symbol"),

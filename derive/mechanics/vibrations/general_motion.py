@@ -70,7 +70,7 @@ class Sought:
     sort        the kind of motion, an outcome of `solution`
     condition   the condition for this kind, if the symbols leave it open
     excluded    the condition against resonance, if there is one
-    particular  a motion under the driving force; 0 if there is none
+    particular  a motion under the driving force, or 0 without a driving force
     proposals   the usual constants of an oscillator
     """
 
@@ -183,7 +183,7 @@ def general_motion(sought: Sought) -> GeneralMotion | None:
 
 
 def _known(sought: Sought, key: str, *rules: Rule) -> Quantity | None:
-    """Return a step that an earlier motion of the same equation needed; None if there is none."""
+    """Return a step that an earlier motion of the same equation needed, or None."""
     found = (each for each in results_of(*(rule.name for rule in rules)) if each.key == key)
     return next((each for each in found if sought.equation in each.parents), None)
 
