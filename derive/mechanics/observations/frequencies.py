@@ -88,7 +88,8 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
     if g not in length.free_symbols:
         worth_it = not isinstance(length, Symbol) and simple(length, 6) and _has_rational_factors(length)
         return ("length", {"length": length}, []) if worth_it else None
-    for step in sorted(
+    defined_first = sorted(view.shown, key=lambda shown: shown.step.rule != defined.QUANTITY.name)
+    for step in defined_first:
         view.shown, key=lambda shown: shown.step.rule != defined.QUANTITY.name
     ):  # defined quantities first
         for name, value in step.named_values:
