@@ -90,8 +90,6 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
         return ("length", {"length": length}, []) if worth_it else None
     defined_first = sorted(view.shown, key=lambda shown: shown.step.rule != defined.QUANTITY.name)
     for step in defined_first:
-        view.shown, key=lambda shown: shown.step.rule != defined.QUANTITY.name
-    ):  # defined quantities first
         for name, value in step.named_values:
             if isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - length):
                 return "named", {"length": name, "equal": length}, [step]
