@@ -37,8 +37,8 @@ class Outside(Exception):
 class Form(NamedTuple):
     """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in the sum exceeds `reach`. `cost` measures the work for the sum: the number of products of two
-    terms that were computed and of terms that were added.
+    No power in the sum exceeds `reach`. `cost` measures the work for the sum: the number of computed products of
+    two terms, plus the number of added terms.
     """
 
     terms: Terms

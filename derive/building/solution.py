@@ -240,7 +240,8 @@ def _value(
             units.append((unit, read.factor))
     first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
-    # If all letters of a condition have numbers, its sides are compared, unless the part asks for its bound in a unit.
+    # If all letters of a condition have numbers, the two sides of the condition are compared. If the part gives a unit
+    # for the answer, the bound is evaluated in this unit instead.
     compared = None if units else comparison_of(answer, numbers, key)
     if not numbers and not units and not form.figures and is_plain(answer):
         return None

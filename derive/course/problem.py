@@ -410,7 +410,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """The input of `solve()`: the letters, the given values or the description, and the numbers of letters."""
+    """The input of `solve()`: the letters, the given values or the description, and the numerical values of letters."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]

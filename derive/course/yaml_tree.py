@@ -66,7 +66,7 @@ class Source:
         number = bisect_right(self._starts, index)
         start = self._starts[number - 1]
         length = len(self.line(number))
-        column = min(index - start, length)  # \r\n ends a line before its \n
+        column = min(index - start, length)  # the \n of \r\n is beyond the end of the line
         width = max(1, min(width, length - column))
         if length <= LONG_LINE:
             return Place(self.path, number, column + 1, self._shown(start, length), width)

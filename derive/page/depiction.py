@@ -307,7 +307,7 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each `range` and `cases` that the problem specifies for a drawing other than a plot."""
+    """Return a warning for each `range`, `cases` and `panels` of a drawing that is not a plot."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)

@@ -290,7 +290,7 @@ def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[st
 
 
 def _by_name(known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
-    """Return the scalars, and the vectors whose names no scalar has, by name."""
+    """Return the scalars and vectors by name. A name of both means the scalar."""
     vectors = [symbol for symbol in known if isinstance(symbol, MatrixSymbol)]
     found = {each.name: _derived(Symbol(each.name, real=True), known[each]) for each in vectors}
     return {**found, **{each.name: _derived(each, known[each]) for each in known if isinstance(each, Symbol)}}

@@ -59,7 +59,7 @@ from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # digits of the values that a check compares; `_error` allows the last five to differ
 HALF = Rational(1, 2)
-# operator -> the signs (`>`, `=`, `<`) between left and right with which the relation is true
+# operator of a relation -> the results of a comparison of left with right for which the relation is true
 FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}
 SHORT = 9  # with more numbers than this, only the level `full` shows the formula with the numbers substituted
 

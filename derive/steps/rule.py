@@ -90,7 +90,7 @@ class Quote:
     outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
     between    words that a phrase may have for its term `between`. A step uses the theorem only if its phrase has one
-               of these words; without such words, any word is allowed
+               of these words; if `between` is empty, any word is allowed
     """
 
     theorem: Theorem

@@ -152,8 +152,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Draw the forces on each body.
 
         If steps derive Newton's laws of the body or, in space, equations of motion with constraint forces, the drawing
-        is for these steps. Otherwise the forces are drawn only in a plane, and only if they are derived. All
-        drawings have one scale.
+        precedes these steps and shows each force in the direction in which its symbol is positive. Otherwise the forces
+        are drawn only in a plane, and only if they are derived. All drawings have one scale.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()

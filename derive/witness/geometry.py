@@ -124,7 +124,8 @@ def _acting_places(description: Description) -> list[Vector]:
 
 
 def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], state: State) -> Placed:
-    """The positions of all parts in a state; `arms` are the vectors from the known point to the centre of each body."""
+    """The positions of all parts in a state; `arms` has, for each body, the vector to its centre of mass from the point
+    whose position the description gives."""
     points, count = _points(state), len(state.q)
     found = formulas(points)
     rows = iter(found)

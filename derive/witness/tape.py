@@ -1,4 +1,6 @@
-"""Formulas as lists of numerical operations on complex numbers; complex steps give the derivatives of the formulas.
+"""Formulas as lists of numerical operations on complex numbers.
+
+The derivative of a formula f at q is the imaginary part of f(q + ih), divided by a very small h (a complex step).
 
 Equal parts of formulas are computed once. Operations whose arguments are all constant are evaluated when numbers
 replace the symbols; all other operations are evaluated for a whole array of points at a time.

@@ -102,7 +102,8 @@ class GroupKeys(Record):
 
 @dataclass(frozen=True)
 class DocumentKeys(Record):
-    """The first item of the list, if it names the document; errata and remarks then show lines of the document."""
+    """The first item of the list in `reference.yaml`, if this item names the document. Each erratum and remark
+    then needs `line`."""
 
     document: Word | None = key("the name of the document whose values the groups below state", TEXT, required=True)
 

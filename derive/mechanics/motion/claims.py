@@ -152,8 +152,8 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """The sides of the start on which the place lies at trial numbers: 1 ahead, -1 behind. Numbers for which the place
-    is the start are left out; if no others remain, the result is 1."""
+    """Whether the place is ahead of the start (1) or behind it (-1): the set of the answers for all trial numbers.
+    Numbers for which the place is the start are left out; if no others remain, the result is 1."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}

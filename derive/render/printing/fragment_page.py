@@ -62,7 +62,8 @@ class FragmentPage(LatexPage):
         return [Tex(label) for label in (*equations, *map(self._figure, figures))]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """Return the drawing with its caption below, under the next figure number of the surrounding document."""
+        """Return the drawing. If it has a figure number, its caption follows, with the next figure number of the
+        surrounding document."""
         shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
         if drawing.number is None:
             return Tex(shown)

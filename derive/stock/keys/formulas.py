@@ -85,7 +85,7 @@ class Formula:
 
 
 def dimension_of_answer(quantity: Quantity, letters: Mapping[str, Declared]) -> Dimension:
-    """Return the dimension of an answer, or of the right side of a relation; zero counts as a number.
+    """Return the dimension of an answer or, if the answer is a relation, of its right side; zero is dimensionless.
 
     letters     the symbols of the problem, by name
     """

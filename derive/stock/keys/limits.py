@@ -56,7 +56,7 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
 def _is_of_another_case(
     given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
 ) -> bool:
-    """Return whether the current inputs belong to another case.
+    """Return whether the limiting case does not apply to the current inputs.
 
     This is so in three situations:
 

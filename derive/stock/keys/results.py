@@ -71,7 +71,8 @@ def _of_a_body(
 
 @dataclass(frozen=True)
 class Sort:
-    """A sort of key: its shape in the file, how it is read in symbols, and the value that the verb receives.
+    """A sort of key: the shape of its value in the file, the function that reads this value, and the function that
+    makes the argument of the verb.
 
     read   a function of the verb, the key, the written value and the symbols, called before any answer is derived;
            it returns the value in symbols
