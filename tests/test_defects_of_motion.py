@@ -352,6 +352,7 @@ def test_a_letter_of_gravity_that_nothing_uses_is_warned_of(tmp_path: Path) -> N
     assert warning.help is not None and "`gravity: g`" in warning.help
 
 
+@pytest.mark.long
 def test_a_disc_on_a_wavy_road_has_its_equations_and_rolls(tmp_path: Path) -> None:
     """For each unit of x, the centre moves along the road by W - R h''/W^2, and the disc rotates by this length over
     R."""

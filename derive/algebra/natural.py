@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
@@ -76,7 +77,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
     if not isinstance(value, Expr | Relation) or _size(value) > LONGEST:
         return None
     names = {_with_sign(name, known): name for name, known in quantities.items()}
-    real = {part: Dummy(positive=True) for known in quantities.values() for part in _functions_under_roots(known)}
+    real = {part: _stand_in("u", part, True) for known in quantities.values() for part in _functions_under_roots(known)}
     named = {dummy: part for part, dummy in real.items()}
     near = {
         dummy: quantities[name].xreplace(real)
@@ -89,7 +90,8 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         chosen = {name: near[name] for name in some}
         # a whole formula, such as that of a reduced mass, may also be replaced by its quantity
         whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
-        for known in (whole, *_eliminations(chosen, kept)):
+        eliminations = (each for each in _eliminations(chosen, kept) if _brings(each, value, chosen))
+        for known in (whole, *eliminations):
             form = _with(value, known, chosen, kept)
             cost = _cost(form.value.xreplace(named))
             if cost < least and _is_natural(form.value, chosen) and form.value.has(I) == value.has(I):
@@ -99,6 +101,12 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         tuple(map(names.get, best.used)),
         tuple(factor.xreplace(named) for factor in best.nonzero),
     )
+
+
+def _brings(known: Mapping[Symbol, Expr], value: Any, quantities: Mapping[Symbol, Expr]) -> bool:
+    """Whether the substitution can bring every quantity into the value; this decides without a simplification."""
+    names = {name for symbol in known.keys() & value.free_symbols for name in known[symbol].free_symbols}
+    return {*quantities} <= names | {*value.free_symbols}
 
 
 def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
@@ -116,7 +124,12 @@ def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
 def _with_sign(name: Symbol, value: Expr) -> Symbol:
     """A dummy symbol for a quantity with this value. The dummy symbol is positive if `is_positive(value)`, so that
     SymPy writes the root of its square as the symbol itself."""
-    return Dummy(name.name, positive=True) if is_positive(value) else Dummy(name.name, real=True)
+    return _stand_in(name.name, value, is_positive(value))
+
+
+@lru_cache(maxsize=1024)  # the same dummy symbol each time, so that `_solutions` finds its earlier results
+def _stand_in(name: str, value: Expr, positive: bool) -> Dummy:
+    return Dummy(name, positive=True) if positive else Dummy(name, real=True)
 
 
 def is_positive(value: Expr) -> bool:
@@ -142,23 +155,22 @@ def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
 def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
     """Yield symbol -> its value in the names of the quantities, for each choice of the symbols that
     are eliminated, one for each quantity."""
-    choices = [list(_solutions(name, value, kept)) for name, value in quantities.items()]
+    choices = [_solutions(name, value, frozenset(kept)) for name, value in quantities.items()]
     for choice in product(*choices):
         found = _solved_together(choice)
         if found is not None:
             yield found
 
 
-def _solutions(name: Symbol, value: Expr, kept: Collection[Symbol]) -> Iterator[tuple[Symbol, Expr]]:
-    """Yield each symbol of a formula with its value, if the equation name = formula has one solution for it."""
+@lru_cache(maxsize=4096)
+def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tuple[Symbol, Expr], ...]:
+    """Return each symbol of a formula with its value, if the equation name = formula has one solution for it."""
     left, right = name, value
     for sign in (1, -1):
         if function := INVERSES.get(type(sign * value)):
             left, right = function(sign * name), (sign * value).args[0]
-    for symbol in sorted(value.free_symbols - set(kept), key=str):
-        found = _solved(left, right, symbol)
-        if found is not None:
-            yield symbol, found
+    solved = ((symbol, _solved(left, right, symbol)) for symbol in sorted(value.free_symbols - kept, key=str))
+    return tuple((symbol, found) for symbol, found in solved if found is not None)
 
 
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:

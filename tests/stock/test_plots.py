@@ -95,7 +95,27 @@ def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], sai
     assert any(said in each for each in messages(tmp_path, edited(HOOP, *edits)))
 
 
-DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
+DAMPED = """title: A cart with drag
+solve: system
+symbols: {m: mass, k: spring constant, b: damping constant, a: length, x_0: length}
+define: {beta: b/(2*m), omega_0: sqrt(k/m)}
+given:
+  coordinates: {x: length}
+  places: {wall: [0, 0], cart: [a + x, 0]}
+  particles: {cart: {mass: m, at: cart}}
+  springs: {constant: k, length: a, from: wall, to: cart}
+  damping: {constant: b, at: cart}
+  results:
+    weak: {solution: motion_x, for: x, start: x_0, case: underdamped}
+    on_the_border: {put_in: motion_x, values: {b: 2*sqrt(k*m)}}
+    border: {solution: on_the_border, for: x, start: x_0}
+    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}
+statement: A cart.
+wording: {WORDS}
+drawings:
+parts:
+  - {ask: Find the motion., answer: ANSWERS}
+"""
 
 
 @pytest.mark.parametrize(
@@ -108,9 +128,8 @@ DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.ya
 )
 def test_numbers_outside_the_case_of_a_result_are_not_drawn(tmp_path: Path, numbers: str, said: str) -> None:
     """An underdamped motion needs b^2 < 4 k m."""
-    curve = f"drawings:\n  curve: {{plot: weak, against: t, range: [0 s, 9 s], at: b, cases: {numbers}}}\n"
-    before, _, after = DAMPED.partition("drawings:\n")
-    text = before + curve + after[after.index("parts:\n") :]
+    curve = f"drawings:\n  curve: {{plot: weak, against: t, range: [0 s, 9 s], at: a, cases: {numbers}}}\n"
+    text = edited(DAMPED, ("drawings:\n", curve), ("ANSWERS", "weak"), ("WORDS", "weak: The motion is <<chain>>"))
     try:
         rendered(course_with(tmp_path, text), "trial/one", only=("text",))
         found = ""
@@ -477,9 +496,10 @@ def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
 )
 def test_each_curve_has_numbers_of_its_own_case(tmp_path: Path, cases: str, said: str) -> None:
     """The critically damped motion needs b = 2 sqrt(k m), although its formula does not contain b."""
-    curve = f"curve: {{curves: [weak, border, strong], against: t, range: [0 s, 9 s], at: d, cases: {cases}}}\n"
-    before, _, after = DAMPED.partition("drawings:\n")
-    text = before + "drawings:\n  " + curve + after[after.index("parts:\n") :]
+    curve = f"  curve: {{curves: [weak, border, strong], against: t, range: [0 s, 9 s], at: a, cases: {cases}}}\n"
+    words = ", ".join(f"{name}: The motion is <<chain>>" for name in ("weak", "border", "strong"))
+    answers = ("ANSWERS", "[weak, border, strong]"), ("WORDS", words)
+    text = edited(DAMPED, ("drawings:\n", "drawings:\n" + curve), *answers)
     try:
         rendered(course_with(tmp_path, text), "trial/one", only=("text",))
         found = ""
