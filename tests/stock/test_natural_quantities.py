@@ -15,7 +15,22 @@ from derive.steps import natural
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, solved
 
-DAMPED = (ROOT / "problems" / "library" / "oscillations" / "damped_oscillator.yaml").read_text(encoding="utf-8")
+DAMPED = """title: A cart with drag
+solve: system
+symbols: {m: mass, k: spring constant, b: damping constant, a: length, x_0: length}
+given:
+  coordinates: {x: length}
+  places: {wall: [0, 0], cart: [a + x, 0]}
+  particles: {cart: {mass: m, at: cart}}
+  springs: {constant: k, length: a, from: wall, to: cart}
+  damping: {constant: b, at: cart}
+  results:
+    weak: {solution: motion_x, for: x, start: x_0, case: underdamped}
+    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}
+statement: A cart.
+parts:
+  - {ask: Find the motions., answer: [weak, strong]}
+"""
 BEAD = (ROOT / "problems" / "library" / "constraints" / "hoop_oscillations.yaml").read_text(encoding="utf-8")
 PLANET = (ROOT / "problems" / "library" / "central" / "kepler.yaml").read_text(encoding="utf-8")
 
@@ -67,8 +82,7 @@ def asking(text: str, define: str, answer: str) -> str:
 
 
 def defined(formulas: str) -> str:
-    without = "\n".join(line for line in DAMPED.splitlines() if not line.startswith("define:"))
-    return edited(without, ("\ngiven:", f"\ndefine: {formulas}\ngiven:"))
+    return edited(DAMPED, ("\ngiven:", f"\ndefine: {formulas}\ngiven:"))
 
 
 def last_line(folder: Path, text: str, key: str) -> str:
