@@ -426,6 +426,9 @@ class _Scene:
                     ends = column_of(start), column_of(at)
                     return DistanceMark(*ends, column_of(touch.normal), BLOCK[1] + CLEAR, label=q)
                 down = touch.at - at
+                if tidied(x * down.components[1] - y * down.components[0]) == 0:  # the distance from the surface
+                    aside = ImmutableDenseMatrix([-down.components[1], down.components[0]])
+                    return LengthMark(column_of(touch.at), column_of(at), aside, self._clear(at), label=q)
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
         below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # above an inclined plane

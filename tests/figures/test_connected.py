@@ -457,3 +457,31 @@ def test_a_particle_that_does_not_rotate_has_no_link_to_one_that_does(tmp_path: 
     marks = drawings(tmp_path, library("table_with_hole"))["system"].marks
     labels = [str(label) for mark in marks if (label := getattr(mark, "label", None)) is not None]
     assert labels.count("phi") == 1 and not [label for label in labels if label.startswith("sqrt")]
+
+
+SLIPS = """title: A disc that slips
+solve: system
+symbols: {M: mass, a: length, g: acceleration, mu: positive number, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, y: length, phi: angle}
+  places: {C: [x*cos(alpha) + y*sin(alpha), -x*sin(alpha) + y*cos(alpha)]}
+  bodies: {disc: {shape: disc, radius: a, mass: M, centre: C, turned: -phi, across: z}}
+  surfaces: {incline: {through: [0, 0], along: [cos(alpha), -sin(alpha)]}}
+  contacts: {of: disc, on: incline, normal: N, friction: {sliding: mu, direction: [cos(alpha), -sin(alpha)]}}
+  gravity: g
+statement: A disc.
+parts:
+  - {ask: Find the equations., answer: equations_of_motion}
+"""
+
+
+def test_the_distance_from_an_incline_is_measured_from_the_incline(tmp_path: Path) -> None:
+    marks = {str(mark.label): mark for mark in of_class(drawings(tmp_path, SLIPS)["system"], LengthMark)}
+    values = {"x": 2.0, "y": 1.0, "a": 1.0, "alpha": 0.5}
+
+    def height(place: Any) -> float:
+        """The distance from the incline, along its normal."""
+        u, v = (float(c.xreplace({s: values[s.name] for s in c.free_symbols})) for c in place)
+        return u * sin(0.5) + v * cos(0.5)
+
+    assert height(marks["y"].start) == pytest.approx(0.0) and height(marks["y"].end) == pytest.approx(1.0)
