@@ -6,7 +6,7 @@ of the extremum. The values there must be greater than a minimum, and less than 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Any
@@ -16,6 +16,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected, Unverified
 
 STEPS = 1009  # odd and prime: then the centre of a symmetric range is inside a step, not at its end
+POLE = 1e4  # a value at an extremum, relative to the greatest value of the grid, above which the curve has a pole
 MINIMUM, MAXIMUM = "minimum", "maximum"
 NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
 
@@ -66,6 +67,9 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
         if slopes[i] * slopes[i + 1] < 0:
             at = _narrowed(slope, xs[i], xs[i + 1])
             at = 0.0 if abs(at) < 1e-6 * (upper - lower) and slope(0.0) == 0 else at
+            if _is_pole(f, at, xs):
+                message = f"a curve of the plot is infinite near {at:.4g}"
+                raise Rejected(Complaint("drawing", message, help="choose a range without this place"))
             kind = MINIMUM if slopes[i] < 0 else MAXIMUM
             _confirm(f, at, (upper - lower) / STEPS, kind)
             found.append(Extremum(at, float(f(at)), kind))
@@ -86,6 +90,15 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
         else:
             high = middle
     return (low + high) / 2
+
+
+def _is_pole(f: Callable[[float], Any], at: float, xs: Sequence[float]) -> bool:
+    """Return whether the curve has no finite value at this place, or a value far above all values of the grid."""
+    try:
+        value = abs(float(f(at)))
+    except ZeroDivisionError:
+        return True
+    return not isfinite(value) or value > POLE * max(abs(float(f(x))) for x in xs)
 
 
 def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:

@@ -96,3 +96,9 @@ def test_a_wrong_derivative_is_refused_by_the_curve(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(module, "diff", lambda expr, variable: diff(expr, variable) - Rational(1, 2))
     with pytest.raises(Unverified, match="the curve has no minimum"):
         extrema(x**2, x, -1, 1)
+
+
+@pytest.mark.parametrize("place", [Rational(1, 2), Rational(7, 22), Integer(0)])
+def test_a_pole_inside_the_range_is_an_error(place: Rational) -> None:
+    with pytest.raises(Rejected, match="infinite near"):
+        extrema(1 / Abs(x - place), x, -1, 2)
