@@ -236,3 +236,13 @@ def test_the_words_of_an_author_replace_the_steps_that_lead_to_the_motion(tmp_pa
     assert "general solution" not in page(tmp_path / "both", worded)
     one = DAMPED + "wording: {first: 'The cart swings, <<chain>>'}\n"
     assert page(tmp_path / "one", one).count("The general solution is") == 1
+
+
+def test_a_coordinate_may_have_the_usual_letter_of_the_exponent(tmp_path: Path) -> None:
+    text = (
+        DAMPED.replace("[x, 0]", "[s, 0]")
+        .replace("x: length", "s: length")
+        .replace("motion_x, for: x", "motion_s, for: s")
+    )
+    shown = page(tmp_path, text.replace("x**2", "s**2"))
+    assert "s = e^λt" in shown and "λ = -β ± i ω_1" in shown

@@ -277,7 +277,8 @@ def _exponents(sought: Sought, characteristic: Quantity) -> Quantity:
     Source: Taylor, *Classical Mechanics*, section 5.4.
     """
     linear, sort = sought.linear, sought.sort
-    (s,) = (q for q in characteristic.coordinates if q.name in (*LETTERS_OF_EXPONENT, "s_0"))
+    present = characteristic.value.free_symbols  # a coordinate s does not occur in the characteristic equation
+    (s,) = (q for q in characteristic.coordinates if q in present and q.name in (*LETTERS_OF_EXPONENT, "s_0"))
     middle = tidied(-linear.b / (2 * linear.a))
     unit = {"critically_damped": ZERO, "underdamped": I}.get(sort, ONE)
     apart = PLUS_MINUS * unit * _half_difference(linear, sort)
