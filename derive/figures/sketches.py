@@ -477,8 +477,9 @@ class _Scene:
                     beside += 1
 
     def _applied(self) -> Iterable[Mark]:
-        """Yield the arrows of given forces at a place, except friction and forces whose magnitude contains a root. A
-        force that varies with the time is drawn at t = 0 or, if it vanishes then, just after t = 0."""
+        """Yield the arrows of given forces at a place. Friction is left out, and so are forces whose magnitude contains
+        a root or a coordinate, because then the sign of the label could be wrong in the drawn state. A force that
+        varies with the time is drawn at t = 0 or, if it vanishes then, just after t = 0."""
         unknown = {each.force for each in self.system.constraints}
         for each in self.system.given_forces:
             if len(each.at) != self.rows or unknown & ImmutableDenseMatrix(each.components).free_symbols:
@@ -486,7 +487,7 @@ class _Scene:
             at_start = [[diff(c, TIME, n).subs(TIME, 0) for c in each.components] for n in (0, 1)]
             drawn = next((ImmutableDenseMatrix(way) for way in at_start if any(way)), None)
             size = _magnitude(each.components)
-            if drawn is not None and size is not None:
+            if drawn is not None and size is not None and not moving_in(self.system, size) - {TIME}:
                 place = Location(tuple(each.place))
                 yield AppliedForce(column_of(place), drawn, 1, False, label=size, clear=self._covered(place) or BOB)
 

@@ -164,6 +164,14 @@ def test_a_given_force_is_drawn_in_its_direction_at_the_start(
     assert (arrow.label, tuple(arrow.value)) == (label, drawn)
 
 
+def test_a_force_whose_magnitude_depends_on_a_coordinate_is_not_drawn() -> None:
+    """At x > a, the arrow of F (a - x)/a would point to the left, with a label that is negative there."""
+    with recorded():
+        x, y = coordinate("x", "length"), coordinate("y", "length")
+        found = sketch("cart", System(Particle(m, point(x, y)), force((F * (a - x) / a, 0), point(x, y))))
+    assert of(found, AppliedForce) == []
+
+
 def test_a_force_whose_magnitude_has_a_root_is_not_drawn() -> None:
     with recorded():
         place = point(coordinate("x", "length"), coordinate("y", "length"))

@@ -32,6 +32,22 @@ parts:
 """
 
 
+CART_WITH_DRAG = """\
+title: A cart with drag
+solve: system
+symbols: {m: mass, k: spring constant, b: damping constant, a: length, x_0: length}
+given:
+  coordinates: {x: length}
+  places: {wall: [0, 0], cart: [a + x, 0]}
+  particles: {cart: {mass: m, at: cart}}
+  springs: {constant: k, length: a, from: wall, to: cart}
+  damping: {constant: b, at: cart}
+  results:
+    weak: {solution: motion_x, for: x, start: x_0, case: underdamped}
+    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}
+"""
+
+
 def course_with(folder: Path, text: str) -> Path:
     problems = folder / "problems" / "trial"
     problems.mkdir(parents=True, exist_ok=True)

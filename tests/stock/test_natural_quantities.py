@@ -13,23 +13,11 @@ from derive.building.solution import rendered
 from derive.errors import DeriveError
 from derive.steps import natural
 from tests.courses import ROOT
-from tests.stock.described import complaints, course_with, edited, solved
+from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, solved
 
-DAMPED = """title: A cart with drag
-solve: system
-symbols: {m: mass, k: spring constant, b: damping constant, a: length, x_0: length}
-given:
-  coordinates: {x: length}
-  places: {wall: [0, 0], cart: [a + x, 0]}
-  particles: {cart: {mass: m, at: cart}}
-  springs: {constant: k, length: a, from: wall, to: cart}
-  damping: {constant: b, at: cart}
-  results:
-    weak: {solution: motion_x, for: x, start: x_0, case: underdamped}
-    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}
-statement: A cart.
+DAMPED = f"""{CART_WITH_DRAG}statement: A cart.
 parts:
-  - {ask: Find the motions., answer: [weak, strong]}
+  - {{ask: Find the motions., answer: [weak, strong]}}
 """
 BEAD = (ROOT / "problems" / "library" / "constraints" / "hoop_oscillations.yaml").read_text(encoding="utf-8")
 PLANET = (ROOT / "problems" / "library" / "central" / "kepler.yaml").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from derive.errors import DeriveError
 from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
 from tests.courses import ROOT
-from tests.stock.described import complaints, course_with, edited, loaded, messages
+from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, loaded, messages
 
 HOOP = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
 
@@ -95,26 +95,14 @@ def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], sai
     assert any(said in each for each in messages(tmp_path, edited(HOOP, *edits)))
 
 
-DAMPED = """title: A cart with drag
-solve: system
-symbols: {m: mass, k: spring constant, b: damping constant, a: length, x_0: length}
-define: {beta: b/(2*m), omega_0: sqrt(k/m)}
-given:
-  coordinates: {x: length}
-  places: {wall: [0, 0], cart: [a + x, 0]}
-  particles: {cart: {mass: m, at: cart}}
-  springs: {constant: k, length: a, from: wall, to: cart}
-  damping: {constant: b, at: cart}
-  results:
-    weak: {solution: motion_x, for: x, start: x_0, case: underdamped}
-    on_the_border: {put_in: motion_x, values: {b: 2*sqrt(k*m)}}
-    border: {solution: on_the_border, for: x, start: x_0}
-    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}
+DAMPED = f"""{CART_WITH_DRAG}    on_the_border: {{put_in: motion_x, values: {{b: 2*sqrt(k*m)}}}}
+    border: {{solution: on_the_border, for: x, start: x_0}}
+define: {{beta: b/(2*m), omega_0: sqrt(k/m)}}
 statement: A cart.
-wording: {WORDS}
+wording: {{WORDS}}
 drawings:
 parts:
-  - {ask: Find the motion., answer: ANSWERS}
+  - {{ask: Find the motion., answer: ANSWERS}}
 """
 
 
