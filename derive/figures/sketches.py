@@ -485,7 +485,7 @@ class _Scene:
             if len(each.at) != self.rows or unknown & ImmutableDenseMatrix(each.components).free_symbols:
                 continue
             at_start = [[diff(c, TIME, n).subs(TIME, 0) for c in each.components] for n in (0, 1)]
-            drawn = next((ImmutableDenseMatrix(way) for way in at_start if any(way)), None)
+            drawn = next((_along_axis(way) for way in at_start if any(way)), None)
             size = _magnitude(each.components)
             if drawn is not None and size is not None and not moving_in(self.system, size) - {TIME}:
                 place = Location(tuple(each.place))
@@ -542,6 +542,14 @@ class _Scene:
         size = link.length * (1 + ECCENTRICITY * cos(angle)) / (1 + ECCENTRICITY * cos(u))
         e = explicit(ImmutableDenseMatrix(tuple(tidied(c / link.length) for c in link.way.components)))
         yield WayMark(column_of(centre) + size * e.xreplace({angle: u}), u, -pi, pi)
+
+
+def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
+    """Return a vector along an axis as a unit vector, in the direction in which its label is positive, so that the
+    description in words has the direction; return any other vector unchanged."""
+    if sum(c != 0 for c in way) > 1:
+        return ImmutableDenseMatrix(way)
+    return ImmutableDenseMatrix([0 if c == 0 else -1 if c.could_extract_minus_sign() else 1 for c in way])
 
 
 def _magnitude(components: Sequence[Expr]) -> Expr | None:

@@ -147,10 +147,10 @@ F, tilt = symbols("F alpha", positive=True)
 @pytest.mark.parametrize(
     ("components", "label", "drawn"),
     [
-        ((F, 0), F, (F, 0)),
-        ((-F, 0), F, (-F, 0)),
-        ((-F * cos(omega * TIME), 0), F * cos(omega * TIME), (-F, 0)),
-        ((0, F * sin(omega * TIME)), F * sin(omega * TIME), (0, F * omega)),
+        ((F, 0), F, (1, 0)),
+        ((-F, 0), F, (-1, 0)),
+        ((-F * cos(omega * TIME), 0), F * cos(omega * TIME), (-1, 0)),
+        ((0, F * sin(omega * TIME)), F * sin(omega * TIME), (0, 1)),
         ((F * cos(tilt), F * sin(tilt)), F, (F * cos(tilt), F * sin(tilt))),
     ],
 )
