@@ -55,7 +55,7 @@ FOUND = [  # problem, part, rule, outcome
     ("library/sliding_to_rolling", 2, "independent", "generic"),
     ("library/ladder", 3, "independent", "angle"),
     ("library/hanging_mass", 2, "independent", "weight"),
-    ("library/struck_rods", 0, "multiple", "generic"),
+    ("library/struck_rods", 1, "multiple", "generic"),
     ("library/hooke_3d", 1, "one_frequency", "generic"),
     ("library/double_pendulum", 3, "modes", "irrational"),
     ("library/hinge_force", 2, "zero_of", "changes_at_angle"),
