@@ -219,7 +219,7 @@ RATE_BY_ENERGY = Rule(
     squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
-    """Rate of a coordinate, the root of its square, with the sign that the rate has just after the start.
+    """Rate of a coordinate, the root of the squared rate, with the sign that the rate has just after the start.
 
     squared   the squared rate q_dot^2, a result of `speed_from_energy`
     The sign is that of the initial rate or, at a start from rest, that of the acceleration.

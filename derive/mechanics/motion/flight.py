@@ -463,7 +463,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
-    The distance from the plane is a polynomial of second order in the time; the flight ends at the first time after the
+    The distance from the plane is a polynomial of degree 2 in the time; the flight ends at the first time after the
     departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
     radius is t^3 (a t + b). The departure is a triple zero, because the particle is on the circle there, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
@@ -576,8 +576,8 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     h, v, a = _above(known, target)
     side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
     if side not in (0, 1):
-        where = "below" if side == -1 else "perhaps not above"
-        message = f"`lands`: the particle departs {where} the plane, at the distance {h} from it"
+        how = "departs" if side == -1 else "may depart"
+        message = f"`lands`: the particle {how} below the plane, at the distance {h} from it"
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     inside = tidied(v**2 - 4 * a * h)
@@ -749,7 +749,7 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
         dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
-        across = v[0] * dy - v[1] * dx  # perpendicular to the velocity at the departure
+        across = v[0] * dy - v[1] * dx  # the displacement perpendicular to the first velocity, times the speed
         return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
 
     return establish(
