@@ -673,8 +673,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y, for a place (X, Y) and the time t with x(t) = X, and whether t is
-    numerically positive."""
+    """Whether the condition is equivalent to y(t) = Y at the time t with x(t) = X, where (X, Y) is the place; also
+    whether t is numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

@@ -1,4 +1,4 @@
-"""The static friction and the normal force of a contact, and the condition for the friction to suffice, |F| <= mu_s N."""
+"""The static friction and the normal force of a contact, and when the friction suffices: |F| <= mu_s N."""
 
 from __future__ import annotations
 
