@@ -162,7 +162,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the rates of the components that change, if there are several such components and a step derives each;
+    """Return the rates of the components that change, if there are several of these and steps derive all of them;
     otherwise an empty list."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]

@@ -137,8 +137,8 @@ def _take_as_real(base: Expr) -> None:
 
 
 def energy_of(matter: Varied) -> Expr:
-    """Return h, the sum of q_dot p, minus L. The sum is the derivative of L with respect to a common factor of all
-    rates."""
+    """Return h, which is the sum of q_dot p, minus L. The sum is the derivative of L with respect to a common factor of
+    all rates."""
     stretch = Dummy("u", real=True)
     rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
     return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function

@@ -77,7 +77,7 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
+    """The weight of a rope that moves along itself, minus the weight of the particle that has the mass of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
@@ -391,6 +391,6 @@ def _rim(place: Location, on: PlacedBody) -> Location:
         if is_zero(tidied(c**2 - radius**2)):
             return on.hub + Location(tuple(c if i == k else ZERO for i in (0, 1)))
     where = ", ".join(map(str, place.components))
-    message = f"the string from ({where}) is not tangent to {on.body.name} beside its axis, or above or below it"
+    message = f"the string from ({where}) is not tangent to {on.body.name} beside, above or below its axis"
     help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"
     raise Rejected(Complaint("no-contact", message, help=help_line))

@@ -188,7 +188,8 @@ def _sum(
 ) -> Quantity:
     """Sum of the products, with like terms collected.
 
-    Outcomes: plain (every term contains a highest rate), cancel (the other terms cancel), remain (other terms remain).
+    Outcomes: plain (every term contains a highest rate), cancel (the terms without a highest rate cancel), remain (some
+    terms without a highest rate remain).
     """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])

@@ -89,7 +89,7 @@ def speed_from_energy(
     mass = tidied(diff(value, speed, 2))
     rest = value.xreplace({speed: ZERO})
     if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):
-        message = f"`speed_from_energy`: `{energy.key}` is not of the form m(q) q_dot^2/2 + U(q)"
+        message = f"`speed_from_energy`: `{energy.key}` is not of the form m(q) q_dot^2/2 + V(q)"
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 

@@ -82,7 +82,7 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Orbit:
-    """The circle of a particle before its flight, and whether the particle flies inside it."""
+    """The circle on which a particle moved before its flight, and whether the particle flies inside this circle."""
 
     centre: tuple[Expr, Expr]
     radius: Expr

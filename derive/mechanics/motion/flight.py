@@ -244,7 +244,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
 
 def _checked_letter(letter: Any, q: Symbol) -> Symbol:
     if not isinstance(letter, Symbol) or changes(letter, [q]) is not None:
-        message = f"`flight` needs as `at` a symbol for the value of {q} at the departure, but it is {letter}"
+        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, but it is {letter}"
         raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for it, such as `{q}_1`"))
     return letter
 
@@ -465,7 +465,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     on       a fixed plane; by default the circle of the motion before the flight
     The distance from the plane is a polynomial of degree 2 in the time; the flight ends at the first time after the
     departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
-    radius is t^3 (a t + b). The departure is a triple zero, because the particle is on the circle there, moves along
+    radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
     circle again. Before a landing on a plane, the particle must not meet the circle.
     Second route: the place satisfies the equation of the orbit, in which the time is eliminated; the speed also follows
@@ -810,8 +810,8 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the height of the particle at the time at which it has the horizontal position of the place. Numerically,
-    this time is positive.
+    Check: compare the heights of the particle and of the place at the time at which their horizontal positions are
+    equal. Numerically, this time is positive.
     Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
