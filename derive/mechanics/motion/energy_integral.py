@@ -46,7 +46,7 @@ __all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-NOISE = 1e-9  # relative error that is accepted because of cancellation near the turning points
+NOISE = 1e-9  # smaller differences are accepted, because terms cancel near the turning points
 
 
 SPEED_FROM_ENERGY = Rule(
