@@ -533,7 +533,7 @@ ROLLING = problem(trial_called("disc-floor-in space"))
     [
         ("normal: [0, 0, 1]", "normal: [1, 1, 1]", "could not be shown to be the lowest point"),
         ("theta: 'angle in (0, pi)'", "theta: angle", "the sign of sin(theta) is unknown"),
-        ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "touches a plane"),
+        ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "is known only for a plane"),
         ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
         ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
         ("{rolling: F}", "rolling", "a friction force must prevent slipping"),

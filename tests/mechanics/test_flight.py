@@ -252,7 +252,7 @@ def claimed(quantity: Quantity, steps: dict[str, Quantity]) -> Claim:
     ("old", "new", "said"),
     [
         ("'angle in (pi/2, pi)'", "'angle in (0, pi/2)'", "outside the range of theta_1"),
-        ("at: theta_1}", "at: theta}", "needs as `at` a symbol for the value of theta"),
+        ("at: theta_1}", "at: theta}", "must be a symbol for the value of theta"),
         ("{flight: slack, at", "{flight: speed, at", "`speed` is not one"),
         ("{lands: flight}", "{lands: slack}", "need both components of a flight"),
         ("{lands: flight}", "{lands: flight, on: floor}", "`floor` is not a surface of this system"),

@@ -314,7 +314,7 @@ def multiplier_of(i: int) -> Naming:
     """Return the predicate for the multiplier of the i-th function in a sentence.
 
     The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
-    of the equation, or to its rate.
+    of the equation, or with respect to the rate of this coordinate.
     """
 
     def is_so(facts: Judged, letter: Any) -> bool:

@@ -227,8 +227,8 @@ FORMULA = "formula"  # the word for any other enforcer
 
 
 def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Quantity:
-    """A constraint f = 0, differentiated until it contains accelerations, d^2 f/dt^2 = 0. If f contains rates, this is
-    df/dt = 0.
+    """A constraint f = 0, differentiated until it contains accelerations: d^2 f/dt^2 = 0, or df/dt = 0 if f contains
+    rates.
 
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
@@ -493,7 +493,7 @@ def _places(problem: _Problem) -> tuple[Expr, ...]:
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """Collect a value by accelerations and by squares of rates, if some accelerations are not solved for."""
+    """Collect a value by accelerations and by squares of rates, if some accelerations remain in it."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -518,8 +518,7 @@ def constraint_force(
     of all other forces.
     Outcomes: generic, zero.
     Errors: no force is given; the forces belong to different systems; `along` names something that is not a coordinate
-    of the system; a constraint force that is not among `forces` does work in this
-    displacement.
+    of the system; a constraint force that is not among `forces` does work in this displacement.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.4.
     """
     kept = [force.needed(ForceOf) for force in forces]

@@ -63,7 +63,7 @@ MANY = 8  # greatest number of terms in a line with squares of velocities; a lon
 class Mover:
     """A particle or a body whose kinetic energy contains the term (1/2) M v^2.
 
-    A body has no such term if it is held at a point about which its inertia is known.
+    A body has no such term if it is held at a point about which its inertia is given or can be derived.
     letter   the index of the symbol v; empty if v has no index
     """
 
@@ -162,7 +162,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the rates of the components that change, if there are several such components and a step derives each;
+    """Return the rates of the components that change, if there are several of these and steps derive all of them;
     otherwise an empty list."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
@@ -258,8 +258,8 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
     system   the particles and bodies that move
 
     Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
-    point about which its inertia is known, the body has no term with v, and I is about this point. Steps derive the
-    square of each speed, each inertia that is not given and, in space, each angular velocity.
+    point about which its inertia is given or can be derived, the body has no term with v, and I is about this point.
+    Steps derive the square of each speed, each inertia that is not given and, in space, each angular velocity.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of inertia of a body are known only about a point other than the required one.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -307,8 +307,8 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the level at which the line with substituted values appears; a line with columns or matrices appears only
-    at full level, and without rotations there is no such line."""
+    """Return the level at which the line with substituted values appears; None if there are no rotations, and so no
+    such line. A line with columns or matrices appears only at full level."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
@@ -319,13 +319,14 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-LITTLE_LONGER = 2  # the greatest difference in length (`length`)
+LITTLE_LONGER = 2  # an energy in which each coordinate occurs once may be longer by this number, measured by `length`
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta).
 
-    Each coordinate occurs once if this makes the energy only a little longer: (M - m) g x for M g (x - l) - m g x.
+    Each coordinate occurs once if this makes the energy only a little longer: (M - m) g x - M g l, not
+    M g (x - l) - m g x.
     """
     collected = with_constants_together(value.expand(), moving)
     forms = [by_terms(value), by_terms(value.expand()), collected]

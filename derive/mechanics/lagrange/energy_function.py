@@ -79,7 +79,10 @@ def _constrained(of: Quantity) -> dict[str, str]:
 
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
-    """Return -lambda df/dt for each moving constraint; the force of a fixed constraint does no work."""
+    """Return -lambda df/dt for each moving constraint, where df/dt is the rate of f at constant coordinates.
+
+    The force of a fixed constraint does no work.
+    """
     kept, moving = of.fact(Constrained), list(of.coordinates)
     still = {rate(q): Integer(0) for q in moving}
     moved = [(c.multiplier, c.velocity(moving).xreplace(still)) for c in (kept.constraints if kept else ())]
@@ -116,9 +119,9 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
-    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L
-    there are two routes: the derivative of L with respect to a common factor of all rates, minus L; and the rate of h
-    by the energy identity.
+    Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L, the
+    second route is the rate of h by the energy identity, and a check is the derivative of L with respect to a common
+    factor of all rates, minus L.
     Outcomes: energy (h is conserved and is T + U); conserved (h is conserved but is not T + U); changing_energy
     (h is T + U, but L contains the time); changing (h is not T + U, and L contains the time); work_energy (h is T + U,
     but a force outside L does work); work (h is not T + U, and a force outside L does work); given_conserved,

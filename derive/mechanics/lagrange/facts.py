@@ -30,7 +30,7 @@ class ForceOf(Fact):
 
 @dataclass(frozen=True)
 class KeptMomentum(Fact):
-    """The symbol of a momentum, its conserved value, and the resulting rate of its coordinate."""
+    """The symbol and the conserved value of a momentum, its coordinate, and the resulting rate of this coordinate."""
 
     missing = "is not the value of a conserved momentum"
     momentum: Symbol
@@ -50,7 +50,7 @@ class WithMomenta(Fact):
 
 @dataclass(frozen=True)
 class FromLagrangian(Fact):
-    """The Lagrangian from which an equation of motion or a momentum was derived."""
+    """The Lagrangian from which a result was derived, such as an equation of motion or an energy function."""
 
     missing = "does not come from a Lagrangian"
     lagrangian: Quantity

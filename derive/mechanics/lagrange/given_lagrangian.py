@@ -81,7 +81,7 @@ def given_lagrangian(
     function   a formula in coordinates, their rates and the time
     acting     additional forces along coordinates: couples, and drag against a rate
     kind       the kind of L, an energy for a mechanical system
-    Expressions under square roots are assumed to be positive, so L is real.
+    Expressions under square roots are assumed to be positive, so that L is real.
     Errors: the formula contains no rate of a coordinate, or it contains an acceleration; a force acts along a
     coordinate that the formula does not contain.
     Source: Landau, Lifshitz, *Mechanics*, section 2.
@@ -137,8 +137,8 @@ def _take_as_real(base: Expr) -> None:
 
 
 def energy_of(matter: Varied) -> Expr:
-    """Return h, the sum of q_dot p, minus L. The sum is the derivative of L with respect to a common factor of all
-    rates."""
+    """Return h, which is the sum of q_dot p, minus L. The sum is the derivative of L with respect to a common factor of
+    all rates."""
     stretch = Dummy("u", real=True)
     rates = {rate(q): (1 + stretch) * rate(q) for q in matter.coordinates}
     return slope(bound(matter.function, rates), stretch).xreplace({stretch: ZERO}) - matter.function

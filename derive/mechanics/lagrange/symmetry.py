@@ -183,7 +183,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
 
 def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
-    """Return the line with the derivatives substituted, if L contains a shifted coordinate or its rate."""
+    """Return the line with the derivatives substituted, if the shift changes a coordinate or a rate in L."""
     terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
     right = by_rates(explicit(TimeRate(gain, *moving)), moving)
     return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []

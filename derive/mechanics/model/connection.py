@@ -25,7 +25,7 @@ from derive.steps.record import coordinates_in
 class PointForce:
     """A force on a material point: `size` times `direction`, N.
 
-    size   the symbol of a constraint force; for sliding friction 1, and `direction` contains the factor mu N
+    size   the symbol of a constraint force; for sliding friction, `size` is 1 and `direction` contains the factor mu N
     at     the place where the force acts
     of     the body or particle on which the force acts; None for the ground
     """

@@ -85,8 +85,9 @@ class Constraint(Part):
     def sense(self, side: int) -> str:
         """Return where the force on the first body points if the symbol of the force has the sign `side`.
 
-        The result is "up" or "down" if the force has a vertical component, otherwise "right" or "left". It is empty if
-        the force is not in a plane, or if the sign of the component is unknown.
+        The result is "up" or "down" if the force has a vertical component, otherwise "right" or "left". The result is
+        empty if no force on a body is known, if the force is not in a plane, or if the sign of the component is
+        unknown.
         """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
         if len(signs) != 2 or signs[1] is None or not (signs[1] or signs[0]):
@@ -97,8 +98,8 @@ class Constraint(Part):
     def acts(self, side: int) -> str:
         """Return the result of `sense` for a vertical or horizontal force.
 
-        For an oblique friction of constant direction, such as that of a slope, the result is "up_slope" or
-        "down_slope". For any other oblique force, it is empty.
+        For an oblique friction of constant direction, such as friction on a slope, the result is "up_slope" or
+        "down_slope". For any other oblique force, the result is empty.
         """
         sense = self.sense(side)
         if not sense or sense in ("right", "left") or is_zero(self.acting[0].direction[0]):
@@ -114,9 +115,9 @@ class Constraint(Part):
     def by_length(self) -> Expr:
         """The residual divided by `gradient`.
 
-        If the constraint does not contain rates, the virtual work of the force is `force` times the differential of
-        this quotient, where the constraint holds. If it does, each factor of a dq in the virtual work is `force` times
-        the coefficient of the rate of q in this quotient.
+        For a constraint on coordinates, the virtual work of the force is `force` times the differential of this
+        quotient, where the constraint holds. For a constraint on rates, the virtual work is the sum of `force` a_q dq,
+        where a_q is the coefficient of the rate of q in this quotient.
         """
         return self.residual / self.gradient
 

@@ -125,10 +125,10 @@ def contact(
     normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
                if the coordinates allow the body to leave the surface
     rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
-               the coordinates alone keep the body on the surface. The friction is positive along the surface with the
-               free side on the left. In space, it has two components along axes in the surface, such as F_x and F_y.
-               If only one horizontal axis is in the surface, the component named after the other horizontal axis is
-               perpendicular to the first axis
+               the coordinates alone keep the body on the surface. The friction is positive in the direction along the
+               surface that has the free side on its left. In space, the friction has two components along axes in the
+               surface, such as F_x and F_y. If only one horizontal axis is in the surface, the component named after
+               the other horizontal axis is perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
     direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
                this direction. With `rolling` or `static`, the friction on the body is positive in this direction
@@ -170,8 +170,10 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries a surface that moves with coordinates, unless it is at rest in given axes. The same
-    is required if the contact has friction and the surface rotates with time."""
+    """Require that a body carries a surface that moves with coordinates, unless the surface is at rest in given axes.
+
+    The same is required if the contact has friction and the surface rotates with time.
+    """
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
@@ -231,8 +233,8 @@ def _check_reached(touch: Contact) -> None:
 
 
 def _check(touch: Contact) -> None:
-    """Check that the normal is a unit vector. The distances of the place of contact and of the body from the surface,
-    along this normal, must be equal."""
+    """Check that the normal is a unit vector, and that the place of contact and the body have the same distance from
+    the surface along this normal."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
     gap = touch.gap / touch.surface.gradient(touch.at)

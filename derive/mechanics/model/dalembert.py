@@ -1,4 +1,4 @@
-"""The mass points and forces of the system of a Lagrangian; second routes start from these points and forces.
+"""The mass points of a system and the forces on them, from which second routes start.
 
 A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
 the rotation. Each further point is the end of a vector that rotates with the body: the unit vector of a body axis, or

@@ -54,7 +54,7 @@ DISTANCE = Rule(
 def _distance(system: System, each: Central, name: str) -> Quantity:
     """Distance between two places, s = sqrt((x_2 - x_1)^2 + (y_2 - y_1)^2 + ...), in m.
 
-    Second route: the law of cosines, s^2 = r_1^2 + r_2^2 - 2 r_1 . r_2.
+    Check: the law of cosines, s^2 = r_1^2 + r_2^2 - 2 r_1 . r_2.
     Outcomes: spring (the length of the only spring), springs (the length of one of several springs), other (not the
     length of a spring).
     Source: Taylor, *Classical Mechanics*, section 1.2.

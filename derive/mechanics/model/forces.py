@@ -1,8 +1,8 @@
 """Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
 potential energy as a function of coordinates and time.
 
-A couple acts along its angle, drag on a coordinate along this coordinate, and the force of a potential energy along
-each coordinate that the energy contains. The other forces act at a place.
+A couple acts along an angle. Drag acts at a place or along a coordinate. A potential energy has a generalized force
+along each coordinate that it contains. All other forces act at places.
 """
 
 from __future__ import annotations
@@ -231,7 +231,7 @@ def force(components: Any, at: Location, of: Any = None, by: Any = None) -> Give
     """A given force at a place, N; its components may be constants, or formulas in the coordinates and the time t.
 
     of   the body or particle on which the force acts, needed if the place does not move with this body; or "massless"
-    for a part without mass
+         for a part without mass
     by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
     place = _place("force", at)
@@ -299,7 +299,7 @@ def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     for role, field in (("electric field", electric), ("magnetic field", magnetic)):
         for component in field:
             if coordinates_in(component):
-                help_line = "give another field by `potential` or `force`"
+                help_line = "describe any other field with `potential` or `force`"
                 message = f"`charge` needs a uniform {role}, but {component} depends on the place"
                 raise Rejected(Complaint("changes", message, help=help_line))
     for component in magnetic:

@@ -46,7 +46,7 @@ def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
 
 
 def _where_kept(square: Expr, kept: Constraint) -> Expr:
-    """Simplify a square by the condition: 4 l^2, not 4 x^2 + 4 y^2, for the condition x^2 + y^2 = l^2."""
+    """Simplify a square with the condition: 4 l^2, not 4 x^2 + 4 y^2, for the condition x^2 + y^2 = l^2."""
     moving = list(kept.coordinates)
     divided, condition = square.as_poly(*moving), kept.residual.as_poly(*moving)
     if divided is None or condition is None or divided.total_degree() < condition.total_degree():

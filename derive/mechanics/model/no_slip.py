@@ -41,16 +41,17 @@ def no_slip(
     key: str = "no_slip",
     fixes: Coordinate | None = None,
 ) -> Quantity | tuple[Quantity, ...]:
-    """Condition of rolling without slipping, v + omega x (r_contact - r) = 0, solved for a rate.
+    """Condition of rolling without slipping, v + omega x (r_contact - r) = v_surface, solved for a rate.
 
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
     ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
              rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
-    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. A rate whose
-             coefficient in the condition is constant comes before any rate whose coefficient varies
-    Each independent condition isolates a different rate. A condition with constant coefficients can be integrated, so
-    it may be a part of a `System`, where it expresses one coordinate by other coordinates.
+    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. If the coefficient
+             of this rate in the condition varies, a rate with a constant coefficient is isolated instead, if there is
+             one
+    Each independent condition isolates a different rate. A condition can be integrated if all its terms are constants
+    times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
     If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
     velocity, each condition is satisfied.
@@ -308,7 +309,8 @@ def _solved(
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows if the particle is at rest: as a further row, it does not raise the rank."""
+        """Check that the condition follows if the particle is at rest: the condition as a further row does not raise
+        the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 

@@ -56,8 +56,10 @@ class Part:
         return ()
 
     def weighed(self, gravity: Expr) -> Sequence[Any]:
-        """Return parts that correct the weight if the mass of this part is not at the places in `masses`, as for a
-        rope; otherwise nothing."""
+        """Return parts that correct the weight if the mass of this part is counted at another place; otherwise nothing.
+
+        For example, the mass of a rope is counted at a particle.
+        """
         return ()
 
     def stored_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
@@ -65,7 +67,7 @@ class Part:
         return ()
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load | Reaction]:
-        """The forces without a potential energy, including constraint forces."""
+        """The forces without a potential energy, such as drag and constraint forces, but not magnetic forces."""
         return ()
 
     @property

@@ -56,7 +56,7 @@ def angular_velocity(
     along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
     body    the body that rotates with the axes, if it has a name
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
-    Outcomes: body (components along the axes themselves), following (along the axes before the last rotations), space
+    Outcomes: body (components along the axes themselves), following (along the axes after some of the rotations), space
     (along fixed axes).
     Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.

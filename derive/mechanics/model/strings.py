@@ -77,11 +77,12 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The weight of a rope that moves along itself, minus the weight of the particle that has its mass.
+    """The weight of a rope that moves along itself, minus the weight of the particle that has the mass of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
-             the rope, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of the two ends
+             the rope towards the second end, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of
+             the first and the second end
     at       the position of the first end
     """
 
@@ -166,7 +167,7 @@ def string(
     start: Any, end: Any, length: Any = None, over: Sequence[Any] = (), tension: str = "", mass_of: Any = None
 ) -> tuple[Line | Constraint, ...]:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
-    Or, with `mass_of`, a uniform rope, whose mass is that of a particle.
+    With `mass_of`, it is a uniform rope that has the mass of a particle.
 
     start, end   particles, bodies, points of bodies, or places; with `tension`, a place must contain no coordinate
     length       the total length of the straight pieces, m; it may be a function of the time, for a string that is
@@ -175,7 +176,7 @@ def string(
                  a particle or a point of a body
     tension      the symbol of the tension, N; positive if the string pulls. The symbol and the length are required if
                  the coordinates allow the length to change
-    mass_of      for a uniform rope: the particle whose mass is that of the rope. All pieces of the rope must have the
+    mass_of      for a uniform rope: the particle that has the mass of the rope. All pieces of the rope must have the
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
                  height of the particle must be constant; gravity acts on each piece of the rope
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
@@ -190,7 +191,8 @@ def string(
 
 
 def _check_rope(line: Any, particle: Any, tension: str) -> None:
-    """Require that each piece of a rope moves along itself with the speed of the particle that has its mass."""
+    """Require that each piece of a rope moves along itself, with the speed of the particle that has the mass of the
+    rope. This particle must stay at a constant height, and the tension must have no symbol."""
     if not hasattr(particle, "mass") or not is_end(particle):
         raise Rejected(Complaint("wrong-argument", "`mass_of` names the particle that has the mass of the rope"))
     if tension:
@@ -211,7 +213,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
 
 
 def _rotates(way: Location) -> bool:
-    """Whether the direction of a displacement changes: the displacement is not parallel to its rate."""
+    """Whether the direction of a displacement changes: the displacement is then not parallel to its rate."""
     fast = velocity_at(way, way)
     pairs = combinations(zip(way.components, fast.components, strict=True), 2)
     return any(not is_zero(tidied(a * b_dot - b * a_dot)) for (a, a_dot), (b, b_dot) in pairs)
@@ -389,6 +391,6 @@ def _rim(place: Location, on: PlacedBody) -> Location:
         if is_zero(tidied(c**2 - radius**2)):
             return on.hub + Location(tuple(c if i == k else ZERO for i in (0, 1)))
     where = ", ".join(map(str, place.components))
-    message = f"the string from ({where}) is not tangent to {on.body.name} beside its axis, or above or below it"
+    message = f"the string from ({where}) is not tangent to {on.body.name} beside, above or below its axis"
     help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"
     raise Rejected(Complaint("no-contact", message, help=help_line))

@@ -234,8 +234,8 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Reject a motion of the material that is given twice, axes in a plane of motion, and a velocity that is not
-    constant or not along the surface."""
+    """Reject a motion of the material that is given twice, rotating axes for a system that moves in a plane, and a
+    velocity that is not constant or not along the surface."""
     if surface.of is not None and surface.moves is not None:
         message = "the body that carries the surface determines its motion"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))
@@ -296,8 +296,8 @@ def curve(
     below    whether the free side is below the curve; by default it is above
     of       the body or particle that carries the curve; the curve moves with this object, without rotation
     is_two_sided   as for `plane`
-    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The condition y - f(x) = 0 has
-    a gradient of the length sqrt(1 + f'^2), so its multiplier is N/sqrt(1 + f'^2).
+    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The gradient of
+    y - f(x) has the length sqrt(1 + f'^2), so the multiplier of the condition y - f(x) = 0 is N/sqrt(1 + f'^2).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     origin = of.centre if isinstance(of, PlacedBody) else Location((ZERO, ZERO)) if of is None else of.at

@@ -348,8 +348,8 @@ class System:
 
     @property
     def places(self) -> list[Location]:
-        """The places of particles, bodies and charges, the ends of springs and central forces, and the ends, holes
-        and pulleys of strings and rods."""
+        """The places of particles and charges, the centres of mass of bodies, the ends of springs and central forces,
+        and the ends, holes and pulley centres of strings and massless rods."""
         return [place for part in self.parts for place in part.places]
 
     @property

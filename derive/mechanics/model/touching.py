@@ -40,8 +40,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 
 def _foot(placed: PlacedBody, curve: Curve) -> Location:
-    """Return the place where a round body touches a curve: the place whose normal passes through the centre of the
-    body, at the distance of the radius. The horizontal distance of this place from the origin of the curve must be a
+    """Return the place where a round body touches a curve: the centre of the body is on the normal of the curve at this
+    place, one radius from the curve. The horizontal distance of this place from the origin of the curve must be a
     coordinate of the system."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
@@ -88,7 +88,7 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     plane onto the plane of the rim. If the body touches the plane along a line, `_lower` chooses an end of this line.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
-        message = f"in space, {placed.body.name} touches a plane; the point where it touches this surface is unknown"
+        message = f"in space, the point where {placed.body.name} touches a surface is known only for a plane"
         raise Rejected(Complaint("no-contact", message, help="give a plane, or a point of the body"))
     axis, n = Location(tuple(placed.turned.in_space[:, 2])), surface.unit_normal
     along = n - dot(n, axis) * axis
@@ -115,8 +115,8 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
     """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
 
-    The lowest place of a rim is below its centre by r sin(a), where r is the radius of the rim and a the angle between
-    the rim and the plane. The components of the normal along the axes of the body give sin(a).
+    The lowest place of a rim is below the centre of the rim by r sin(a). Here r is the radius of the rim, and a is the
+    angle between the rim and the plane. The components of the normal along the axes of the body give sin(a).
     """
     middle = _own(placed, ZERO, ZERO, ZERO)
     along, across, axis = (_own(placed, *map(Integer, own)) - middle for own in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))

@@ -87,8 +87,8 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
     If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
-    motion turns back first, behind it. If contact or a taut string has to last until the motion is there, a sentence
-    with a condition must say so.
+    motion turns back first, behind it. If contact or a taut string must last until the motion reaches the place, a
+    sentence with a condition must say so.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -153,7 +153,7 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 def _side(come: Arrival) -> set[int | None]:
     """Whether the place is ahead of the start (1) or behind it (-1): the set of the answers for all trial numbers.
-    Numbers for which the place is the start are left out; if no others remain, the result is 1."""
+    Numbers for which the place is the start are left out; if no others remain, the result is {1}."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -243,7 +243,8 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the steady motion has the constant values of the sentence, and the result is one of its conditions."""
+    """Whether the steady motion has the constant values of the sentence, and the result is a condition of this
+    motion."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
     fits = any(same_equation(each, explicit(facts.result).residual) for each in fact.conditions)
@@ -425,7 +426,10 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """Whether the surfaces touch at the start: the force there is not negative."""
+    """Whether the relation gives a value of the unknown of the result, and the force there is not negative.
+
+    If the unknown is a function such as cos(theta), the force is not tested.
+    """
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
@@ -669,8 +673,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y for a place (X, Y), where x(t) = X, and whether this time t is
-    numerically positive."""
+    """Whether the condition is equivalent to y(t) = Y at the time t with x(t) = X, where (X, Y) is the place; also
+    whether t is numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

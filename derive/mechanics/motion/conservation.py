@@ -45,10 +45,10 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
     For each equation whose factor is not zero, a step derives the product of the equation and the factor. If there are
     several products, another step adds them.
-    Second route: differentiate Q as a function of time and substitute the highest rates from the equations. Also
-    subtract the sum of the products from dQ/dt without substituting the highest rates. Integrate one motion
-    numerically. If Q belongs to a rotating body, also sum the contributions of the particles of the body. If the torque
-    on the body is known, repeat this sum for an inertia tensor that is not diagonal.
+    Second route: differentiate Q as a function of time and substitute the highest rates from the equations. If Q
+    belongs to a rotating body, also sum the contributions of the particles of the body. If the torque on the body is
+    known, repeat this sum for an inertia tensor that is not diagonal. Checks: subtract the sum of the products from
+    dQ/dt without substituting the highest rates, and integrate one motion numerically.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -188,7 +188,8 @@ def _sum(
 ) -> Quantity:
     """Sum of the products, with like terms collected.
 
-    Outcomes: plain (no term without a highest rate), cancel (such terms cancel), remain (some of them remain).
+    Outcomes: plain (every term contains a highest rate), cancel (the terms without a highest rate cancel), remain (some
+    terms without a highest rate remain).
     """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])

@@ -46,7 +46,7 @@ __all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
 FIGURES = 30
-NOISE = 1e-9  # relative error that is accepted because of cancellation near the turning points
+NOISE = 1e-9  # smaller differences are accepted, because terms cancel near the turning points
 
 
 SPEED_FROM_ENERGY = Rule(
@@ -89,7 +89,7 @@ def speed_from_energy(
     mass = tidied(diff(value, speed, 2))
     rest = value.xreplace({speed: ZERO})
     if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):
-        message = f"`speed_from_energy`: `{energy.key}` is not of the form m(q) q_dot^2/2 + U(q)"
+        message = f"`speed_from_energy`: `{energy.key}` is not of the form m(q) q_dot^2/2 + V(q)"
         raise Rejected(Complaint("wrong-argument", message))
     at_start = tidied(value.xreplace({letter: first, speed: initial}))
 
@@ -219,7 +219,7 @@ RATE_BY_ENERGY = Rule(
     squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
-    """Rate of a coordinate, the root of its square, with the sign that the rate has just after the start.
+    """Rate of a coordinate, the root of the squared rate, with the sign that the rate has just after the start.
 
     squared   the squared rate q_dot^2, a result of `speed_from_energy`
     The sign is that of the initial rate or, at a start from rest, that of the acceleration.

@@ -66,7 +66,7 @@ class Arrival:
                if the motion starts from rest
     turned     whether the motion turns back before it comes to the place, so that the rate has the opposite sign there
     lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
-               the tension of a string, "" if there is neither
+               the tension of a string, "" if there is no such constraint
     """
 
     begun: ByEnergy
@@ -82,7 +82,7 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Orbit:
-    """The circle of a particle before its flight, and whether the particle flies inside it."""
+    """The circle on which a particle moved before its flight, and whether the particle flies inside this circle."""
 
     centre: tuple[Expr, Expr]
     radius: Expr

@@ -244,7 +244,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
 
 def _checked_letter(letter: Any, q: Symbol) -> Symbol:
     if not isinstance(letter, Symbol) or changes(letter, [q]) is not None:
-        message = f"`flight` needs as `at` a symbol for the value of {q} at the departure, but it is {letter}"
+        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, but it is {letter}"
         raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for it, such as `{q}_1`"))
     return letter
 
@@ -463,9 +463,9 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
-    The distance from the plane is a polynomial of second order in the time; the flight ends at the first time after the
+    The distance from the plane is a polynomial of degree 2 in the time; the flight ends at the first time after the
     departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
-    radius is t^3 (a t + b). The departure is a triple zero, because the particle is on the circle there, moves along
+    radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
     circle again. Before a landing on a plane, the particle must not meet the circle.
     Second route: the place satisfies the equation of the orbit, in which the time is eliminated; the speed also follows
@@ -576,8 +576,8 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     h, v, a = _above(known, target)
     side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
     if side not in (0, 1):
-        where = "below" if side == -1 else "perhaps not above"
-        message = f"`lands`: the particle departs {where} the plane, at the distance {h} from it"
+        how = "departs" if side == -1 else "may depart"
+        message = f"`lands`: the particle {how} below the plane, at the distance {h} from it"
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     inside = tidied(v**2 - 4 * a * h)
@@ -749,7 +749,7 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
         dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
-        across = v[0] * dy - v[1] * dx  # perpendicular to the velocity at the departure
+        across = v[0] * dy - v[1] * dx  # the displacement perpendicular to the first velocity, times the speed
         return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
 
     return establish(
@@ -810,8 +810,8 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the height of the particle at the time at which it has the horizontal position of the place. Numerically,
-    this time is positive.
+    Check: compare the heights of the particle and of the place at the time at which their horizontal positions are
+    equal. Numerically, this time is positive.
     Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.

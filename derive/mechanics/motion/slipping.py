@@ -79,8 +79,9 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     slips against the friction that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
-    Outcomes: sticks, always, cannot (the condition is never true); needs_none (F = 0); slips, slips_squared (solved
-    after squaring), at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
+    Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
+    needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
+    at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
     Errors: no coefficient of static friction; the surface does not push; no solution in closed form; the place depends
     on the values of the symbols.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.4.
@@ -246,7 +247,7 @@ def _data(motion: Motion, side: int = 0) -> dict[str, Expr]:
 
 
 def _at_once(motion: Motion, side: int, key: str) -> Quantity:
-    """The step for a body that slips at once: at the start, friction without slipping would exceed mu_s N."""
+    """The step for a body that slips at once: at the start, the friction that prevents slipping would exceed mu_s N."""
     contact, start = motion.contact, {motion.q: motion.start}
     F, N = (tidied(each.xreplace(start)) for each in (contact.F, contact.N))
     return establish(
@@ -268,7 +269,7 @@ def _at_once(motion: Motion, side: int, key: str) -> Quantity:
 
 
 def _stays(motion: Motion, starts: Relation | None, key: str) -> Quantity:
-    """The step for a body that never slips: nowhere in the motion does the friction reach its largest value mu_s N."""
+    """The step for a body that never slips: the motion reaches no place where the friction has its largest value."""
     contact = motion.contact
     return establish(
         SLIPS,

@@ -1,4 +1,4 @@
-"""The static friction of a contact and its normal force: when the friction suffices, |F| <= mu_s N."""
+"""The static friction and the normal force of a contact, and when the friction suffices: |F| <= mu_s N."""
 
 from __future__ import annotations
 

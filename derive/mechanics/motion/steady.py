@@ -48,7 +48,7 @@ def steady_motion(
             values of conserved momenta substituted. These momenta determine the rates of the cyclic coordinates
     rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
     at      constant values of other coordinates, `{theta: alpha}`; a coordinate that is not given keeps its symbol
-    key     the key; if there are several conditions, the name of the coordinate is appended
+    key     the key of the step; if there are several conditions, the name of the coordinate is appended
     Second route: sum of (m a - F) . dr/dq = 0 for the mass points in this motion, with accelerations a from the places
     as functions of time.
     Outcomes: generic, always (satisfied for all values of the symbols), of_equation (from an equation of motion).
@@ -222,7 +222,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 
 @in_results(
     "steady",
-    "from the Lagrangian the condition of a steady motion, which `roots` solves",
+    "the condition of a steady motion from the Lagrangian; `roots` solves this condition",
     of="steady: a Lagrangian",
     values="values: `{r: r_0}`",
     symbols="symbol: letters of the cyclic rates",

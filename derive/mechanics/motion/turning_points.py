@@ -75,7 +75,8 @@ def arrivals(
     of, others   the result, and other results that are substituted in it
     places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression there
     limit        a function that returns the limit of f at the place, as for `condition_to_reach`
-    A place that one of the others finds from this motion needs no condition: the step of this place states it.
+    If one of the other results was derived from this motion, such as the place of a first slip, its step already states
+    the condition; the `Arrival` then has none.
     Errors: the motion does not reach the place; or the result contains a rate with its sign at the start, and this sign
     is wrong or unknown at the place.
     """
@@ -115,7 +116,7 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the term `lasts` for a sentence that states the condition under which the motion comes to these places.
+    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places.
 
     The result is empty if there is no such condition, or if neither contact nor a taut string is needed.
     """
@@ -134,7 +135,7 @@ def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
     """Whether a motion whose rate vanishes at the place is known to come to this place, where it turns back.
 
     If the slope of f = q_dot^2 vanishes there too, the place is an unstable equilibrium, and the motion only approaches
-    it. A motion with f = 0 at infinity, such as that with the escape velocity, does go to infinity.
+    it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
     """
     if place in (oo, -oo):
         return True
@@ -154,8 +155,11 @@ def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | No
 
 
 def _latest_speeds(*quantities: Quantity) -> list[Quantity]:
-    """Return the squared rates from conservation of energy on which these results rest, without those of earlier
-    motions, which only lead to the start of a later motion."""
+    """Return the squared rates from conservation of energy from which these results were derived.
+
+    A squared rate from which another one was derived is left out: it belongs to an earlier motion, which only leads to
+    the start of a later one.
+    """
     found = {each.key: each for of in quantities for each in of.ancestors() if each.fact(ByEnergy)}.values()
     return [each for each in found if not any(other is not each and other.rests_on(each) for other in found)]
 
