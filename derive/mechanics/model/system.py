@@ -472,7 +472,7 @@ def _near_rest(each: Central) -> Central | None:
     if each.along is None:
         return each
     at_rest = _undriven(each.along)
-    if not coordinates_in(each.along) or not at_rest.is_nonzero:
+    if not coordinates_in(each.along) or not (at_rest.is_positive or at_rest.is_negative):
         return None
     return replace(each, branch=each.along if at_rest.is_positive else -each.along)
 
