@@ -66,7 +66,7 @@ from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
 FIRST, POINTS = 2, 26  # numbers of points that are compared before the exact method, and after it if it fails
-TURNS = 400  # greatest number of points drawn in search of a point where an `Abs` or `sign` has another sign
+TURNS = 400  # greatest number of points drawn in search of another sign of the argument of an `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -107,8 +107,8 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers of its
-    symbols."""
+    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers that the
+    symbols have there."""
 
     grade: Grade
     detail: str = ""
@@ -295,7 +295,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return _equal_scalars(left.residual, right.residual)
     whole = _seen_ratio(left, right)
     if whole is not None and _is_borne(left.operator, right.operator, _without_factors(whole, nonzero)):
-        if left.operator != right.operator and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
+        # If both residuals are zero, any factor fits, so a negative factor does not show that the operators agree.
+        if left.operator != right.operator and vanishes(left.residual):
             return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, and both sides are equal")
         return Verdict(Grade.PROVED, f"equal up to the factor {whole}" if whole**2 != 1 else "polynomial normal form")
     if _same_mark(left.operator, right.operator, 1) and _both_squared(left, right):

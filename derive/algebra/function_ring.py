@@ -83,7 +83,7 @@ class FunctionRing(TrigRing):
         return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
 
     def is_unsure(self, terms: Terms) -> bool:
-        return False  # whether a divisor vanishes is checked at the end
+        return False  # `normal_form` checks at the end whether a divisor vanishes
 
     def function(self, expr: Expr) -> Form:
         kind = type(expr)

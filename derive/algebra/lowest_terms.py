@@ -294,7 +294,7 @@ def _image(valued: Terms, place: int, number: int) -> list[int]:
 
 
 def _is_coprime(one: list[int], other: list[int]) -> bool:
-    """Whether both images keep their highest power and have no common root in any field."""
+    """Whether both images keep their highest power and have no common factor."""
     return bool(one[0] and other[0] and gf_degree(gf_gcd(one, other, PRIME, ZZ)) == 0)
 
 

@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # how many of the lines before the result of a step are shown at most
+_MOST_LINES = 3  # number of the lines before the result of a step that are shown if there are many
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -179,7 +179,7 @@ def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], b
 
 
 def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
-    """Return the words of a run, each with the marks of `git diff --word-diff`."""
+    """Return the words of a run; marks as in `git diff --word-diff` enclose a run that was removed or added."""
     marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
     return [(how, word) for word in marked.split(" ")]
 

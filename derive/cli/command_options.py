@@ -214,6 +214,6 @@ def _port(text: str) -> int:
     return int(text)
 
 
-# argparse shows this name in its message
+# argparse shows these names in its messages
 _positive.__name__, _port.__name__ = "time limit", "port"
 _count.__name__ = "count"

@@ -56,8 +56,8 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """Return the errata and the remarks about a problem's source, each with its line, what the source prints, what is
-    right (of an erratum), and the reason."""
+    """Return the errata and the remarks about a problem's source, each with its line, the text that the
+    source prints, the correction of an erratum, and the reason."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]

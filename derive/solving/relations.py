@@ -35,7 +35,7 @@ def mark_between(mark: str, sign: int | None) -> str | None:
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None if its numerator is not of the form a x^n + b."""
+    """The expression as a (x^n - v); None if its numerator is not of the form c x^n + d with constants c and d."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []

@@ -135,7 +135,8 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
                 "wrong-argument",
                 message,
                 help=Spelled(
-                    "give an equation of motion, a condition or a `let`", "name an equation of motion or a condition"
+                    "give an equation of motion, a condition or a result of `let`",
+                    "name an equation of motion or a condition",
                 ),
             )
         )

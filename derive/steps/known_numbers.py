@@ -1,4 +1,4 @@
-"""The numbers that a problem gives for its symbols. Only a few verbs need these numbers, to decide between cases."""
+"""The numbers that a problem gives for its symbols. Verbs use these numbers only to decide between cases."""
 
 from __future__ import annotations
 
