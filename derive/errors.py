@@ -1,4 +1,4 @@
-"""All errors, as one tree, and how an error is shown.
+"""The classes of all errors, and the text in which an error is shown.
 
     DeriveError                 the base class; most other exceptions are internal errors
     ├── Rejected                errors in a file of the author; as many as possible at once
@@ -122,7 +122,7 @@ class OutOfTime(BaseException):
     waited    whether the work was only waiting, without using the processor
     doing     what the work was doing, innermost first
     answers   the names of the answers that the work was deriving, innermost first
-    finished  the keys of the steps that are established
+    finished  the keys of the steps that were established before
     kept      whether the finished steps are stored for the next attempt
     """
 

@@ -65,7 +65,7 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points that are compared before the exact method, and after it if it fails
+FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
 TURNS = 400  # greatest number of points drawn in search of another sign of the argument of an `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
@@ -237,7 +237,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
     """Look for a point where the sides differ; None if no such point is found.
 
-    Only points are tried at which an argument of `Abs` or `sign` has another sign than at all the points `seen`.
+    At the tried points, the argument of an `Abs` or a `sign` is positive if it is negative at all points `seen`, and
+    negative if it is positive at all points `seen`.
     """
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
@@ -411,7 +412,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 def _both_squared(left: Relation, right: Relation) -> bool:
     """Whether one relation is x > y, where neither side is negative, and the other relation is a positive multiple of
-    x^2 > y^2. The operator is the same in both relations; > is an example."""
+    x^2 > y^2. The two relations have the same operator, which need not be >."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):

@@ -159,8 +159,8 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """dA/dt in space of a vector A, given by its components along axes that rotate with angular velocity omega.
-    Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
+    """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
+    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
 
     The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
     differentiating R(t) A, not as omega x A; the columns of R(t) are the body's axes after the time t. R(t) is built

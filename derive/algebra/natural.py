@@ -153,8 +153,8 @@ def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
 
 
 def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield symbol -> its value in the names of the quantities, for each choice of the symbols that
-    are eliminated, one for each quantity."""
+    """Yield a mapping, symbol -> its value in the names of the quantities, for each choice of the eliminated symbols.
+    One symbol is eliminated for each quantity."""
     choices = [_solutions(name, value, frozenset(kept)) for name, value in quantities.items()]
     for choice in product(*choices):
         found = _solved_together(choice)
@@ -241,7 +241,7 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides, term by term, but only the right side of an equation that gives the value of a symbol.
+    """Rewrite both sides term by term; if the relation gives the value of a symbol, rewrite only the right side.
 
     Divide an equation with zero on the right by the positive symbols that all terms on the left have in common. Divide
     any other relation without a zero side by the common factor of both sides, unless it is an equation of motion.

@@ -53,8 +53,8 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """Map a positive number to a number in the range by an increasing function; in `POSITIVE` the number is
-        unchanged."""
+        """Map a positive number to a number in the range by an increasing function; for the range `POSITIVE` the number
+        is unchanged."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
@@ -154,8 +154,8 @@ def without_abs(value: Any) -> Any:
 
 
 def with_positive_factors_out(value: Expr) -> Expr:
-    """Take positive factors with sines, cosines or tangents out of roots: sqrt(1 + v^2/sin(a)^2) is sqrt(sin(a)^2 +
-    v^2)/sin(a) where sin(a) > 0."""
+    """Take positive factors with sines, cosines or tangents out of roots: sqrt(1 + v^2/sin(a)^2) becomes
+    sqrt(sin(a)^2 + v^2)/sin(a) where sin(a) > 0."""
     known = _KNOWN.get()
     if not known:
         return value

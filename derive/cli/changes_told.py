@@ -15,7 +15,7 @@ from derive.building.set_diff import SetDiff
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
-# Each sort of change with its heading, its singular and its plural.
+# Each sort of change with its heading, and with its name in the singular and in the plural.
 _SORTS = {
     "given": ("given", "given value", "given values"),
     "problem": ("problems", "problem", "problems"),

@@ -14,7 +14,7 @@ from derive.errors import Complaint
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
 MOST = 50  # the greatest number of errors that are shown
 WIDTH = 98
-_INDENT = 22  # indent of the lines about an error of the source
+_INDENT = 22  # indentation of the lines that explain an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 

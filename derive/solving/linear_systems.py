@@ -522,7 +522,7 @@ class Gyroscopic(LinearSystem):
             value = _with_root(ways[0] * middle / (2 * a), ways[1] / (2 * a), root, by_terms=True)
             return CharacteristicRoot(value, real, factor, turn=turn)
 
-        if both_ways == -1:  # one root of each sign: their absolute values do not depend on the sign of b
+        if both_ways == -1:  # with roots of opposite signs, their absolute values do not depend on the sign of b
             return [found(middle, (-1, 1), -1), found(middle, (1, 1), 1)]
         forwards = self.sign(middle) == 1
         middle = middle if forwards else Abs(tidied(minus_b))

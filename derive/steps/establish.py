@@ -380,7 +380,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
     taken = {str(letter) for letter in letters} & {str(other) for other in result.free_symbols}
     if taken:
         name = min(taken)
-        message = f"`{key}` is called {name}, but {name} already denotes a given quantity"
+        message = f"`{key}` is called {name}, but {name} already denotes another quantity"
         raise Rejected(
             Complaint(
                 "letter-clash",

@@ -298,7 +298,7 @@ def add_definition(quantity: Quantity) -> None:
 
 def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
     """Reject a step whose key or symbol is the name of a quantity under `define:`. A result with the value of the
-    defined quantity may have the same symbol, and its square may have the square of this symbol."""
+    defined quantity may have the same symbol, and the square of this value may have the square of the symbol."""
     run = current_run.get()
     if run is None:
         return
