@@ -194,7 +194,7 @@ class _Fractions(Expanded):
         return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
 
     def _turning(self, terms: Terms) -> list[tuple[int, int]]:
-        """The places in a monomial of the sines and cosines that occur, each with the place of the other function of
+        """Return, for each sine and cosine that occurs, its place in a monomial and the place of the other function of
         the same angle."""
         found = [self.name(place) for place in _places(terms)]
         turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)

@@ -84,7 +84,7 @@ def _tidied_scalar(value: Expr) -> Expr:
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
     """Return cos(a -+ b) for cos a cos b +- sin a sin b, and sin(a +- b) for sin a cos b +- cos a
-    sin b; None for any other sum."""
+    sin b; None for any other expression."""
     terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
     found = [term for term in terms if term is not None]
     if len(found) != 2:

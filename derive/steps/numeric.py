@@ -110,7 +110,7 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if letters remain, or if the value is imaginary, such as the frequency of a motion that does not
+    The result is None if letters remain, or if the value is not real, such as the frequency of a motion that does not
     oscillate. It is also None for zero, for integers without letters, and for a relation without a single letter on its
     left side.
 

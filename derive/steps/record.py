@@ -206,7 +206,7 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 @question
 def free_letter(name: str, *indices: str) -> str:
     """Return the usual symbol of a result or, if the problem already uses this symbol, a symbol with another textbook
-    letter.
+    letter. If the problem uses all these letters, return the usual symbol.
 
     name      the usual symbol, with its own index
     indices   further indices; the problem must not use the returned symbol with any of these indices
