@@ -196,8 +196,8 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of an unknown that is a symbol in `known` or a rate of such a symbol; None for any other unknown, or if a
-    rate has no kind."""
+    """The kind of an unknown that is a symbol in `known` or a rate of such a symbol; None for any other unknown, or if
+    the rate has no kind."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:
