@@ -122,7 +122,7 @@ class OutOfTime(BaseException):
     waited    whether the work was only waiting, without using the processor
     doing     what the work was doing, innermost first
     answers   the names of the answers that the work was deriving, innermost first
-    finished  the keys of the steps that were established before
+    finished  the keys of the steps that earlier calls of verbs established
     kept      whether the finished steps are stored for the next attempt
     """
 

@@ -366,7 +366,7 @@ def _known_sign(factor: Expr) -> int | None:
 
 
 def _never_vanishes(factor: Expr) -> bool:
-    """Whether the factor is neither zero nor undefined for any allowed values of its symbols."""
+    """Whether the factor is nonzero and defined for all allowed values of its symbols."""
     return all(part.is_nonzero or never_vanishes_within(part) for part in factor.as_numer_denom())
 
 

@@ -522,7 +522,7 @@ class Gyroscopic(LinearSystem):
             value = _with_root(ways[0] * middle / (2 * a), ways[1] / (2 * a), root, by_terms=True)
             return CharacteristicRoot(value, real, factor, turn=turn)
 
-        if both_ways == -1:  # with roots of opposite signs, their absolute values do not depend on the sign of b
+        if both_ways == -1:  # the roots have opposite signs, and the sign of b does not change their absolute values
             return [found(middle, (-1, 1), -1), found(middle, (1, 1), 1)]
         forwards = self.sign(middle) == 1
         middle = middle if forwards else Abs(tidied(minus_b))
