@@ -237,8 +237,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
     """Look for a point where the sides differ; None if no such point is found.
 
-    At the tried points, the argument of an `Abs` or a `sign` is positive if it is negative at all points `seen`, and
-    negative if it is positive at all points `seen`.
+    If the argument of an `Abs` or a `sign` has only one sign at the points `seen`, points with the opposite sign are
+    tried.
     """
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):

@@ -25,8 +25,8 @@ class Kind:
 
     unit      the coherent SI unit as text
     positive  whether symbols of this kind are positive; symbols of the other kinds are only real
-    signed    whether a minus sign is allowed, because it reverses a direction such as the direction of rotation; for
-              all other positive kinds a minus sign is an error
+    signed    whether a minus sign is allowed in the value of a positive kind: it reverses a direction, such as the
+              direction of rotation. For all other positive kinds a minus sign is an error
     angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),
               only 1 for an angle
     """

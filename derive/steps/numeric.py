@@ -495,8 +495,8 @@ def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
 
 
 def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
-    """Return the largest relative error of the exact entries, compared with values computed again from the numbers of
-    the symbols, and zero, which this error must equal."""
+    """Return two numbers that a check compares: the largest relative error of the exact entries, and zero. The entries
+    are compared with values computed again from the numbers of the symbols."""
     numbers = {letter: explicit(amounts[letter]) for letter in letters}
     errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
     return max(errors), Integer(0)
