@@ -1,4 +1,4 @@
-"""All errors, as one tree, and how an error is shown.
+"""The classes of all errors, and the text in which an error is shown.
 
     DeriveError                 the base class; most other exceptions are internal errors
     ├── Rejected                errors in a file of the author; as many as possible at once
@@ -34,7 +34,7 @@ class Place:
 
 
 class Spelled(str):
-    """A help line for a script; `in_file` is the same help for a YAML file whose keys call the verb."""
+    """A help line for a script; `in_file` is the help line for a YAML file whose keys call the verb, or None."""
 
     in_file: str | None
 
@@ -111,7 +111,7 @@ class BuildFailed(DeriveError):
 
 
 class Misused(DeriveError):
-    """The command line asks for something that does not exist or has no meaning."""
+    """The command line, or a call in a notebook, asks for something that does not exist or has no meaning."""
 
     exit_code = 2
 
@@ -122,7 +122,7 @@ class OutOfTime(BaseException):
     waited    whether the work was only waiting, without using the processor
     doing     what the work was doing, innermost first
     answers   the names of the answers that the work was deriving, innermost first
-    finished  the keys of the steps that are established
+    finished  the keys of the steps that earlier calls of verbs established
     kept      whether the finished steps are stored for the next attempt
     """
 
@@ -145,7 +145,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
         raise
 
 
-# --- collected and helped ---------------------------------------------------------------------------------------------
+# --- help lines and collected errors ----------------------------------------------------------------------------------
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
@@ -161,7 +161,7 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
 
 
 def _most_slips(letters: int) -> int:
-    return max(letters // 3, int(letters > 1))  # `kgs`
+    return max(letters // 3, int(letters > 1))  # one letter of `kgs` may be wrong, since `kg` may be meant
 
 
 def _slips(written: str, meant: str) -> int:

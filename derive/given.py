@@ -1,5 +1,5 @@
-"""What a script declares about the given quantities: the kinds that annotate `solve()`, and `require` for conditions
-between these quantities."""
+"""The names with which a script declares its given quantities: the kinds that annotate the parameters of `solve()`, and
+`require` for conditions between these quantities."""
 
 from derive.algebra.direction import Direction as Direction
 from derive.algebra.kinds import *  # an annotation for each kind, such as `Mass`

@@ -1,4 +1,4 @@
-"""A problem in a notebook or at Python's prompt, derived again, with the answers and drawings of its page.
+"""Derive a problem in a notebook or at Python's prompt, and show the answers and drawings of its page.
 
 problem = open_problem("hw9/block")
 problem.answer("torque")       # shown as a formula; .value is the SymPy expression
@@ -67,7 +67,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A drawing, drawn now."""
+    """A drawing as SVG text, made from the problem as it is now."""
 
     svg: str
 

@@ -14,7 +14,7 @@ IN_DEGREES = frozenset({"deg", "degree", "degrees", "\u00b0"})  # the names of t
 
 
 class Amount(ScalarNode):
-    """A number with its unit, `2 cm`. Arguments: the number, the unit as text, the factor to the SI unit."""
+    """A number with its unit, `2 cm`. Arguments: the number, the unit as text, the value of this unit in SI units."""
 
     def __new__(cls, number: Expr, unit: str | Str, factor: Expr) -> Amount:
         return super().__new__(cls, number, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]
@@ -30,7 +30,7 @@ class Amount(ScalarNode):
 
 
 class MatrixAmount(MatrixNode):
-    """A vector or tensor in one unit. Arguments: the numbers, the unit as text, the factor to the SI unit."""
+    """A vector or tensor in one unit. Arguments: the numbers, the unit as text, the value of this unit in SI units."""
 
     def __new__(cls, numbers: Any, unit: str | Str, factor: Expr) -> MatrixAmount:
         return super().__new__(cls, numbers, Str(unit) if isinstance(unit, str) else unit, factor)  # type: ignore[no-any-return]

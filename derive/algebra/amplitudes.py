@@ -68,7 +68,7 @@ def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the determinant without division, in the ring of polynomials in the symbols of the matrix.
 
     If an entry has a symbol in a denominator, the ring contains fractions. Each function and each root counts as a
-    symbol, because SymPy has no ring for functions and roots, and would otherwise cancel after each step.
+    symbol: SymPy has no ring for functions and roots, and without a ring it would cancel factors after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -79,7 +79,7 @@ def determinant_of(matrix: MatrixBase) -> Expr:
 
 
 def inverse_of(matrix: MatrixBase) -> MatrixBase:
-    """Compute the inverse, the adjugate divided by the determinant; no entry is simplified on the way.
+    """Compute the inverse as the adjugate divided by the determinant, without simplifying its entries.
 
     Raises `NonInvertibleMatrixError` if the determinant is zero.
     """

@@ -1,7 +1,8 @@
 """The coefficients of an expression that is a polynomial in some of its symbols.
 
 A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out.
-Functions count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used.
+Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. For an
+expression with any other function the ring raises `Outside`.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ class Coefficient(NamedTuple):
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. If the coefficient is a factor without
     sines and cosines times a factor of sines and cosines only, `angles` is the second factor. `written(number, angles)`
-    returns the product of a number, the first factor and a rewritten second factor, with common factors in front.
+    returns the product of a number, the first factor and a rewritten second factor, with common factors in front. For
+    any other coefficient, `written` is None.
     """
 
     whole: Callable[[], Expr]

@@ -120,8 +120,8 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
-    r^2 phi_dot^2). If there is no common number, or if these constants include no mass or moment of inertia, put terms
-    with the same numerical factor and the same constants in one bracket.
+    r^2 phi_dot^2). If there is no common number, or no mass or moment of inertia among these constants, put terms with
+    the same numerical factor and the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]

@@ -26,10 +26,10 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
     """The least sign of the quadratic form away from the origin; None if this sign is unknown.
 
-    The sign is 1 for a positive definite form, 0 for a semidefinite form, and -1 if the form is negative in some
-    direction.
+    The sign is 1 for a positive definite form, 0 for a form that is never negative but vanishes in some direction, and
+    -1 if the form is negative in some direction.
 
-    The semidefinite case needs all principal minors, not only the leading ones.
+    The sign 0 needs all principal minors, not only the leading ones.
     """
     if is_positive_definite(matrix, sign):
         return 1

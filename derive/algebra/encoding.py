@@ -1,7 +1,7 @@
 """Encode an expression as nested lists, and decode the lists into the same expression: `["Mul", ["Rational", 13, 12],
 ["Symbol", ...]]`.
 
-Decoding builds objects of the listed classes only; nothing is evaluated from text.
+Decoding builds objects of the classes that this module lists, and of nodes; nothing is evaluated from text.
 """
 
 from __future__ import annotations
@@ -61,9 +61,9 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
-@lru_cache(maxsize=4096)  # a derivation has few symbols, and most of its lines contain most of them
+@lru_cache(maxsize=4096)  # the same few symbols occur in most lines of a derivation
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Assumptions that give an equal symbol. SymPy does not record which assumptions were written.
+    """Return assumptions with which SymPy makes an equal symbol; SymPy does not record which assumptions were written.
 
     The usual sets of assumptions are tried in order, and the first one that gives an equal symbol is returned. If none
     does, the set of all assumptions that SymPy derived is returned.

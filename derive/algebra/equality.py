@@ -65,8 +65,8 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
-FIRST, POINTS = 2, 26  # numbers of points that are compared before the exact method, and after it if it fails
-TURNS = 400  # greatest number of points drawn in search of a point where an `Abs` or `sign` has another sign
+FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
+TURNS = 400  # greatest number of points drawn in search of another sign of the argument of an `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -107,8 +107,8 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers of its
-    symbols."""
+    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers that the
+    symbols have there."""
 
     grade: Grade
     detail: str = ""
@@ -237,7 +237,8 @@ def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> I
 def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]) -> Sample | None:
     """Look for a point where the sides differ; None if no such point is found.
 
-    Only points are tried at which an argument of `Abs` or `sign` has another sign than at all the points `seen`.
+    If the argument of an `Abs` or a `sign` has only one sign at the points `seen`, points with the opposite sign are
+    tried.
     """
     letters = letters_of(left) | letters_of(right)
     for inside in sorted({each.args[0] for each in (left - right).atoms(Abs, sign)}, key=str):
@@ -295,7 +296,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         return _equal_scalars(left.residual, right.residual)
     whole = _seen_ratio(left, right)
     if whole is not None and _is_borne(left.operator, right.operator, _without_factors(whole, nonzero)):
-        if left.operator != right.operator and vanishes(left.residual):  # 0 > 0 and 0 < 0 never hold
+        # If both residuals are zero, any factor fits, so a negative factor does not show that the operators agree.
+        if left.operator != right.operator and vanishes(left.residual):
             return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, and both sides are equal")
         return Verdict(Grade.PROVED, f"equal up to the factor {whole}" if whole**2 != 1 else "polynomial normal form")
     if _same_mark(left.operator, right.operator, 1) and _both_squared(left, right):
@@ -364,7 +366,7 @@ def _known_sign(factor: Expr) -> int | None:
 
 
 def _never_vanishes(factor: Expr) -> bool:
-    """Whether the factor is nowhere zero and nowhere undefined, by the allowed values of its symbols."""
+    """Whether the factor is nonzero and defined for all allowed values of its symbols."""
     return all(part.is_nonzero or never_vanishes_within(part) for part in factor.as_numer_denom())
 
 
@@ -410,7 +412,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 def _both_squared(left: Relation, right: Relation) -> bool:
     """Whether one relation is x > y, where neither side is negative, and the other relation is a positive multiple of
-    x^2 > y^2. The operator is the same in both relations; > is an example."""
+    x^2 > y^2. The two relations have the same operator, which need not be >."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):

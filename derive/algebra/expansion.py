@@ -1,4 +1,4 @@
-"""The first terms of an expression where a symbol is small, large, or near a value, from derivatives.
+"""Find the first terms of an expression for a symbol that is small, large, or near a value, by derivatives.
 
     f = N/D: N and D are expanded in Taylor series in the small symbol, and the series are divided
 
@@ -89,7 +89,7 @@ class Approach(Node):
 class FirstOrder(ScalarNode):
     """The terms of f up to first order in several small symbols. Arguments: f, and the symbols.
 
-    The node is displayed as f, in the line of a calculation just before the higher orders are dropped.
+    A page displays the node as f, in the line before the higher orders are dropped.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:

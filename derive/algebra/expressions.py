@@ -72,8 +72,8 @@ def scalar(name: str, **assumptions: bool) -> Symbol:
 
 
 def stand_in(name: str, **assumptions: bool) -> Symbol:
-    """A symbol for checks only, with a prime in its name. No problem can use a name with a prime, so the symbol differs
-    from all symbols of a problem."""
+    """An auxiliary symbol, with a prime in its name. No problem can use a name with a prime, so the symbol differs from
+    all symbols of a problem."""
     return scalar(f"{name}\u2032", **assumptions)
 
 
@@ -159,12 +159,12 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """dA/dt in space of a vector A, given by its components along axes that rotate with angular velocity omega.
-    Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
+    """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
+    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
 
-    The value is found by rotating A and differentiating, not as omega x A: A(t) = R(t) A, where the columns of R(t) are
-    the body's axes after the time t. The rotation is built from Euler rotations: rotate about z and y until omega lies
-    along z, rotate by |omega| t, rotate back.
+    The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
+    differentiating R(t) A, not as omega x A; the columns of R(t) are the body's axes after the time t. R(t) is built
+    from Euler rotations: rotate about z and y until omega lies along z, rotate by |omega| t, rotate back.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:

@@ -29,7 +29,7 @@ class Product(NamedTuple):
 
 
 def in_front(value: Expr) -> Expr:
-    """Take common factors of the terms to the front: 13/24 a u + 10/24 a v is a (13 u + 10 v)/24."""
+    """Take common factors of the terms to the front: 13/24 a u + 10/24 a v becomes a (13 u + 10 v)/24."""
     return written(product_of(value))
 
 

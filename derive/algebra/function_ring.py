@@ -1,9 +1,10 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
 An absolute value is split into absolute values of irreducible factors. A root is split in the same way, as far as the
-signs of the factors allow it. Each such root or absolute value becomes a new letter of the ring with a relation,
-r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term of the exponent,
-exp(u + v) = exp u exp v. For any other function, only one property is used: equal arguments give equal values.
+signs of the factors allow it. Each such root or absolute value becomes a new letter, which is a variable of the ring
+with a relation, r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term
+of the exponent, exp(u + v) = exp u exp v. For any other function, only one property is used: equal arguments give equal
+values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -83,7 +84,7 @@ class FunctionRing(TrigRing):
         return bool(terms) and not self.letters_in(terms) & self._dependent and not self.has_parts_of_pi(terms)
 
     def is_unsure(self, terms: Terms) -> bool:
-        return False  # whether a divisor vanishes is checked at the end
+        return False  # `normal_form` checks at the end whether a divisor vanishes
 
     def function(self, expr: Expr) -> Form:
         kind = type(expr)
@@ -171,7 +172,7 @@ class FunctionRing(TrigRing):
         return Form({powers: 1}, 1, HIGHEST)
 
     def _power_of(self, base: Expr, exponent: Expr) -> Form:
-        """b^(u + v) = b^u b^v; and (a b)^u = a^u b^u where a is not negative."""
+        """Use b^(u + v) = b^u b^v, and (a b)^u = a^u b^u where a is not negative."""
         powers, product = 0, ONE
         factors = [(self._key(factor), power) for factor, power in factors_under_a_root(base, 1)]
         for number, term in terms_of_angle(exponent):
@@ -195,7 +196,7 @@ class FunctionRing(TrigRing):
         return double._replace(below=2 * double.below)
 
     def _logarithm(self, of: Expr) -> Form:
-        """log(a b) = log a + log b where a is not negative."""
+        """Use log(a b) = log a + log b where a is not negative."""
         logs = [
             Form({1 << self._dependent_place((log, self._key(factor))): power}, reach=1)
             for factor, power in factors_under_a_root(of, 1)

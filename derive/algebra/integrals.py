@@ -156,7 +156,7 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 
 
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
-    """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: with y = w sin u it is w^(m+k+1) times a number.
+    """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: the substitution y = w sin u gives w^(m+k+1) times a number.
 
     This substitution requires w >= 0, because otherwise the root is not w cos u. The limits of the outer integrals must
     show that w >= 0.

@@ -25,8 +25,8 @@ class Kind:
 
     unit      the coherent SI unit as text
     positive  whether symbols of this kind are positive; symbols of the other kinds are only real
-    signed    whether a minus sign is allowed, because it reverses a direction such as the direction of rotation; for
-              all other positive kinds a minus sign is an error
+    signed    whether a minus sign is allowed in the value of a positive kind: it reverses a direction, such as the
+              direction of rotation. For all other positive kinds a minus sign is an error
     angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),
               only 1 for an angle
     """
@@ -65,7 +65,7 @@ KINDS: Mapping[str, Kind] = {
     "moment of inertia": Kind(dimension(1, 2, 0), "kg m^2", positive=True),
     "spring constant": Kind(dimension(1, 0, -2), "N/m", positive=True),
     "gravitational constant": Kind(dimension(-1, 3, -2), "N m^2/kg^2", positive=True),
-    "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # of an energy k/r
+    "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # the k of an energy k/r
     "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
     "current": Kind(dimension(0, 0, 0, 1), "A"),
     "rate of current": Kind(dimension(0, 0, -1, 1), "A/s"),
@@ -125,7 +125,10 @@ class Inhomogeneous(Exception):
 
 
 def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
-    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension."""
+    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension.
+
+    A term of unknown dimension, such as zero, fits any other term. The result is None if all terms are of this sort.
+    """
     first: tuple[Any, Dimension] | None = None
     for term in terms:
         dimension = of(term)

@@ -1,5 +1,5 @@
-"""The written length of an expression: the number of its signs, fraction bars, powers and functions, counted as by
-SymPy's `count_ops`.
+"""The written length of an expression: the number of its operation signs, fraction bars, powers and functions, counted
+as by SymPy's `count_ops`.
 
 Lengths of parts are cached, because several forms of one value have most parts in common.
 """

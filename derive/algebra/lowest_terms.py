@@ -194,7 +194,7 @@ class _Fractions(Expanded):
         return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
 
     def _turning(self, terms: Terms) -> list[tuple[int, int]]:
-        """The places in a monomial of the sines and cosines that occur, each with the place of the other function of
+        """Return, for each sine and cosine that occurs, its place in a monomial and the place of the other function of
         the same angle."""
         found = [self.name(place) for place in _places(terms)]
         turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)
@@ -294,7 +294,7 @@ def _image(valued: Terms, place: int, number: int) -> list[int]:
 
 
 def _is_coprime(one: list[int], other: list[int]) -> bool:
-    """Whether both images keep their highest power and have no common root in any field."""
+    """Whether both images keep their highest power and have no common factor."""
     return bool(one[0] and other[0] and gf_degree(gf_gcd(one, other, PRIME, ZZ)) == 0)
 
 

@@ -14,8 +14,8 @@ from derive.algebra.node import DimensionOf, MatrixNode, TextOf, Value, explicit
 class MassIntegral(MatrixNode):
     """The integral of f(r) dm over a body, where f is a vector or a tensor.
 
-    Arguments: f in terms of the vector name r; r; the density; the position and the volume element's factor in the
-    coordinates of the region; the limits, innermost first.
+    Arguments: f in terms of the vector name r; r; the density; the position as a function of the coordinates of the
+    region; the volume element divided by the differentials of these coordinates; the limits, innermost first.
     """
 
     @property

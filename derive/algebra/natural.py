@@ -1,4 +1,4 @@
-"""An expression written with natural quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
+"""An expression written with named quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
 
 A named quantity eliminates one symbol of its formula. Among all choices of quantities and symbols, the shortest form is
 kept. A form with fewer symbols counts as shorter: each symbol counts as much as two signs.
@@ -104,7 +104,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _brings(known: Mapping[Symbol, Expr], value: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether the substitution can bring every quantity into the value; this decides without a simplification."""
+    """Whether the substitution can bring every quantity into the value; nothing is simplified for this decision."""
     names = {name for symbol in known.keys() & value.free_symbols for name in known[symbol].free_symbols}
     return {*quantities} <= names | {*value.free_symbols}
 
@@ -153,8 +153,8 @@ def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
 
 
 def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield symbol -> its value in the names of the quantities, for each choice of the symbols that
-    are eliminated, one for each quantity."""
+    """Yield a mapping, symbol -> its value in the names of the quantities, for each choice of the eliminated symbols.
+    One symbol is eliminated for each quantity."""
     choices = [_solutions(name, value, frozenset(kept)) for name, value in quantities.items()]
     for choice in product(*choices):
         found = _solved_together(choice)
@@ -241,10 +241,10 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides, term by term, but only the right side of an equation that gives the value of a symbol.
+    """Rewrite both sides term by term; if the relation gives the value of a symbol, rewrite only the right side.
 
     Divide an equation with zero on the right by the positive symbols that all terms on the left have in common. Divide
-    any other relation between constants by the common factor of both sides.
+    any other relation without a zero side by the common factor of both sides, unless it is an equation of motion.
     """
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:
@@ -265,7 +265,7 @@ def _relation(
 
 
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
-    """Substitute, and bring to lowest terms what is under a root or in a function.
+    """Substitute, and bring radicands and the arguments of functions to lowest terms.
 
     A sum is written term by term, unless this gives more terms. A product of several sums is written factor by factor.
     For any other value, the result of the substitution is returned unchanged, in its tidy form, or with the common
@@ -290,7 +290,7 @@ def _is_root(value: Expr) -> bool:
 
 
 def _ranges(quantities: Mapping[Symbol, Expr]) -> dict[Symbol, Range]:
-    """The ranges of angles that are given by an inverse function."""
+    """The ranges of those angles whose formula is an inverse trigonometric function."""
     found = {}
     for name, value in quantities.items():
         if isinstance(value, acos):

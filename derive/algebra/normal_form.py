@@ -125,8 +125,8 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """For each group of terms of angles with rational ratios, the largest angle of which all these terms are whole
-    multiples, and a dummy symbol for it."""
+    """Group the terms of the angles, so that all ratios in a group are rational. For each group, return the largest
+    angle of which all its terms are whole multiples, and a dummy symbol for this angle."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

@@ -39,8 +39,9 @@ class Order:
     amounts: Mapping[Symbol, Symbol] = field(default_factory=dict)
 
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
-        """Add a relation: the difference is greater than zero, or greater than or equal to zero if the relation is not
-        strict."""
+        """Return these relations and a further one: the difference is greater than zero, or greater than or equal to
+        zero if the relation is not strict. Raise `Contradiction` if the further relation contradicts these relations.
+        """
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
         sign = 0 if there.is_zero else sign_of(there)

@@ -53,8 +53,8 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """Map a positive number to a number in the range by an increasing function; in `POSITIVE` the number is
-        unchanged."""
+        """Map a positive number to a number in the range by an increasing function; for the range `POSITIVE` the number
+        is unchanged."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
@@ -154,8 +154,8 @@ def without_abs(value: Any) -> Any:
 
 
 def with_positive_factors_out(value: Expr) -> Expr:
-    """Take positive factors with sines, cosines or tangents out of roots: sqrt(1 + v^2/sin(a)^2) is sqrt(sin(a)^2 +
-    v^2)/sin(a) where sin(a) > 0."""
+    """Take positive factors with sines, cosines or tangents out of roots: sqrt(1 + v^2/sin(a)^2) becomes
+    sqrt(sin(a)^2 + v^2)/sin(a) where sin(a) > 0."""
     known = _KNOWN.get()
     if not known:
         return value
@@ -280,8 +280,8 @@ def _sign_by_squares(total: Add) -> int | None:
 
 
 def _have_sine_and_cosine(terms: Sequence[Expr]) -> bool:
-    """Whether the squares of the sine and of the cosine of one angle, which never vanish together, have positive
-    factors in these terms, as in M sin^2 + m cos^2."""
+    """Whether these terms contain the squares of the sine and of the cosine of one angle, each with a positive factor,
+    as in M sin^2 + m cos^2. The sine and the cosine never vanish together."""
     positive = {
         square.base for term in terms for square in term.atoms(Pow) if square.exp == 2 and (term / square).is_positive
     }
@@ -289,7 +289,7 @@ def _have_sine_and_cosine(terms: Sequence[Expr]) -> bool:
 
 
 def _sign_as_product(total: Add) -> int | None:
-    """The sign of a sum or difference of two sines or of two cosines with the same factor, written as a product."""
+    """The sign of a sum or difference of two sines or two cosines with the same factor, from its form as a product."""
     if len(total.args) != 2:
         return None
     (factor, one), (other_factor, other) = (term.as_independent(sin, cos, as_Add=False) for term in total.args)
@@ -346,7 +346,7 @@ def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
 
 def _between(rest: Expr) -> tuple[Expr, Expr] | None:
     """The bounds of a symbol, of a sine or cosine that is monotonic in the range of its angle, of an arctangent, or of
-    a power."""
+    a whole power of a positive expression; None if they are unknown."""
     if (known := _range_of_letter(rest)) is not None:
         return known.least, known.greatest
     if isinstance(rest, atan):

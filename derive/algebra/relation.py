@@ -12,14 +12,8 @@ from derive.algebra.kinds import common
 from derive.algebra.node import DimensionOf, Node, TextOf, explicit
 
 MARKS = {"=": "equals", "!=": "unequal", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least"}
-TURNED = {
-    ">": "<",
-    ">=": "<=",
-    "<": ">",
-    "<=": ">=",
-    "=": "=",
-    "!=": "!=",
-}  # if the sides are exchanged
+# operator -> the operator after the two sides are exchanged
+TURNED = {">": "<", ">=": "<=", "<": ">", "<=": ">=", "=": "=", "!=": "!="}
 _IN_SYMPY = {"=": "Eq", "!=": "Ne", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge"}
 
 

@@ -58,7 +58,7 @@ def rounded_form(exact: Any, figures: int) -> Any:
 
 
 def decimal_text(number: Rounded) -> str:
-    """`0.92951`, `21.64`, `6.500e-4`: plain text with all significant figures."""
+    """The number as plain text with all significant figures: `0.92951`, `21.64`, `6.500e-4`."""
     value, figures = number.args
     decimal = Decimal(value.p) / Decimal(value.q)
     place = decimal.adjusted() - int(figures) + 1

@@ -189,7 +189,11 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
 
 
 def is_zero_everywhere(expr: Expr) -> bool | None:
-    """Whether the expression is zero at all sampled points; None if its value cannot be computed."""
+    """Whether the expression is zero at all sampled points; None if it has a value at none of them.
+
+    A point at which the expression is undefined is left out. The first point at which the value cannot be computed ends
+    the search.
+    """
     found: bool | None = None
     letters = letters_of(expr)
     for point in islice(points(letters, seed_of(expr)), 6 if letters else 1):
@@ -234,7 +238,8 @@ _OF_ZERO = -(10**30)
 _LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
-_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}  # lose no digits for any argument
+# functions that lose no digits for any argument
+_OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}
 _ONE_ARGUMENT = {
     name: getattr(mp, name)
     for name in ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh", "coth")

@@ -84,7 +84,7 @@ def _tidied_scalar(value: Expr) -> Expr:
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
     """Return cos(a -+ b) for cos a cos b +- sin a sin b, and sin(a +- b) for sin a cos b +- cos a
-    sin b; None for any other sum."""
+    sin b; None for any other expression."""
     terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
     found = [term for term in terms if term is not None]
     if len(found) != 2:
@@ -182,7 +182,7 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """Simplify nested roots by their square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 is sqrt(2 - sqrt(2))/2."""
+    """Simplify nested roots by the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes sqrt(2 - sqrt(2))/2."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):

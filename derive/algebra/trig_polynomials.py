@@ -114,8 +114,8 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """Raised if an angle must be divided into smaller parts: a fraction of the angle is not a whole multiple of its
-    present part."""
+    """Raised if an angle must be divided into smaller parts, because a fraction of the angle is not a whole number of
+    the present parts."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -236,7 +236,7 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """Return the place of the letter whose `order`-th power equals `of`; a new letter is added to the ring."""
+        """Return the place of the letter whose `order`-th power equals `of`; add a new letter to the ring."""
         known = key in self.letters
         place = self.place(key)
         if not known:

@@ -1,4 +1,4 @@
-"""The folder of the course, the sets and the problems that a command line names."""
+"""The folder of the course, and the ids of the problems that a command line names."""
 
 from __future__ import annotations
 

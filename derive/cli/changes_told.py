@@ -15,7 +15,7 @@ from derive.building.set_diff import SetDiff
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
-# Each sort of change with its heading, its singular and its plural.
+# Each sort of change with its heading, and with its name in the singular and in the plural.
 _SORTS = {
     "given": ("given", "given value", "given values"),
     "problem": ("problems", "problem", "problems"),
@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # how many of the lines before the result of a step are shown at most
+_MOST_LINES = 3  # of many lines before the result of a step, only this number is shown
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -179,7 +179,7 @@ def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], b
 
 
 def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
-    """Return the words of a run, each with the marks of `git diff --word-diff`."""
+    """Return the words of a run; marks as in `git diff --word-diff` enclose a run that was removed or added."""
     marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
     return [(how, word) for word in marked.split(" ")]
 

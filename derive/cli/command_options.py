@@ -73,7 +73,7 @@ def _solve(solve: argparse.ArgumentParser) -> None:
     named(solve.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
     typed = sorted([*formats(), *TYPESET])
     solve.add_argument("--format", choices=typed, default="text", metavar="F", help=", ".join(typed))
-    solve.add_argument("-o", dest="output", metavar="FILE", help="where to write; - is standard output")
+    solve.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
     _detail(solve)
     _evidence(solve)
     _engine(solve)
@@ -184,7 +184,7 @@ def named(action: argparse.Action, names: str) -> None:
 
         return offered(names, prefix, parsed_args.root, getattr(parsed_args, "id", None) or "")
 
-    setattr(action, "completer", completer)  # noqa: B010  where argcomplete looks for it
+    setattr(action, "completer", completer)  # noqa: B010  argcomplete reads this attribute
 
 
 def _positive(text: str) -> float:
@@ -214,6 +214,6 @@ def _port(text: str) -> int:
     return int(text)
 
 
-# argparse shows this name in its message
+# argparse shows these names in its messages
 _positive.__name__, _port.__name__ = "time limit", "port"
 _count.__name__ = "count"

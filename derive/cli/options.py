@@ -10,16 +10,16 @@ from collections.abc import Container, Sequence
 
 # Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
-    "new": ("begin a problem: files that build at once", "SET/PROBLEM", "hw10/wheel --like body"),
+    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like body"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
-    "explain": ("show why a line is there, and how it was checked", "ID [STEP]", "hw9/block torque"),
+    "explain": ("show what a step is derived from, and how it was checked", "ID [STEP]", "hw9/block torque"),
     "diff": ("show what has changed since the last build or a revision", "ID|SET", "hw9/block --rev HEAD"),
     "why": ("show why a page is out of date, and how to update it", "FILE|ID|SET", "build/hw9/block.pdf"),
     "list": ("list the problems, or all answers of one problem", "[SET|ID]", "hw9/block --answers"),
-    "schema": ("write the schemas by which editors complete and check", "[SORT]", "problem"),
+    "schema": ("write the schemas with which editors check your files", "[SORT]", "problem"),
     "clean": ("remove the outputs of builds; your files stay", "[SET ...]", "hw9 --cache"),
     "doctor": ("show what a build needs and what is missing", "", "--engine lualatex"),
     "completion": ("print the script by which a shell completes names", "SHELL", "fish"),

@@ -45,7 +45,7 @@ def _is_ours(path: Path) -> bool:
 
 
 def _belongs_to(path: Path, root: Path) -> bool:
-    """Return whether a file is a Makefile or is in a folder of the course or of derive."""
+    """Return whether a file is a Makefile, or is in `problems`, in `templates` or among the code of derive."""
     folders = (root / "problems", root / "templates", Path(FOLDER))
     return path.name == "Makefile" or any(path.resolve().is_relative_to(folder.resolve()) for folder in folders)
 

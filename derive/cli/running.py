@@ -46,7 +46,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
     """Run a command and return its exit code; report an error in a few lines, without a traceback."""
     try:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(number) != signal.SIG_IGN:  # ignored, as under `nohup`
+            if signal.getsignal(number) != signal.SIG_IGN:  # a signal that is ignored, as under `nohup`, stays ignored
                 signal.signal(number, _signaled)
         code = _command(arguments.command)(arguments)
         sys.stdout.flush()

@@ -49,7 +49,8 @@ def silence(descriptor: int) -> None:
 
 
 def _open_streams() -> None:
-    """Occupy the descriptor of a closed standard stream, so that no other file gets it and is written to by mistake."""
+    """Occupy the descriptor of each closed standard stream, so that no other file gets this descriptor and is written
+    to by mistake. Also set the encoding of the output."""
     for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:
             os.fstat(descriptor)
@@ -58,6 +59,7 @@ def _open_streams() -> None:
     sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # UTF-8, like the pages, even on a terminal without a language setting
+        if isinstance(stream, TextIOWrapper):
+            # Without a language setting the encoding is ASCII, but the output needs UTF-8.
             ascii_only = codecs.lookup(stream.encoding).name == "ascii"
             stream.reconfigure(encoding="utf-8" if ascii_only else None, errors="backslashreplace")

@@ -14,7 +14,7 @@ from derive.errors import Complaint
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
 MOST = 50  # the greatest number of errors that are shown
 WIDTH = 98
-_INDENT = 22  # indent of the lines about an error of the source
+_INDENT = 22  # indentation of the lines that explain an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
 
@@ -56,8 +56,8 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """Return the errata and the remarks about a problem's source, each with its line, what the source prints, what is
-    right (of an erratum), and the reason."""
+    """Return the errata and the remarks about a problem's source, each with its line, the text that the
+    source prints, the correction of an erratum, and the reason."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]

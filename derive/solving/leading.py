@@ -130,8 +130,8 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
     """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
     The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
-    of the value `place` are tested, because |m - M| has two leading terms at m = M; at the end of a range only one side
-    is tested.
+    of the value `place` are tested, because |m - M| has different leading terms on the two sides of m = M. At the end
+    of a range only one side is tested.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):

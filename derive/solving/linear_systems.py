@@ -1,8 +1,8 @@
 """Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the mode shapes.
 
 The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
-motion a e^(s t) is possible if det(M s^2 + (G + C) s + K) = 0. The form of this determinant depends on the class of the
-system:
+motion a e^(s t) with a column a of amplitudes is possible if det(M s^2 + (G + C) s + K) = 0. The form of this
+determinant depends on the class of the system:
 
 conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a can be real
 gyroscopic     without C: a polynomial in omega^2. Often it is the product of a polynomial in omega and the mirror image
@@ -112,8 +112,8 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive for all roots omega to be real and distinct, and nonzero unless
-        `mirrored`."""
+        """Expressions that must be positive, so that all roots omega are real and distinct. Unless the factor is
+        `mirrored`, the roots are then also nonzero."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients
@@ -522,7 +522,7 @@ class Gyroscopic(LinearSystem):
             value = _with_root(ways[0] * middle / (2 * a), ways[1] / (2 * a), root, by_terms=True)
             return CharacteristicRoot(value, real, factor, turn=turn)
 
-        if both_ways == -1:  # one root of each sign: their absolute values do not depend on the sign of b
+        if both_ways == -1:  # the roots have opposite signs, and the sign of b does not change their absolute values
             return [found(middle, (-1, 1), -1), found(middle, (1, 1), 1)]
         forwards = self.sign(middle) == 1
         middle = middle if forwards else Abs(tidied(minus_b))
@@ -563,7 +563,8 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1.
+        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. A formula of the root without a
+        root sign replaces OMEGA.
 
         The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
         nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
@@ -639,7 +640,7 @@ class Damped(LinearSystem):
         return CharacteristicRoot(tidied(b / a), self.sign(tidied(b / a)), factor)
 
     def square(self, root: CharacteristicRoot) -> Expr:
-        """omega^2 of a quadratic factor."""
+        """Return omega^2 for a quadratic factor."""
         a, b, c = root.factor.coefficients
         return spread(c / a) - spread(b**2 / (4 * a**2))
 

@@ -35,7 +35,7 @@ def mark_between(mark: str, sign: int | None) -> str | None:
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None if its numerator is not of the form a x^n + b."""
+    """The expression as a (x^n - v); None if its numerator is not of the form c x^n + d with constants c and d."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []
@@ -111,7 +111,7 @@ def border_of(condition: Relation) -> Relation | None:
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
-    """The relation between a value and zero, solved for a symbol; None if the relation cannot be solved in symbols."""
+    """The relation between a value and zero, solved for a symbol; None if the relation cannot be solved."""
     try:
         return solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
@@ -119,7 +119,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
-    """The conditions that a sentence states, each followed by its tidied form."""
+    """Return, by role, the conditions that a sentence states, each with its tidied form; None is left out."""
     return {
         role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in conditions.items()
@@ -137,7 +137,7 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     """The relation between a difference and zero, solved for an unknown u.
 
     If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
-    negative, the root is then taken on both sides.
+    negative, the square root of both sides is then taken.
     """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)

@@ -135,7 +135,8 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
                 "wrong-argument",
                 message,
                 help=Spelled(
-                    "give an equation of motion, a condition or a `let`", "name an equation of motion or a condition"
+                    "give an equation of motion, a condition or a result of `let`",
+                    "name an equation of motion or a condition",
                 ),
             )
         )
@@ -195,8 +196,8 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of an unknown that is a symbol in `known`, or the rate or acceleration of such a symbol; otherwise
-    None."""
+    """The kind of an unknown that is a symbol in `known` or a rate of such a symbol; None for any other unknown, or if
+    the rate has no kind."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:

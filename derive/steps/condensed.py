@@ -1,6 +1,6 @@
-"""In the lines of a step, values replace the symbols of quantities whose steps a page shows only in this way.
+"""Replace the symbols of earlier results by their values in the lines of a step.
 
-These are the steps with the manner `taken_in`.
+This is done for results whose steps have the manner `taken_in`: a page shows these steps in no other way.
 
 Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
 steps.
@@ -22,7 +22,7 @@ def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
     """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
     each new line equals the line that it replaces.
 
-    A result may contain names that the step itself does not, such as a defined quantity.
+    A result may contain names that the step itself does not contain, such as the name of a defined quantity.
     """
     if not known:
         return step

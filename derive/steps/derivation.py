@@ -133,7 +133,7 @@ def with_ancestors(quantities: Iterable[Quantity], place: Place | None = None) -
 
 
 def standing_in(steps: Iterable[Step]) -> dict[str, str]:
-    """Return, for each key in a `stands_for` that has no step of its own, the key of the step that replaces it."""
+    """Map each key in `stands_for` of a step to the key of this step; leave out keys that have a step of their own."""
     found = {step.key: step for step in steps}
     return {key: step.key for step in found.values() for key in step.stands_for if key not in found}
 

@@ -160,7 +160,7 @@ def establish(
     outcome     a word that selects the phrase, or a function of the result that returns such a word
     parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
-    proposals   quantities of the field in whose symbols the result may be written
+    proposals   quantities that are usual in the field; the result may be written in their symbols
 
     Raises `Unverified`, which names the step, if a line, a route or a statement of the sentence disagrees.
     """
@@ -380,7 +380,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
     taken = {str(letter) for letter in letters} & {str(other) for other in result.free_symbols}
     if taken:
         name = min(taken)
-        message = f"`{key}` is called {name}, but {name} already denotes a given quantity"
+        message = f"`{key}` is called {name}, but {name} already denotes another quantity"
         raise Rejected(
             Complaint(
                 "letter-clash",

@@ -141,8 +141,8 @@ def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) ->
 
 
 def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[tuple[Any, Dimension | None]]:
-    """Yield the variables of the integrals in an expression; an integral over the mass does not print the coordinates
-    of its region."""
+    """Yield the variables of the integrals in an expression. The coordinates of the region of an integral over the mass
+    are left out, because no page prints them."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)

@@ -1,4 +1,5 @@
-"""The numbers that a problem gives for its symbols. Only a few verbs need these numbers, to decide between cases."""
+"""The numbers that a problem gives for its symbols. A derivation uses these numbers only to choose between cases and to
+test its statements."""
 
 from __future__ import annotations
 

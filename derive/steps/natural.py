@@ -66,7 +66,7 @@ class NaturalQuantities:
         self.used: list[Quantity] = []
 
     def chain(self, chain: Sequence[Form], result: Any) -> list[Form]:
-        """Return the chain, with a line in natural quantities if this line is shorter than the result."""
+        """Return the chain, with a line in the symbols of other quantities if this line is shorter than the result."""
         last = next((i for i in reversed(range(len(chain))) if chain[i].because not in NUMBERS), None)
         found = None if last is None or chain[last].because in ONLY_ABOUT else self._shortened(result, self._known)
         if last is None or found is None:

@@ -110,7 +110,7 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if letters remain, or if the value is imaginary, such as the frequency of a motion that does not
+    The result is None if letters remain, or if the value is not real, such as the frequency of a motion that does not
     oscillate. It is also None for zero, for integers without letters, and for a relation without a single letter on its
     left side.
 
@@ -495,8 +495,8 @@ def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
 
 
 def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
-    """Return the largest relative error of the exact entries, compared with values computed again from the numbers of
-    the symbols."""
+    """Return two numbers that a check compares: the largest relative error of the exact entries, and zero. The entries
+    are compared with values computed again from the numbers of the symbols."""
     numbers = {letter: explicit(amounts[letter]) for letter in letters}
     errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
     return max(errors), Integer(0)

@@ -206,7 +206,7 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 @question
 def free_letter(name: str, *indices: str) -> str:
     """Return the usual symbol of a result or, if the problem already uses this symbol, a symbol with another textbook
-    letter.
+    letter. If the problem uses all these letters, return the usual symbol.
 
     name      the usual symbol, with its own index
     indices   further indices; the problem must not use the returned symbol with any of these indices
@@ -298,7 +298,7 @@ def add_definition(quantity: Quantity) -> None:
 
 def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
     """Reject a step whose key or symbol is the name of a quantity under `define:`. A result with the value of the
-    defined quantity may have the same symbol, and its square may have the square of this symbol."""
+    defined quantity may have the same symbol, and the square of this value may have the square of the symbol."""
     run = current_run.get()
     if run is None:
         return

@@ -24,7 +24,7 @@ CENTRE_OF_MASS = "centre_of_mass"  # the word for the point "centre" of a body t
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
-TRIALS = "trials"  # the claim of a rule whose statement only its predicate tests, at trial numbers
+TRIALS = "trials"  # the claim of a rule whose statement is tested only by its predicate, at trial numbers
 
 
 @dataclass(frozen=True)

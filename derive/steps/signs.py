@@ -34,7 +34,7 @@ from derive.steps.step import is_zero
 DIGITS, SHORT, HALF = 30, 20, Rational(1, 2)
 # relation sign -> signs of (left - right) for which the relation holds
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
-DECIDES = "give ranges or numbers for the letters, to decide whether"  # the relation follows
+DECIDES = "give ranges or numbers for the letters, to decide whether"  # a message ends with these words and a relation
 
 
 def sign_for_all(value: Expr) -> int | None:
@@ -52,8 +52,8 @@ def sign_beside_root(value: Expr) -> int | None:
     """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with
     Q^2 D.
 
-    The caller knows that the square roots are real. If P^2 < Q^2 D, the sign of the sum is that of Q, otherwise that of
-    P. The root may be a product of square roots.
+    The caller knows that the square roots are real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2
+    is greater, P + Q sqrt(D) has the sign of P. The root may be a product of square roots.
     """
     own = sign_known(value)
     if own is not None:

@@ -59,7 +59,7 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 def _size(i: int, n: int) -> Expr:
     """Return the size of the number for the symbol with index i at point n. The scales of two symbols take all 25 pairs
-    over the points, unless the indices of the symbols differ by a multiple of 5."""
+    within the first 120 points, unless the indices of the symbols differ by a multiple of 5."""
     scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 

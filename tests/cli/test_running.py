@@ -44,7 +44,7 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
         ("build hw1 hw2", "no set is called `hw2`"),
         ("check hw2", "no set is called `hw2`"),
         ("check hw1/one hw1/onne", "no problem is called `hw1/onne`"),
-        ("list --topic tops", "topics are folders within a set, and no set has any"),
+        ("list --topic tops", "topics are folders within a set, and none was found"),
         ("why nowhere.pdf", "no build makes `nowhere.pdf`"),
         ("why build", "no build makes `build`"),
         ("why build/hw2/one.pdf", "no set is called `hw2`"),

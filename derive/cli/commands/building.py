@@ -84,7 +84,7 @@ def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options,
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 
-    failed: dict[str, bool] = {}  # sets whose last build failed: their next success is reported
+    failed: dict[str, bool] = {}  # set -> whether its last build failed; if so, its next success is reported
 
     def wrote(path: Path, seconds: float) -> None:
         tell("")

@@ -1,4 +1,4 @@
-"""`derive check`: derives and verifies problems, and compares them with source documents."""
+"""`derive check`: derives and verifies problems, and compares them with their references."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def list_problems(arguments: argparse.Namespace) -> int:
     topics = {problem: topic_of(path) for problem, path in paths.items()}
     if arguments.topic and arguments.topic not in topics.values():
         known = sorted({topic for topic in topics.values() if topic})
-        every = f"the topics are {', '.join(known)}" if known else "topics are folders within a set, and no set has any"
+        every = f"the topics are {', '.join(known)}" if known else "topics are folders within a set, and none was found"
         help_line = did_you_mean(arguments.topic, known) or every
         raise Misused(Complaint("no-such-topic", f"no topic is called `{arguments.topic}`", help=help_line))
     ids = [problem for problem, topic in topics.items() if arguments.topic in (None, topic)]
@@ -77,4 +77,4 @@ def _headlines(root: Path, ids: Sequence[str], paths: Mapping[str, str]) -> list
 
 
 def _does_not_read(error: DeriveError) -> tuple[str, str]:
-    return "", f"(does not read: {error.complaints[0].message})"
+    return "", f"(cannot be read: {error.complaints[0].message})"

@@ -1,4 +1,4 @@
-"""`derive list`: problems, topics, and what does not read."""
+"""`derive list`: problems, topics, and problems that cannot be read."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     heading, first, second = capfd.readouterr().out.splitlines()
     assert heading.split() == ["problem", "points", "title"]
     assert first.split() == ["hw1/one", "3", "A", "block"]
-    assert second.split(maxsplit=1) == ["hw1/two", "(does not read: `mass` must be a mass)"]
+    assert second.split(maxsplit=1) == ["hw1/two", "(cannot be read: `mass` must be a mass)"]
 
 
 @pytest.mark.usefixtures("workers")
@@ -36,7 +36,7 @@ def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
     assert [line.split(maxsplit=1)[1] for line in lines] == [
         "3  A block",
         "3  A cone",
-        "(does not read: `hw1/two` ended without a message: signal 9)",
+        "(cannot be read: `hw1/two` ended without a message: signal 9)",
     ]
 
 
@@ -82,6 +82,6 @@ def test_a_list_loads_no_mathematics_for_titles_that_have_none(tmp_path: Path) -
     )
     first, _, wrong, right, last = done.stdout.splitlines()
     assert first == "('10', 'A block turning about its axis') []"
-    assert wrong.split(maxsplit=1) == ["hw8/block", "(does not read: a part has no key `answers`)"]
+    assert wrong.split(maxsplit=1) == ["hw8/block", "(cannot be read: a part has no key `answers`)"]
     assert right.split(maxsplit=2) == ["hw9/block", "10", "A block turning about its axis"]
     assert last == "False"
