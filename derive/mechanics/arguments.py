@@ -1,7 +1,7 @@
 """Check the arguments of a verb against its signature; a verb is a function that scripts call.
 
 The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
-An argument of another type is an error, such as a matrix in place of a step, or a floating-point number. The message
+An argument of another type, such as a matrix in place of a step, or a floating-point number, is an error. The message
 names the verb and the argument, in the terms of the script.
 """
 

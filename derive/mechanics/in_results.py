@@ -141,9 +141,9 @@ def in_results(
 ) -> Callable[[F], F]:
     """Register how `results:` calls a function; `called` maps an argument to its key and description, "for: a letter".
 
-    If the signature of a verb fits the keys, the verb itself is decorated. Otherwise the decorated function is next to
-    the verb: its name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the
-    arguments are checked, and in a run with a memory an equal call returns the earlier result.
+    If the signature of a verb fits the keys, the verb itself is decorated. Otherwise another function is decorated: its
+    name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the arguments are
+    checked, and in a run with a memory an equal call returns the earlier result.
     """
 
     def declared(function: F) -> F:

@@ -308,7 +308,7 @@ def exact(facts: Judged) -> bool:
 
 
 def _says_what_is_kept(facts: Judged) -> bool:
-    """Whether the equation equals the kept terms up to a factor without rates."""
+    """Whether the equation equals the kept terms up to a factor without rates and accelerations."""
     residual = explicit(facts.result).residual
     moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
     ratio = facts.inputs["kept"] / residual
@@ -385,7 +385,7 @@ def linear(facts: Judged) -> bool:
 
 
 def root(facts: Judged, fact: RootOf) -> bool:
-    """Whether the value is a root of its factor."""
+    """Whether the value is a root of the polynomial whose coefficients `fact` has."""
     value = facts.result.right if isinstance(facts.result, Relation) else facts.result
     powers = range(len(fact.coefficients) - 1, -1, -1)
     return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))

@@ -79,9 +79,10 @@ def roots(
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
-    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 if several
+    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots
     key        the beginning of the default keys, in place of the letter
-    symbols    the letters of the roots; by default the unknown, a letter with _1, _2 if there are several
+    symbols    the letters of the roots; by default the unknown, with _1, _2 for several roots of an unknown that is a
+               letter
 
     Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.

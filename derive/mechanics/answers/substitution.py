@@ -111,7 +111,7 @@ def put_in(
     for pair in there:
         rates = _of_prescribed(*pair)
         letters = {letter_of(target) for target, _ in (pair, *rates)}
-        if letters & value.free_symbols or pair == there[0]:  # skip removed letters
+        if letters & value.free_symbols or pair == there[0]:  # skip a letter that earlier values have removed
             value = _all_put(value, [*rates, pair], str(pair[0]), of, told)
     turned = [each for each in come if each.turned and not is_zero(value)]
     value = -value if turned else value
@@ -333,7 +333,7 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
             told.append((target, at))
         value = after
     if value == before:
-        message = f"`put_in`: `{of.key}` does not contain what `{called}` would replace"
+        message = f"`put_in`: substituting `{called}` would not change `{of.key}`"
         raise Rejected(Complaint("nothing-to-put-in", message))
     return value
 

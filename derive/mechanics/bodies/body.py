@@ -492,8 +492,8 @@ def centre_of_mass(
     coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
     step derives each component that is not zero.
-    Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
-    numerical sum over cells.
+    Second route: the mean position of the body's equimomental particles.
+    Check: for a body defined by a position map, a numerical sum over cells takes the place of the second route.
     Outcomes: round (a round solid); generic (another body with inversion symmetry); by_components (steps derive the
     components); there (the centre of mass is at the named point).
     Errors: the body has no such point or no such coordinates.

@@ -1,8 +1,8 @@
 """The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
-The orientation in space is a set of axes. In a vertical plane the orientation is an angle about the normal, positive
-counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the
-next two axes, in the cyclic order x, y, z, are along the axes of the plane.
+The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
+counterclockwise. The body axis perpendicular to the plane points to the reader; at zero angle the next two axes, in the
+cyclic order x, y, z, are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class PlacedBody:
         return not coordinates_in(here) and not depends_on_time(here)
 
     def place_of(self, point: Any) -> PointOfBody:
-        """The place of a point of the body, which moves with the body.
+        """The place of a point that moves with the body.
 
         point   the point, by its name or by components along the body axes
         """
@@ -138,7 +138,8 @@ def body_at(place: Any, stated: Any = None) -> Any:
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
-    """The matrix of successive rotations, each about an axis of the body as the rotations before it have turned it."""
+    """The matrix of successive rotations. Each rotation is about a body axis in its direction after the earlier
+    rotations."""
     whole = turn_about(0, Integer(0))
     for i, angle in turns:
         whole = ImmutableDenseMatrix(whole * turn_about(i, angle))
