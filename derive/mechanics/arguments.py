@@ -48,8 +48,8 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before each call. In a run with a memory, a call with equal
-    arguments returns the earlier result; only the functions in `KEEPING` are always called."""
+    """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a call
+    with equal arguments returns the earlier result; only the functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 

@@ -109,8 +109,8 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether, at these trial numbers, the unknown cannot have the value of any other root. If another root is
-    possible, return whether the root of the step is complex."""
+    """Whether no other root is a possible value of the unknown at these trial numbers. The result is also true if the
+    root of the step is complex there."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))

@@ -422,8 +422,8 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
 def _in_results(
     equation: Quantity, letter: Letter, key: str, root: str | None = None, symbols: Symbols = ()
 ) -> tuple[Quantity, ...] | Quantity:
-    """Return all roots, or the root that the author chose. Zeros have keys that begin with the requested name; the keys
-    of roots are made from the unknown."""
+    """Return all roots, or the root that the author chose. The keys of zeros begin with the requested name; the keys of
+    the roots of an equation begin with the unknown."""
     begins = None if isinstance(equation.value, Relation) else key
     found = checked(roots)(equation, letter, symbols=tuple(symbols) or None, key=begins)
     return found if root is None else _chosen(found, root)
