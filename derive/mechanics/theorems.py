@@ -52,7 +52,7 @@ ROTATING_AXES = Theorem(
 )
 MULTIPLIERS = Theorem(
     "multipliers",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # summed over k
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # the right side is summed over k
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
@@ -67,9 +67,9 @@ MULTIPLIERS_OF_BOTH = Theorem(  # constraints between coordinates, and constrain
         ("of_rate", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     ),
 )
-MULTIPLIERS_OF_RATES = Theorem(
+MULTIPLIERS_OF_RATES = Theorem(  # constraints between rates only, such as rolling
     "multipliers_of_rates",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # such as rolling
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )

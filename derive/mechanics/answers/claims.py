@@ -204,7 +204,8 @@ def compared(squared: bool) -> Predicate:
         left, right = facts.result.sides
         unknown = facts.inputs["unknown"]
         alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
-        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)  # within 1
+        # only a sine or a cosine, which cannot be beyond 1, has a condition for its existence
+        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)
         return bool(alone) and limited and _is_divided_as_told(facts)
 
     return is_so
@@ -418,7 +419,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     names = {s.name for s in before.free_symbols}
     of_time = [letter for letter in told if isinstance(letter, Prescribed)]
     if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told if letter not in of_time):
-        return True  # rates too
+        return True  # the rates of this coordinate are replaced, too
     rates = {letter.rate(n): diff(explicit(told[letter]), TIME, n) for letter in of_time for n in (1, 2, 3)}
     there = before.xreplace({**{letter: explicit(at) for letter, at in told.items()}, **rates})
     if isinstance(after, Relation):

@@ -122,7 +122,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # If the two relations differ by a factor of known sign, the check near the bound is valid everywhere.
+            # If the original and the solved relation differ by a factor of known sign, "beside" is valid everywhere.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",

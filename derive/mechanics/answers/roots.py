@@ -370,7 +370,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # for b = 0, D = 0 means that a or the root is 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # b = 0 and a vanishing discriminant: a or the root is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:

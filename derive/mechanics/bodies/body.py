@@ -68,7 +68,7 @@ class Body(Placeable, OfParticles):
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
     is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # names of the coordinates in which its limits are known
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which the limits of the body are known
     is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
 
     def __post_init__(self) -> None:

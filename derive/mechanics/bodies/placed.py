@@ -133,7 +133,7 @@ class PointOfBody(Location):
 
 
 def body_at(place: Any, stated: Any = None) -> Any:
-    """Return the stated body; if none is stated, the body that has a material point at the place, or None."""
+    """Return the stated body; if none is stated, the body to which a place from `place_of` belongs, otherwise None."""
     return place.body if stated is None and isinstance(place, PointOfBody) else stated
 
 

@@ -63,7 +63,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Region:
-    """Limits, outermost first, with the position and the volume element in the same coordinates.
+    """Limits, outermost first, with the position and the volume, area or line element in the same coordinates.
 
     section     a symbol in the limits for the radius of a cross-section, and its value; None if there is no such symbol
     """

@@ -1,7 +1,7 @@
 """Poisson brackets of functions of coordinates and momenta.
 
-The bracket of a function with the Hamiltonian is the rate of change of this function. This is true of functions that do
-not contain the time, if the Hamiltonian contains all forces.
+The bracket of a function with the Hamiltonian is the rate of change of the function, if the function does not contain
+the time and the Hamiltonian contains all forces.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The laws of momentum and of angular momentum in an impact, for the bodies that the impulses strike.
 
-An impulse at a fixed axis has no torque about the axis, and the impulses between two bodies are equal and opposite. The
-angular momentum of all bodies about the axis then changes only by the torques of the other impulses.
+An impulse at a fixed axis has no torque about the axis, and the impulses between two bodies are equal and opposite. So
+the angular momentum of all bodies about the axis changes only by the torques of the other impulses.
 """
 
 from __future__ import annotations
