@@ -55,7 +55,7 @@ def _beside(friction: Quantity, letter: Symbol) -> Quantity:
     for each in established():
         if each.symbol == letter and _state(each) == state:
             return each
-    message = f"`slips`: `{friction.key}` is a friction in one state, but the normal force in this state is unknown"
+    message = f"`slips`: `{friction.key}` is the friction in one state, but the normal force in this state is unknown"
     help_line = f"give `slips: {friction.symbol}` with the `results` and `values` of the state"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 

@@ -232,7 +232,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
     except Rejected:
         target = None
     if target is None or left_over(value, target):
-        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left"
+        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left side"
         raise Rejected(
             Complaint(
                 "wrong-argument",

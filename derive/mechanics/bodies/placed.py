@@ -57,7 +57,7 @@ class PlacedBody:
         if coordinates_in(own) or depends_on_time(own):
             message = "the centre of the `rim` does not move with the body"
             help_line = (
-                "give the centre of mass from the centre of the rim: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
+                "measure the centre of mass from the centre of the rim: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
             )
             raise Rejected(Complaint("no-such-body", message, help=help_line))
         return replace(self, rim=(centre, radius))
@@ -231,7 +231,9 @@ def _check_flat(body: Any, number: int) -> None:
     """Reject the default axis perpendicular to the plane if the body extends along this axis, unless all axes of the
     body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} extends along its {XYZ[number]} axis, so it is not clear which axis is across the plane"
+        message = (
+            f"{body.name} extends along its {XYZ[number]} axis, so the axis perpendicular to the plane is ambiguous"
+        )
         raise Rejected(
             Complaint(
                 "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")

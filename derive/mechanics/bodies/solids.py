@@ -66,7 +66,8 @@ UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x, which re
 
 
 class RoundSolid(RoundBody):
-    """A solid of revolution: all points between two heights whose distance from the z axis is at most `radius_at(z)`."""
+    """A solid of revolution: all points between two heights, at a distance of at most `radius_at(z)` from the z
+    axis."""
 
     systems = ("cylindrical", "cartesian")
 
