@@ -287,7 +287,7 @@ def _of_prescribed(target: Expr, value: Expr) -> list[Replacement]:
 
 
 def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
-    """Return the symbols with their values at one instant."""
+    """Return the symbols, or expressions such as cos(theta), with the values that the caller gave."""
     letters = {s.name: s for s in value.free_symbols}
     letters |= {s.function.name: s.function for s in prescribed_in(value)}
     pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]

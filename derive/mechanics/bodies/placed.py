@@ -236,7 +236,7 @@ def _check_flat(body: Any, number: int) -> None:
         )
         raise Rejected(
             Complaint(
-                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+                "wrong-axis", message, help=Spelled('write `across="x"`, "y" or "z"', "write `across: x`, `y` or `z`")
             )
         )
 
@@ -254,7 +254,7 @@ def _across(body: Any, named: str | None) -> int:
         message = f"the axis about which {body.name} turns in the plane is ambiguous"
         raise Rejected(
             Complaint(
-                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+                "wrong-axis", message, help=Spelled('write `across="x"`, "y" or "z"', "write `across: x`, `y` or `z`")
             )
         )
     return XYZ.index(found)
