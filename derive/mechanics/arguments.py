@@ -1,7 +1,7 @@
 """Check the arguments of a verb against its signature; a verb is a function that scripts call.
 
 The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
-An argument of another type is an error, such as a matrix in place of a step, or a floating-point number. The message
+An argument of another type, such as a matrix in place of a step, or a floating-point number, is an error. The message
 names the verb and the argument, in the terms of the script.
 """
 
@@ -48,8 +48,8 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before each call. In a run with a memory, a call with equal
-    arguments returns the earlier result; only the functions in `KEEPING` are always called."""
+    """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a call
+    with equal arguments returns the earlier result; only the functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 

@@ -32,7 +32,7 @@ class Holds(Enum):
 
     ANSWER = auto()  # the name of one answer
     ANSWERS = auto()  # the names of one or more answers
-    NAME = auto()  # the name of an answer that the verb requests itself
+    NAME = auto()  # the name of an answer that the verb itself derives
     LETTER = auto()  # a symbol, a rate, or an expression such as `cos(theta)`
     LETTERS = auto()
     COORDINATE = auto()
@@ -141,9 +141,9 @@ def in_results(
 ) -> Callable[[F], F]:
     """Register how `results:` calls a function; `called` maps an argument to its key and description, "for: a letter".
 
-    If the signature of a verb fits the keys, the verb itself is decorated. Otherwise the decorated function is next to
-    the verb: its name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases the
-    arguments are checked, and in a run with a memory an equal call returns the earlier result.
+    If the signature of a verb fits the keys, the verb itself is decorated. Otherwise another function is decorated: its
+    name begins with an underscore, and it adapts the keys and calls `checked(verb)`. In both cases `checked` checks the
+    arguments and looks for the result of an earlier, equal call.
     """
 
     def declared(function: F) -> F:

@@ -1,4 +1,4 @@
-"""Theorems in general form. A page states each theorem that it uses once, before the first step that uses it.
+"""Theorems in general form. A page states a theorem once, before the first step that uses this theorem.
 A theorem is a formula in symbols. A theorem is not a step, because it is not about a body or system of the problem.
 Each step that uses a theorem is checked, and the rule of such a step names the theorem under `quotes`.
 `tests/mechanics/test_theorems.py` substitutes bodies and motions into the formulas.
@@ -52,7 +52,7 @@ ROTATING_AXES = Theorem(
 )
 MULTIPLIERS = Theorem(
     "multipliers",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # summed over k
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # the right side is summed over k
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
@@ -67,9 +67,9 @@ MULTIPLIERS_OF_BOTH = Theorem(  # constraints between coordinates, and constrain
         ("of_rate", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     ),
 )
-MULTIPLIERS_OF_RATES = Theorem(
+MULTIPLIERS_OF_RATES = Theorem(  # constraints between rates only, such as rolling
     "multipliers_of_rates",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),  # such as rolling
+    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )

@@ -355,7 +355,7 @@ def test_a_static_friction_that_is_too_large_is_an_error(tmp_path: Path) -> None
         ("slips: F", "slips: N", "is not the friction of a contact with a coefficient"),
         ("for: mu_s", "for: g", "cannot be solved for g"),
         ("for: mu_s", "for: mu_s, values: {P: 0}", "does not contain `P`"),
-        ("for: mu_s", "for: mu_s, results: acceleration_x", "neither force contains what"),
+        ("for: mu_s", "for: mu_s, results: acceleration_x", "would change neither the friction"),
         ("{static: mu_s, force: F}", "{static: mu_s, force: N}", "already denotes something else"),
         ("at: [x, y]", "at: [x, -x*tan(alpha)]", "does not appear"),
     ],

@@ -66,34 +66,34 @@ IN_BOWL = "centre: [r*sin(theta), -r*cos(theta)], turned: phi"
 IMPOSSIBLE = {
     "a hole that leaves the disc": (
         of_parts(DISC + "}", "{shape: disc, radius: R/2, at: [3*R/4, 0, 0], " + HALF, whole=ONE),
-        "a part of it is outside the body",
+        "is partly outside the body",
     ),
     "a hole larger than the disc": (
         of_parts(DISC + "}", "{shape: disc, radius: 2*R, " + HALF, whole=ONE),
-        "`two` is cut out of the body, but a part of it is outside the body",
+        "`two` is cut out of the body, but is partly outside the body",
     ),
     "a hole as large as the disc": (of_parts(DISC + "}", DISC + ", " + HALF, whole=ONE), "nothing is left"),
     "a hole beside the ball": (
         of_parts(BALL + "}", "{shape: ball, radius: R/2, at: [3*R, 0, 0], " + HALF, whole=ONE),
-        "a part of it is outside the body",
+        "is partly outside the body",
     ),
     "a hole through the ball and beyond": (
         of_parts(BALL + "}", "{shape: cylinder, radius: R/4, height: 3*R, at: [0, 0, 0], " + HALF, whole=ONE),
-        "a part of it is outside the body",
+        "is partly outside the body",
     ),
     "a hole outside by its numbers": (
         of_parts(
             DISC + "}", "{shape: disc, radius: a, at: [d, 0, 0], " + HALF,
             whole=ONE, values="values: {R: 1 m, a: 60 cm, d: 50 cm}\n",
         ),
-        "a part of it is outside the body",
+        "is partly outside the body",
     ),
     "two holes that overlap": (
         of_parts(
             DISC + "}", "{shape: disc, radius: R/4, at: [R/4, 0, 0], " + HALF,
             "{shape: disc, radius: R/4, at: [R/3, 0, 0], " + HALF, whole=ONE,
         ),
-        "`two` and `three` are cut out of the body, but they have a part in common",
+        "`two` and `three` are cut out of the body, but they overlap",
     ),
     "a particle as a hole": (
         of_parts(DISC + ", mass: M}", "{shape: particle, mass: m, at: [R/2, 0, 0], " + HALF),

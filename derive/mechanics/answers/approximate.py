@@ -1,5 +1,5 @@
-"""Expansion of an equation where a symbol is small, large, or near a value, to an order in the small quantity.
-Coordinates, rates and accelerations are not expanded: only this symbol is small, large or near the value.
+"""Expansion of an equation in powers of a small quantity: a symbol is small, large, or near a value.
+The coordinates, rates and accelerations are not small: the equation is not expanded in them.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def equation_in_limit(
     order      the highest power of the small quantity that is kept; by default only the leading terms
 
     If the letter is small and a function of letter and time is expanded, such as sin(Omega t), the result is valid for
-    short times only. Its sentence says so.
+    short times only. The sentence of the step says so.
     Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
     quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).

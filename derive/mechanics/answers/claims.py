@@ -109,8 +109,8 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether, at these trial numbers, the unknown cannot have the value of any other root. If another root is
-    possible, return whether the root of the step is complex."""
+    """Whether no other root is a possible value of the unknown at these trial numbers. The result is also true if the
+    root of the step is complex there."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -204,7 +204,8 @@ def compared(squared: bool) -> Predicate:
         left, right = facts.result.sides
         unknown = facts.inputs["unknown"]
         alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
-        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)  # within 1
+        # only a sine or a cosine, which cannot be beyond 1, has a condition for its existence
+        limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)
         return bool(alone) and limited and _is_divided_as_told(facts)
 
     return is_so
@@ -308,7 +309,7 @@ def exact(facts: Judged) -> bool:
 
 
 def _says_what_is_kept(facts: Judged) -> bool:
-    """Whether the equation equals the kept terms up to a factor without rates."""
+    """Whether the equation equals the kept terms up to a factor without rates and accelerations."""
     residual = explicit(facts.result).residual
     moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
     ratio = facts.inputs["kept"] / residual
@@ -385,7 +386,7 @@ def linear(facts: Judged) -> bool:
 
 
 def root(facts: Judged, fact: RootOf) -> bool:
-    """Whether the value is a root of its factor."""
+    """Whether the value is a root of the polynomial whose coefficients `fact` has."""
     value = facts.result.right if isinstance(facts.result, Relation) else facts.result
     powers = range(len(fact.coefficients) - 1, -1, -1)
     return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))
@@ -418,7 +419,7 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     names = {s.name for s in before.free_symbols}
     of_time = [letter for letter in told if isinstance(letter, Prescribed)]
     if any({f"{letter.name}_dot", f"{letter.name}_ddot"} & names for letter in told if letter not in of_time):
-        return True  # rates too
+        return True  # the rates of this coordinate are replaced, too
     rates = {letter.rate(n): diff(explicit(told[letter]), TIME, n) for letter in of_time for n in (1, 2, 3)}
     there = before.xreplace({**{letter: explicit(at) for letter, at in told.items()}, **rates})
     if isinstance(after, Relation):

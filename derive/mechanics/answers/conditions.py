@@ -74,15 +74,15 @@ def where(
     of        a scalar, any unit
     mark      the comparison sign: one of =, !=, <, >, <=, >=
     bound     the bound, of the same unit; 0, or another quantity
-    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Quantity minus bound must be linear
-              in the unknown or in its square. For a sum or product such as 2b, the relation is solved for one of the
-              letters in it
+    letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Apart from positive factors,
+              quantity minus bound must be linear in the unknown or in its square. For a sum or product such as 2b, the
+              relation is solved for one of the letters in it
     through   the same condition in other letters, for an intermediate line, and the results that these letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
     Check: the sign of quantity minus bound, for an unknown equal to the right side of the solved relation, and for an
-    unknown at any distance above it. If the two relations differ by a factor of unknown sign, also random points: the
-    original and the solved relation are both true or both false.
+    unknown at any distance above it. If the original and the solved relation differ by a factor of unknown sign, also
+    random points: at each point both relations are true, or both are false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
@@ -122,7 +122,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # If the two relations differ by a factor of known sign, the check near the bound is valid everywhere.
+            # If the original and the solved relation differ by a factor of known sign, "beside" is valid everywhere.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",

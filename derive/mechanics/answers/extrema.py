@@ -229,7 +229,7 @@ def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
     return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
 
 
-# --- the second routes ---
+# --- the check of the extreme value ---
 
 
 def _not_exceeded(

@@ -88,8 +88,8 @@ def limiting_case(
     order    the highest power of the small quantity that is kept; by default only the leading term
 
     For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
-    `put_in` to set letters equal, b = a. The result has a symbol of its own, `symbol` or omega_lim, and results
-    computed from this symbol are approximate.
+    `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
+    omega_lim, and results computed from this symbol are approximate.
     Check: adding, multiplying and dividing power series, without a derivative, gives the same terms. Numerically, on
     each side of the limit, the sum of the omitted terms is small compared with the last power that is kept.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
@@ -209,8 +209,8 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
 
 
 def _check_assumed(x: Symbol, aim: Expr) -> None:
-    """Check that the inequalities for this symbol that the page assumes can all hold near the limit, for some values of
-    the other symbols."""
+    """Check that all assumed inequalities that contain this symbol can hold near the limit, for some values of the
+    other symbols."""
     signs = {">": 1, "<": -1}
     kept = [with_numbers(each.residual * signs[each.operator[0]]) for each in assumed() if each.operator[0] in signs]
     conditions = [each for each in kept if x in each.free_symbols]

@@ -79,9 +79,10 @@ def roots(
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
-    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 if several
+    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots
     key        the beginning of the default keys, in place of the letter
-    symbols    the letters of the roots; by default the unknown, a letter with _1, _2 if there are several
+    symbols    the letters of the roots; by default the unknown, with _1, _2 for several roots of an unknown that is a
+               letter
 
     Check: each root substituted into the equation; by Vieta, the sum and the product of all roots agree with the
     coefficients.
@@ -369,7 +370,7 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # for b = 0, D = 0 means that a or the root is 0
+        lost = sign_known(c) or sign_for_all(unknown) == 1  # b = 0 and a vanishing discriminant: a or the root is 0
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
@@ -421,8 +422,8 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
 def _in_results(
     equation: Quantity, letter: Letter, key: str, root: str | None = None, symbols: Symbols = ()
 ) -> tuple[Quantity, ...] | Quantity:
-    """Return all roots, or the root that the author chose. Zeros have keys that begin with the requested name; the keys
-    of roots are made from the unknown."""
+    """Return all roots, or the root that the author chose. The keys of zeros begin with the requested name; the keys of
+    the roots of an equation begin with the unknown."""
     begins = None if isinstance(equation.value, Relation) else key
     found = checked(roots)(equation, letter, symbols=tuple(symbols) or None, key=begins)
     return found if root is None else _chosen(found, root)

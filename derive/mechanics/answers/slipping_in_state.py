@@ -1,4 +1,4 @@
-"""The friction and the normal force of a contact in one state: the same results and values, substituted in both."""
+"""The friction and the normal force of a contact in one state: the same results and values are substituted in both."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _beside(friction: Quantity, letter: Symbol) -> Quantity:
     for each in established():
         if each.symbol == letter and _state(each) == state:
             return each
-    message = f"`slips`: `{friction.key}` is a friction in one state, but the normal force in this state is unknown"
+    message = f"`slips`: `{friction.key}` is the friction in one state, but the normal force in this state is unknown"
     help_line = f"give `slips: {friction.symbol}` with the `results` and `values` of the state"
     raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
@@ -99,7 +99,7 @@ def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:
-            message = f"`slips`: neither force contains what `{each.key}` would replace"
+            message = f"`slips`: the result `{each.key}` would change neither the friction nor the normal force"
             raise Rejected(Complaint("unused-value", message, help="leave it out", argument="results"))
     letters = {s.name for each in (friction, normal, *results) for s in explicit(each.value).free_symbols}
     check_values_used(friction.key, values, letters)

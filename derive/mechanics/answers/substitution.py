@@ -111,7 +111,7 @@ def put_in(
     for pair in there:
         rates = _of_prescribed(*pair)
         letters = {letter_of(target) for target, _ in (pair, *rates)}
-        if letters & value.free_symbols or pair == there[0]:  # skip removed letters
+        if letters & value.free_symbols or pair == there[0]:  # skip a letter that earlier values have removed
             value = _all_put(value, [*rates, pair], str(pair[0]), of, told)
     turned = [each for each in come if each.turned and not is_zero(value)]
     value = -value if turned else value
@@ -232,7 +232,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
     except Rejected:
         target = None
     if target is None or left_over(value, target):
-        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left"
+        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left side"
         raise Rejected(
             Complaint(
                 "wrong-argument",
@@ -287,7 +287,7 @@ def _of_prescribed(target: Expr, value: Expr) -> list[Replacement]:
 
 
 def _values(of: Quantity, given: Mapping[Any, Any], named: Mapping[str, Any], value: Any) -> list[Replacement]:
-    """Return the symbols with their values at one instant."""
+    """Return the symbols, or expressions such as cos(theta), with the values that the caller gave."""
     letters = {s.name: s for s in value.free_symbols}
     letters |= {s.function.name: s.function for s in prescribed_in(value)}
     pairs: list[tuple[Expr, Any]] = [(unknown_of("put_in", target), at) for target, at in given.items()]
@@ -333,7 +333,7 @@ def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity
             told.append((target, at))
         value = after
     if value == before:
-        message = f"`put_in`: `{of.key}` does not contain what `{called}` would replace"
+        message = f"`put_in`: substituting `{called}` would not change `{of.key}`"
         raise Rejected(Complaint("nothing-to-put-in", message))
     return value
 

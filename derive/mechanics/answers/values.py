@@ -231,7 +231,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
 
 
 def _rate_of_square(of: Quantity) -> list[RateOfSquare]:
-    """Return the fact that yields d(v.v)/dt = 2 v.dv/dt; an empty list if no particles give the rate of the vector."""
+    """Return the fact that yields d(v.v)/dt = 2 v.dv/dt; an empty list if the rate of the vector is unknown."""
     known = of.fact(RateByParticles)
     return [] if known is None else [RateOfSquare(of.value, known)]
 

@@ -68,7 +68,7 @@ class Body(Placeable, OfParticles):
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
     is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have
     is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # names of the coordinates in which its limits are known
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which the limits of the body are known
     is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
 
     def __post_init__(self) -> None:
@@ -492,8 +492,8 @@ def centre_of_mass(
     coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
     step derives each component that is not zero.
-    Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
-    numerical sum over cells.
+    Second route: the mean position of the body's equimomental particles.
+    Check: for a body defined by a position map, a numerical sum over cells takes the place of the second route.
     Outcomes: round (a round solid); generic (another body with inversion symmetry); by_components (steps derive the
     components); there (the centre of mass is at the named point).
     Errors: the body has no such point or no such coordinates.

@@ -100,8 +100,8 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the size is not found to be negative, and the square of the size is the result (for a solid, the square
-    of the result)."""
+    """Whether the square of the size is the result (for a solid, the square of the result), and the size is not found
+    to be negative."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 

@@ -88,8 +88,8 @@ def centre_component(
     axis         "x", "y" or "z": the body axis of the component
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
     coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
-    Second route: the mean position of the body's equimomental particles; for a body defined by a position map, a
-    numerical sum over cells.
+    Second route: the mean position of the body's equimomental particles.
+    Check: for a body defined by a position map, a numerical sum over cells takes the place of the second route.
     Outcomes: on_axis (the body is a solid that is round about this axis), generic.
     Errors: no such axis, no such point, no such coordinates.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.

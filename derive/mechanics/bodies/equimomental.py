@@ -49,7 +49,8 @@ class OfParticles:
 
     def particles(self) -> Particles:
         """Particles with the mass, centre of mass and second moments of the body. If `is_of_particles` is true, they
-        are found without integrals, so they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, ch. 1."""
+        are found without integrals, so they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, chapter
+        1."""
         raise AttributeError(f"{type(self).__name__} must define its equimomental particles")
 
     def another_way(

@@ -171,7 +171,8 @@ class GeneralBody(Body):
     def another_way(
         self, integrand: Callable[[ImmutableMatrix], Any], point: Point, of: Callable[[Any], Any] = lambda found: found
     ) -> dict[str, Route]:
-        """A second route by a numerical sum over cells, because the particles of this body come from integrals."""
+        """A check by a numerical sum over cells, in place of a second route by particles: the particles of this body
+        come from integrals."""
         position, limits = self.map()
 
         def by_cells(found: Any) -> Verdict:
@@ -249,7 +250,7 @@ def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
 
 CELL_OF = Rule(
     "bodies.cell_of",
-    source="Apostol, *Calculus*, volume 2, sections 12.5 and 11.29",
+    source="Apostol, *Calculus*, volume 2, sections 11.32 and 12.5",
     outcomes={
         "curve": claims.with_variables(1),
         "surface": claims.with_variables(2),
@@ -266,9 +267,10 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
 
     body   a body defined by its position map
     Second route: the square of the size is det(r_i . r_j), with scalar products from squared distances of neighbouring
-    points. For a solid, a numerical check also compares the size with the signed volume that small edges span.
+    points.
+    Check: for a solid, the size agrees numerically with the signed volume that small edges span.
     Outcomes: curve, surface, solid.
-    Source: Apostol, *Calculus*, volume 2, sections 12.5 and 11.29.
+    Source: Apostol, *Calculus*, volume 2, sections 11.32 and 12.5.
     """
     position, limits = body.map()
     names = [x for x, _, _ in limits]
@@ -315,7 +317,7 @@ def _determinant_of_chords(position: ImmutableMatrix, names: Sequence[Symbol]) -
 
 SIZE_BY_INTEGRATION = Rule(
     "bodies.size_by_integration",
-    source="Apostol, *Calculus*, volume 2, sections 11.3 and 12.5",
+    source="Apostol, *Calculus*, volume 2, sections 11.32 and 12.5",
     outcomes={word: claims.of_filling(word) for word in ("length", "area", "volume")},
     evidence={"quadrature": CHECK},
     shown=Shown(brief=Manner.TAKEN_IN),
@@ -328,7 +330,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     body   a body defined by its position map
     Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Outcomes: length, area, volume.
-    Source: Apostol, *Calculus*, volume 2, sections 11.3 and 12.5.
+    Source: Apostol, *Calculus*, volume 2, sections 11.32 and 12.5.
     """
     region = body.region(ORIGIN)
     kind, letter = body.filling, LETTERS[body.filling]
@@ -358,7 +360,7 @@ MASS_BY_INTEGRATION = Rule(
 def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     """Mass of a body with a given density, M = integral of the density over the body.
 
-    body   a body defined by its position map, and its density
+    body   a body defined by its position map and its density
     Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
     """

@@ -2,12 +2,12 @@
 
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
 variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines are the split,
-the innermost antiderivatives in brackets, the values of these brackets, and so on outwards; then the product of the
-values, and the product with the mass collected.
+the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then follow the product of
+the values, and this product with density times volume, which is the mass, in one bracket.
 
-For a solid of revolution whose radius varies with the height, or in Cartesian coordinates, the integral is first over
-the disc at each height, and then along the axis. In Cartesian coordinates the integral over the disc is along its
-chords.
+The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
+varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along
+its chords.
 """
 
 from __future__ import annotations
@@ -133,8 +133,8 @@ def _groups(limits: Sequence[OneVariable]) -> list[list[OneVariable]]:
 def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
     """The lines from the innermost integrals outwards: antiderivatives, then their values at the limits."""
     nested = _are_nested(terms)
-    # If there is only one term and it is nested, the line "split" differs little from the line before it, so it appears
-    # at full level only.
+    # If there is only one term and it is nested, the line "split" differs little from the line before it, so "split"
+    # appears at full level only.
     level = Level.FULL if nested and len(terms) == 1 else Level.STANDARD
     lines = [_line(front, terms, Nested.written, "split" if nested else "separate", level)]
     while _are_nested(terms):

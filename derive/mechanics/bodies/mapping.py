@@ -138,7 +138,7 @@ def _counted_positive(size: Expr, limits: Bounds) -> Expr:
         raise Rejected(Complaint("unknown-sign", message, help="give sizes that determine its sign"))
     if len(signs) > 1:
         message = f"the map covers some places twice: `{size}` changes its sign between the limits"
-        raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
+        raise Rejected(Complaint("folded", message, help="give limits between which the map covers each place once"))
     return size if signs == {True} else tidied(-size)
 
 

@@ -115,8 +115,8 @@ def turn_about(axis: Any, angle: Any) -> ImmutableMatrix:
 
 
 def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
-    """Whether the matrix maps each unit vector v along an axis to v_parallel + v_perp cos(angle) + (n x v) sin(angle),
-    with the axis n."""
+    """Whether the matrix maps each unit vector v along an axis to v_parallel + v_perp cos(angle) + (n x v) sin(angle).
+    Here n is the unit vector along the axis of rotation; v_parallel and v_perp are parallel and perpendicular to n."""
     n = column(*(int(axis == other) for other in "xyz"))
     for k in range(3):
         v = column(*(int(k == i) for i in range(3)))

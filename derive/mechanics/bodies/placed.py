@@ -1,8 +1,8 @@
 """The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
-The orientation in space is a set of axes. In a vertical plane the orientation is an angle about the normal, positive
-counterclockwise, from right to up. The body axis perpendicular to the plane points to the reader; at zero angle the
-next two axes, in the cyclic order x, y, z, are along the axes of the plane.
+The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
+counterclockwise. The body axis perpendicular to the plane points to the reader; at zero angle the next two axes, in the
+cyclic order x, y, z, are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class PlacedBody:
         if coordinates_in(own) or depends_on_time(own):
             message = "the centre of the `rim` does not move with the body"
             help_line = (
-                "give the centre of mass from the centre of the rim: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
+                "measure the centre of mass from the centre of the rim: `{from: axis, by: [a*cos(phi), a*sin(phi)]}`"
             )
             raise Rejected(Complaint("no-such-body", message, help=help_line))
         return replace(self, rim=(centre, radius))
@@ -97,7 +97,7 @@ class PlacedBody:
         return not coordinates_in(here) and not depends_on_time(here)
 
     def place_of(self, point: Any) -> PointOfBody:
-        """The place of a point of the body, which moves with the body.
+        """The place of a point that moves with the body.
 
         point   the point, by its name or by components along the body axes
         """
@@ -133,12 +133,13 @@ class PointOfBody(Location):
 
 
 def body_at(place: Any, stated: Any = None) -> Any:
-    """Return the stated body; if none is stated, the body that has a material point at the place, or None."""
+    """Return the stated body; if none is stated, the body to which a place from `place_of` belongs, otherwise None."""
     return place.body if stated is None and isinstance(place, PointOfBody) else stated
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
-    """The matrix of successive rotations, each about an axis of the body as the rotations before it have turned it."""
+    """The matrix of successive rotations. Each rotation is about a body axis in its direction after the earlier
+    rotations."""
     whole = turn_about(0, Integer(0))
     for i, angle in turns:
         whole = ImmutableDenseMatrix(whole * turn_about(i, angle))
@@ -230,10 +231,12 @@ def _check_flat(body: Any, number: int) -> None:
     """Reject the default axis perpendicular to the plane if the body extends along this axis, unless all axes of the
     body are equivalent."""
     if tidied(central_second_moments(body)[number, number]) != 0 and not _is_isotropic(body):
-        message = f"{body.name} extends along its {XYZ[number]} axis, so it is not clear which axis is across the plane"
+        message = (
+            f"{body.name} extends along its {XYZ[number]} axis, so the axis perpendicular to the plane is ambiguous"
+        )
         raise Rejected(
             Complaint(
-                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+                "wrong-axis", message, help=Spelled('write `across="x"`, "y" or "z"', "write `across: x`, `y` or `z`")
             )
         )
 
@@ -251,7 +254,7 @@ def _across(body: Any, named: str | None) -> int:
         message = f"the axis about which {body.name} turns in the plane is ambiguous"
         raise Rejected(
             Complaint(
-                "wrong-axis", message, help=Spelled('say `across="x"`, "y" or "z"', "say `across: x`, `y` or `z`")
+                "wrong-axis", message, help=Spelled('write `across="x"`, "y" or "z"', "write `across: x`, `y` or `z`")
             )
         )
     return XYZ.index(found)

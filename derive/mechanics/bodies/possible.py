@@ -84,9 +84,9 @@ class Fault:
         if self.why == "empty":
             return Complaint("no-such-body", "nothing is left of the body: the holes are as large as its parts")
         if len(self.names) > 1:
-            message = f"{named} are cut out of the body, but they have a part in common"
+            message = f"{named} are cut out of the body, but they overlap"
             return Complaint("no-such-body", message, help="cut out each part of the body once")
-        message = f"{named} is cut out of the body, but a part of it is outside the body"
+        message = f"{named} is cut out of the body, but is partly outside the body"
         return Complaint("no-such-body", message, help="a hole must be inside the rest of the body")
 
 
@@ -173,7 +173,7 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
     charts = [Chart.of(position, limits, at) for at in drawn]
     if charts and all(_covered_twice(chart) for chart in charts):
         message = f"the map of this `{name}` covers places twice: different values of its variables give the same place"
-        raise Rejected(Complaint("folded", message, help="give limits between which it covers each place once"))
+        raise Rejected(Complaint("folded", message, help="give limits between which the map covers each place once"))
     signs = [_signs(density, chart, at) for chart, at in zip(charts, drawn, strict=True)]
     if signs and all(found == {1, -1} for found in signs):
         message = f"the density {density} of this `{name}` is negative in a part of the body"

@@ -63,7 +63,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Region:
-    """Limits, outermost first, with the position and the volume element in the same coordinates.
+    """Limits, outermost first, with the position and the volume, area or line element in the same coordinates.
 
     section     a symbol in the limits for the radius of a cross-section, and its value; None if there is no such symbol
     """
@@ -158,7 +158,7 @@ def _check_sign(radius_at: Callable[[Expr], Expr], ends: tuple[Expr, Expr]) -> N
     """Reject a radius that may be negative at an end, because the ends of a chord would then be in the wrong order."""
     unsure = next((radius for radius in map(radius_at, ends) if not radius.is_nonnegative), None)
     if unsure is not None:
-        message = f"the radius `{unsure}` may be negative, but Cartesian limits need a positive radius"
+        message = f"the radius `{unsure}` may be negative, but Cartesian limits need a radius that is not negative"
         help_line = "give the radius a separate symbol, or use cylindrical coordinates"
         raise Rejected(Complaint("unknown-sign", message, help=help_line))
 

@@ -66,7 +66,8 @@ UPWARDS = ImmutableDenseMatrix(diag(1, -1, -1))  # half a turn about x, which re
 
 
 class RoundSolid(RoundBody):
-    """A solid of revolution: all points whose distance from the z axis is at most `radius_at(z)`."""
+    """A solid of revolution: all points between two heights, at a distance of at most `radius_at(z)` from the z
+    axis."""
 
     systems = ("cylindrical", "cartesian")
 
@@ -368,7 +369,7 @@ class Torus(Body):
 
 VOLUME = Rule(
     "bodies.volume",
-    source="Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus)",
+    source="Apostol, *Calculus*, volume 2, section 11.17 (theorem of Pappus)",
     outcomes={"cylindrical": claims.volume_cylindrical},
     evidence={"pappus": ROUTE},
     statements=[claims.volume_of_its_sections],
@@ -383,7 +384,7 @@ def volume(body: Cone) -> Quantity:
     Second route: by the theorem of Pappus, the area of half the axial section times the path length of the centroid of
     this half.
     Outcomes: cylindrical (the coordinates of the integral).
-    Source: Apostol, *Calculus*, volume 2, section 11.18 (theorem of Pappus).
+    Source: Apostol, *Calculus*, volume 2, section 11.17 (theorem of Pappus).
     """
     start = body.point(body.reference)
     region = body.region(start)

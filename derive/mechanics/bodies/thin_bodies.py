@@ -149,7 +149,7 @@ class Arc(Body):
 
     def particles(self) -> Particles:
         """With x ds = R dy, the integral of x ds is R times the chord. The integral of x^2 ds is R times the area
-        between the arc and the y axis, which is the area of a sector plus that of a triangle."""
+        between the arc and the y axis. This area consists of a sector and two equal right triangles."""
         R, alpha = self.radius, self.half_angle
         sector, triangle = alpha * R**2, R**2 * sin(alpha) * cos(alpha)
         along = self.mass * (sector + triangle) / (2 * alpha)

@@ -1,7 +1,7 @@
 """Poisson brackets of functions of coordinates and momenta.
 
-The bracket of a function with the Hamiltonian is the rate of change of this function. This is true of functions that do
-not contain the time, if the Hamiltonian contains all forces.
+The bracket of a function with the Hamiltonian is the rate of change of the function, if the function does not contain
+the time and the Hamiltonian contains all forces.
 """
 
 from __future__ import annotations
@@ -62,10 +62,11 @@ def poisson_bracket(
     coordinates   all coordinates; not needed if f or g is a Hamiltonian, or a result derived from a Hamiltonian
     among         steps; if the bracket is a number times the value of such a step, the last line is written with the
                   symbol of this step
-    Second route: the bracket of the formulas by {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and
-    {u(f), g}. If g is a Hamiltonian, also: the bracket plus the partial derivative of f with respect to time is the
-    rate of f along every motion. This rate is the derivative of f as a function of t, with accelerations from
-    d'Alembert's principle.
+    Second route: if g is a Hamiltonian, the bracket plus the partial derivative of f with respect to time is the rate
+    of f along every motion. This rate is the derivative of f as a function of t, with accelerations from d'Alembert's
+    principle.
+    Check: the bracket of the formulas by {q, p} = 1, antisymmetry, and the rules for {f + h, g}, {f h, g} and
+    {u(f), g}.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero ({f, g} = 0 in any
     other case), generic.
     Errors: the coordinates are not given; f or g contains a rate.

@@ -48,8 +48,8 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     Steps derive the momenta, and the rates in terms of the momenta.
     Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
-    are the magnetic forces and the forces with a potential energy. For a given L, the sum of p dH/dp, minus H, is L
-    again.
+    are the magnetic forces and the forces with a potential energy.
+    Check: for a given L, the sum of p dH/dp, minus H, is L again.
     Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy
     (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time); work_energy (H is T + U,
     but a force outside L does work); work (H is not T + U, and a force outside L does work); given_conserved,
@@ -123,8 +123,9 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
     of   the Hamiltonian, J
     Keys: canonical_ and the name of the coordinate, or of the momentum.
-    Second route: with the momenta as functions of the rates, the first equation is q_dot = q_dot, and the second is
-    d'Alembert's principle, sum of (m a - F) . dr/dq = 0.
+    Second route: with the momenta as functions of the rates, the second equation is d'Alembert's principle, sum of
+    (m a - F) . dr/dq = 0.
+    Check: with the momenta as functions of the rates, the first equation is q_dot = q_dot.
     Outcomes: rate (the first equation); force (the second equation); cyclic (the second equation, if H does not contain
     q); applied (the second equation, with Q or constraint forces).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1 and problem 8.4.

@@ -73,7 +73,9 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
         message = f"`conserved`: `{of.key}` contains {q.symbol.name}, so this coordinate has no constant momentum"
         raise Rejected(Complaint("not-cyclic", message))
     if not L.has(q.rate):
-        message = f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, which has no momentum"
+        message = (
+            f"`conserved`: `{of.key}` does not contain the rate of {q.symbol.name}, so {q.symbol.name} has no momentum"
+        )
         raise Rejected(Complaint("not-cyclic", message))
     known = value if isinstance(value, Expr) and not isinstance(value, Symbol) else None
     letter = scalar(value) if isinstance(value, str) else value if isinstance(value, Symbol) else letter_of_momentum(q)

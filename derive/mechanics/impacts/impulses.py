@@ -1,4 +1,4 @@
-"""Impacts: forces so large and so short that positions stay fixed and only velocities jump.
+"""Impacts: the forces are so large, and act for so short a time, that positions stay fixed and only velocities jump.
 Lagrange's equations, integrated over the short time, give the jump of each momentum, p - p_before = sum of J . dr/dq.
 Finite forces do not contribute. The rates in the results are the rates just after the impact.
 """

@@ -1,7 +1,7 @@
 """The laws of momentum and of angular momentum in an impact, for the bodies that the impulses strike.
 
-An impulse at a fixed axis has no torque about the axis, and the impulses between two bodies are equal and opposite. The
-angular momentum of all bodies about the axis then changes only by the torques of the other impulses.
+An impulse at a fixed axis has no torque about the axis, and the impulses between two bodies are equal and opposite. So
+the angular momentum of all bodies about the axis changes only by the torques of the other impulses.
 """
 
 from __future__ import annotations
@@ -173,8 +173,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
     """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
-    about the fixed axis of the body that rotates with a coordinate. If the coordinates do not allow this rotation, the
-    law is for this body only, about its fixed axis or its centre of mass.
+    about the fixed axis of the body that rotates with the coordinate q. If the coordinates do not allow all bodies to
+    rotate about this axis, or if there is no fixed axis, the law is for this body only, about its fixed axis or its
+    centre of mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body

@@ -113,7 +113,7 @@ class AtOneMoment(Fact):
 
 
 def require_all_times(verb: str, quantity: Quantity) -> None:
-    """For a law that needs a rate of change: reject a quantity that is known at one instant only."""
+    """Reject a quantity that is known at one instant only, because its rate of change is unknown."""
     known = quantity.fact(AtOneMoment)
     if known is not None:
         message = f"`{verb}`: `{quantity.key}` is known only for one value of {known.fixed[0].name}"

@@ -53,7 +53,7 @@ class Location:
         return self if moved == self.components else Location(moved)
 
     def turned(self, angle: Any) -> Location:
-        """Return the displacement rotated in its plane; a positive angle rotates counterclockwise, from right to up."""
+        """Return the displacement rotated in its plane; a positive angle rotates counterclockwise."""
         if len(self.components) != 2:
             message = "`turned` rotates a displacement in a plane, but this one has three components"
             raise Rejected(Complaint("wrong-argument", message, help="for axes in space use `space.turned(Z, phi)`"))
@@ -81,7 +81,8 @@ def point(*components: Any) -> Location:
 
 
 def angle_of(direction: Location) -> Expr | None:
-    """Return the angle of a unit vector in a plane, measured from right to up; None if the angle is unknown.
+    """Return the angle of a unit vector in a plane, measured counterclockwise from the first axis; None if the angle is
+    unknown.
 
     The result is a number, or a multiple of a right angle plus or minus an angle that the components contain.
     """

@@ -1,4 +1,4 @@
-"""Newton's laws and Lagrange's equations state the same about a motion."""
+"""The agreement of Newton's laws with Lagrange's equations for the same motion."""
 
 from __future__ import annotations
 

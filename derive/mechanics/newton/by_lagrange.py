@@ -26,8 +26,9 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class MovedAlone(Fact):
-    """The changes of the coordinates in the displacement whose virtual work is a law. For a law of one body, only the
-    body to which the law applies moves in this displacement."""
+    """The changes of the coordinates in the displacement that belongs to a law: the sum of Lagrange's equations, each
+    times the change of its coordinate, is this law. For a law of one body, only this body moves in the displacement.
+    """
 
     missing = "is not a law of one body"
     changes: tuple[tuple[Symbol, Expr], ...]
@@ -42,7 +43,7 @@ def lagrangian_behind(system: System) -> Quantity:
 
 def facts_of_motion(system: System, q: Coordinate, changes: Mapping[Symbol, Expr]) -> list[Fact]:
     """The facts about an equation of motion that later steps need: its coordinate, its system with the Lagrangian and
-    the constraints, and the displacement whose virtual work is the equation."""
+    the constraints, and the displacement that belongs to the equation."""
     of = lagrangian_behind(system)
     kept = of.fact(Constrained)
     found: list[Fact] = [OfCoordinate(q), ForcedMotion(of), of.needed(Matter), system.described]

@@ -101,11 +101,9 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
     """
     moving = list(system.coordinates)
     if moving != [q.symbol] or system.constraints:
-        many = (
-            f"{len(moving)} coordinates and {len(system.constraints)} forces"
-            if system.constraints
-            else f"{len(moving)} coordinates"
-        )
+        count, forces = len(moving), len(system.constraints)
+        many = f"{count} coordinate{'s' * (count != 1)}"
+        many += f" and {forces} constraint force{'s' * (forces != 1)}" if forces else ""
         message = f"conservation of energy is one equation, but this system has {many}"
         raise Rejected(
             Complaint("method", message, help="describe the positions by one coordinate, or use another method")

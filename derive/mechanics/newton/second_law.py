@@ -21,7 +21,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["second_law"]
 
-OUTCOMES: Mapping[str, Predicate] = {  # of `second_law` and `torque_law`
+OUTCOMES: Mapping[str, Predicate] = {  # the outcomes of `second_law` and `torque_law`
     f"{outcome}{suffix}": claims.both(claims.of_masses(several, alike), claims.at_rest(suffix == "_at_rest"))
     for outcome, several, alike in (("alone", False, False), ("of_several", True, False), ("alike", True, True))
     for suffix in ("", "_at_rest")
