@@ -38,7 +38,8 @@ def _has_problems(folder: Path) -> bool:
 def root_of(arguments: argparse.Namespace) -> Path:
     root = found_root(arguments.root)
     if root is None:
-        where = f"in `{arguments.root}`" if arguments.root else "here or above"
+        asked = arguments.root or os.environ.get("DERIVE_ROOT")
+        where = f"in `{asked}`" if asked else "here or above"
         raise Misused(
             Complaint("no-root", f"no folder `problems` was found {where}", help="name its parent folder with `--root`")
         )

@@ -73,11 +73,13 @@ def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int |
     except NoExpansion as none:
         if isinstance(none, BeginsBeyond) and not is_one:
             return {}
-        raise _has_none(of, x, place, order) from None
+        raise _has_none(of, x, place, order, isinstance(none, BeginsBeyond)) from None
 
 
-def _has_none(of: Quantity, x: Symbol, place: Expr, order: int | None) -> Rejected:
+def _has_none(of: Quantity, x: Symbol, place: Expr, order: int | None, begins_beyond: bool = False) -> Rejected:
     message = f"`{of.key}` has no expansion in powers at {x.name} = {place}"
+    if begins_beyond and order is not None:
+        message = f"the expansion of `{of.key}` at {x.name} = {place} has no term up to the order {order}"
     help_line = None if order is None else "omit `order` to get only the leading term"
     return Rejected(Complaint("no-expansion", message, help=help_line))
 

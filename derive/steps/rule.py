@@ -168,7 +168,7 @@ class Rule:
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
-            "law_in": tuple(each.theorem.name for each in self.quotes if outcome in each.law_in),
+            "law_in": tuple(each.theorem.name for each in quotes if outcome in each.law_in),
         }
 
     def wrongly_named(self, facts: Judged, named: Mapping[str, Any]) -> str | None:

@@ -162,11 +162,19 @@ def _sign_by_numbers(expr: Expr) -> int | None:
 
 def taken_positive(value: Expr) -> int | None:
     """Return the sign of a value. If the sign is unknown, assume that the value is positive; the page states this
-    assumption."""
+    assumption. A number times squares keeps the sign of the number: the assumption is that no square is zero."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
-    open_factors = [factor for factor in _odd_factors(tidied(value)) if sign_known(factor) != 1]
+    number, factors = _factors(tidied(value))
+    odd = [base for base, power in factors if power % 2]
+    if not odd:
+        for base, _ in factors:
+            assume(Relation(base, "!=", Integer(0)))
+        return -1 if number.is_negative else 1
+    if number.is_negative:
+        odd[0] = -odd[0]
+    open_factors = [factor for factor in odd if sign_known(factor) != 1]
     for each in open_factors if len(open_factors) == 1 else [Mul(*open_factors)]:
         more, less = sides_without_minus(each)
         take_as_positive(each)
@@ -175,16 +183,13 @@ def taken_positive(value: Expr) -> int | None:
     return 1
 
 
-def _odd_factors(value: Expr) -> list[Expr]:
-    """Return the factors with an odd power, without the number in front; their product has the sign of the value."""
+def _factors(value: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
+    """Return the number in front, and each other factor with its power."""
     try:
         number, found = factor_list(value)
     except PolynomialError:
-        return list(Mul.make_args(value))
-    factors = [base for base, power in found if power % 2]
-    if number.is_negative and factors:
-        factors[0] = -factors[0]
-    return factors or [Integer(1)]
+        return Integer(1), [(factor, 1) for factor in Mul.make_args(value)]
+    return number, found
 
 
 def undecided(value: Any) -> Doubt:

@@ -77,7 +77,9 @@ class Fault:
     names: tuple[str, ...]
 
     def complaint(self, filling: str) -> Complaint:
-        named = " and ".join(f"`{name}`" for name in self.names[:2])
+        named = " and ".join(f"`{name}`" for name in dict.fromkeys(self.names[:2]))
+        if len(self.names) > 1 and self.names[0] == self.names[1]:
+            named = f"two parts called {named}"
         if self.why == "shared":
             message = f"{named} share {SHARED[filling]}"
             return Complaint("no-such-body", message, help="cut one out of the other, or place them side by side")
