@@ -27,7 +27,8 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
     for name in sets:
         if name not in known:
             help_line = did_you_mean(name, known)
-            raise Misused(Complaint("no-such-set", f"no set is called `{name}`, and none was built", help=help_line))
+            message = f"no set is called `{name}`, and `build` has no folder of this name"
+            raise Misused(Complaint("no-such-set", message, help=help_line))
     meant = [path for path in folders if not sets or path.name in sets]
     found = []
     for outputs in meant:

@@ -5,7 +5,7 @@ preamble and dumps a format, which is stored in the cache of the builds. The for
 reads it in half the time. In the source of a document, the lines of the preamble become comments, so that line numbers
 do not change. If the template has no such mark, or if TeX cannot dump a format, a document is typeset without a format.
 
-Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
+Source: *The TeXbook*, ch. 24 (the command that dumps a format), and the package mylatexformat.
 """
 
 from __future__ import annotations

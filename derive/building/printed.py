@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The result of `printed` contains only text and numbers, so that a worker can send it to its parent.
+The result of `printed` contains only plain data, so that a worker can send it to its parent.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ class _Printing:
 
     @cached_property
     def heading(self) -> ProblemSet | None:
-        """The set of the problem, if prose refers to other problems by their numbers."""
+        """The set of the problem, if the prose of the problem refers to other problems by their numbers; else None."""
         mentions = (mention for prose in self.problem.texts for mention in prose.mentions)
         refers = any(mention.of == PROBLEM for mention in mentions)
         return problem_set(self.problem.root, self.problem.set_id) if refers else None

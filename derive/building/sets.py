@@ -376,7 +376,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return the page for a browser that accompanies a PDF."""
+        """Return the text of a page for a browser, by file name; if it cannot be made, add the error to the report."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:

@@ -173,7 +173,7 @@ class Question(Record):
     rubric: dict[Word, Fraction] = key(
         "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )
-    method: Word | None = key("the method of this part, in place of that of the problem", METHOD)
+    method: Word | None = key("the method of this part, in place of the method of the problem", METHOD)
     cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
 
     def form_of(self, answer: str) -> AnswerForm:
@@ -236,7 +236,7 @@ def points_in_all(
         return total if counted else None
     complete = len(counted) == sum(not part.extra for part in parts)
     if total > stated or (complete and total < stated):
-        added = f"those of the parts {'' if complete else 'already '}add up to {points_text(total)}"
+        added = f"the points of the parts {'' if complete else 'already '}add up to {points_text(total)}"
         faults.error("points", f"`points` is {points_text(stated)}, but {added}", place)
     return stated
 

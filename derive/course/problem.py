@@ -93,7 +93,7 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, that limiting cases name, and that plots of one answer show."""
+        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
@@ -271,8 +271,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that a drawing with `plot` belongs to a script of the engine. Unless it is a phase portrait, it needs
-    `against` and `range`. A drawing without `plot` must not have `against`."""
+    """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
+    Unless it is a phase portrait, it needs `against` and `range`. Any other drawing must not have `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         if drawing.is_of_engine and isinstance(script, Script):
@@ -309,7 +309,7 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check that a phase portrait has one answer, values and two ranges, and neither `against` nor `range`."""
+    """Check that a phase portrait has one answer, `levels` and two ranges, but no `panels`, `against` or `range`."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if drawing.panels:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"

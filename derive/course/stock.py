@@ -1,4 +1,4 @@
-"""Scripts of the engine: `solve: system` names one, and `given:` then describes what it solves.
+"""Scripts of the engine: a key such as `solve: system` names a script, and `given:` describes the input of the script.
 
 Each script of the engine is a module of `derive/stock`. Its `STOCK` has the keys that are allowed under `given:`, the
 function that reads their values in the declared symbols, and the class that derives the answers. The module is loaded

@@ -165,11 +165,11 @@ class DrawingKeys(Record):
     )
     curves: tuple[Word, ...] = key(
         "for a script of the engine: answers with the same unit, such as `[weak, border, strong]`, whose curves are "
-        "drawn in one panel",
+        "drawn in one plot",
         list_of(TEXT, "a list of answers such as `[weak, strong]`", each="a curve"),
     )
     against: Word | None = key(
-        "the coordinate, the letter or `t`: on the horizontal axis of curves; along the path of two answers", TEXT
+        "the coordinate, letter or `t` that varies: along the horizontal axis of curves, or along a path", TEXT
     )
     labels: tuple[Word, ...] = key(
         "the names of the two axes of a path, such as `[x, y]`, in place of its formulas",
@@ -211,10 +211,11 @@ class LimitKeys(Record):
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
     to: Formula | None = key("the limit of the letter: `infinity` or a value; default 0", FORMULA)
     where: dict[Word, Formula] = key(
-        "letters in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
+        "letters and their values in a special case, such as `{b: a, c: a}`",
+        mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`"),
     )
     step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
-    stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
+    stated: Formula | None = key("the result in that case; a wrong result is an error", FORMULA, called="is")
     known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 

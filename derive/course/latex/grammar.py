@@ -64,7 +64,7 @@ class Formula(Brackets):
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
         """Return the sides, and the relation sign before each side. A side has its alternatives, its number of
-        branches, and its first and last token. The sign is "" if the first side has none before it."""
+        branches, and its first and last token. The first sign is "" if there is none before the first side."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -116,7 +116,7 @@ class Formula(Brackets):
     def sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
         if depth > DEEPEST_FORMULA:
             here = cursor.token or cursor.before
-            self.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} deep", here.start)
+            self.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} levels deep", here.start)
         first = cursor.token
         sign = self.sign(cursor)
         left = self.product(cursor, depth)
