@@ -111,8 +111,8 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """If the folder is too large, remove values: from the most recently used value on, each value that still fits
-        stays. A build calls this once, because listing the folder takes time."""
+        """Keep the most recently used values that fit within `limit`, and remove the others. A build calls this once,
+        because listing the folder takes time."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit

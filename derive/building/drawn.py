@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-# The widths for the drawing of a normal mode of at most FEW masses, the second if it is low: three fit in a row.
+# The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
 OF_MODES, FEW = (3.6, 4.7), 4
 
 

@@ -97,7 +97,7 @@ class _Printing:
 
     def rendered(self) -> Rendered:
         problem, solved, document, notation = self.problem, self.solved, self.document, self.notation
-        warnings, files, documents = self._warnings(), self.files, self._documents()  # author's errors come first
+        warnings, files, documents = self._warnings(), self.files, self._documents()  # these raise the author's errors
         latex, html = self._latex(), self._html()
         return Rendered(
             id=problem.id,
@@ -226,7 +226,7 @@ class _Printing:
     def _documents(self) -> dict[str, str]:
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
-        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a script may have its own rules
+        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a rule of a script has no task
         points = credits_of(self.document, self.rubric, tasks, values)
         kinds = self.wanted.documents
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)

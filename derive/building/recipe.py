@@ -22,7 +22,7 @@ Recipe = Mapping[str, str]
 
 
 def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of pages, without the documents to which they contribute."""
+    """Return the recipe of pages, without the entry for the documents to which the pages contribute."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
 

@@ -134,7 +134,7 @@ def derived(
     """Return the derivation of all answers, the steps that evaluate answers numerically (by key), the results of all
     steps (by key), and the record of the run.
 
-    faults   collects errors on which no step depends; by default they are raised
+    faults   collects errors that do not affect any step; by default they are raised
     """
     run = record.Run(memory=memory)
     try:

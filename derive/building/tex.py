@@ -1,7 +1,7 @@
-"""From a TeX source to a PDF: the TeX engines that exist, one run of an engine, and the meaning of its errors.
+"""From a TeX source to a PDF: the TeX engines that exist, the runs of an engine, and the meaning of its errors.
 
 The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
-another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A
+another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own folders. A
 source marks its pieces with comment lines `%% derive: hw9/block part b`; the message of a TeX error names the last such
 mark above the error.
 """
@@ -251,7 +251,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 def _environment(engine: Engine) -> dict[str, str]:
     """Return environment variables that set long messages, a fixed date, and access only to the working folder and the
-    engine's trees."""
+    engine's own folders."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",

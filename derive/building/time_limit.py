@@ -1,4 +1,4 @@
-"""The limit of a worker's processor time, in seconds, so that no problem fails because the machine is busy.
+"""The time limit of a worker, in seconds of processor time, so that no problem fails because the machine is busy.
 
 At the limit, `OutOfTime` is raised inside the work: the surrounding code records what the work was doing, and stores
 finished steps. Work that only waits uses no processor time, so it is stopped after the same number of wall-clock
@@ -26,8 +26,8 @@ _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; if the system ends the process, write the running lines to
-    `trace`."""
+    """Limit the time of the work in the `with` block; if the system ends the process, write the lines that are
+    running to `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:

@@ -1,9 +1,9 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
 The times and sizes of the files that authors write are compared many times a second. The comparison takes 1 % of the
-time of one processor, needs no package, and detects edits over a network. It uses no thread, because forking a process
-with threads is not safe. An edit stops the build under way, but finished work is stored. So if you save several files
-together, only the last build is completed.
+time of one processor, needs no package, and also detects edits on a network drive. It uses no thread, because forking a
+process with threads is not safe. An edit stops the build under way, but finished work is stored. So if you save several
+files together, only the last build is completed.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
 TIME, MEMORY, TOO_DEEP = "time-limit", "memory-limit", "too-deep"  # error codes of the limits
 _TICK = 0.1
-_NAMED = 5  # the most steps that a message names
+_NAMED = 5  # the largest number of steps that a message names
 
 
 class Bug(Exception):
@@ -243,7 +243,7 @@ def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: I
     the reference file if the worker used this file, else the problem's file."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
-        place, help_ = Place(reference, 1), f"check what it states about {job.name}"
+        place, help_ = Place(reference, 1), f"check what this file states about {job.name}"
     return BuildFailed(Complaint(code, message, place, tuple(notes), help_))
 
 
@@ -380,7 +380,8 @@ def confine(lifeline: int, trace: int, limit: int) -> None:
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    with contextlib.suppress(OSError, AttributeError):  # only on Linux; it works even while the thread below cannot run
+    # On Linux, the system kills the process when the parent ends, even while the thread below cannot run.
+    with contextlib.suppress(OSError, AttributeError):
         own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
         fcntl.fcntl(own, fcntl.F_SETOWN, -os.getpgrp())

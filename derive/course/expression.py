@@ -8,8 +8,9 @@
 A number may be followed by the unit of an angle, as in `sin(30 deg)`. A number with another unit is replaced by a
 letter if `letter_for` returns one; otherwise the number is rejected.
 
-The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
-before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
+The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
+before the value is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying
+out.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ class Given:
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """Return the symbol of a declared letter. The letter `t` of kind time is the time itself; any other letter of kind
-    time is a duration. A letter whose range begins below zero is not positive, whatever its kind."""
+    time is a duration. A letter whose range begins below zero is not assumed to be positive, whatever its kind."""
     if name == TIME.name and kind == "time":
         return TIME
     is_positive = about_kind(kind).positive if lies is None else not lies.least.is_extended_negative

@@ -57,7 +57,7 @@ class Methods:
 
 @dataclass(frozen=True)
 class Described:
-    """The description that a problem gives.
+    """The description of a system, body or rotation in a problem.
 
     letters   the symbols that the description introduces itself, such as coordinates and their rates
     chosen    the symbols that replace the numbers of the description; `measured` are these numbers

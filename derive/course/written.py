@@ -164,8 +164,8 @@ class DrawingKeys(Record):
         PLOTTED,
     )
     curves: tuple[Word, ...] = key(
-        "for a script of the engine: answers with the same unit, such as `[weak, border, strong]`, whose curves are "
-        "drawn in one plot",
+        "if `solve` is `system`, `body` or `rotation`: answers with the same unit, such as `[weak, border, strong]`, "
+        "whose curves are drawn in one plot",
         list_of(TEXT, "a list of answers such as `[weak, strong]`", each="a curve"),
     )
     against: Word | None = key(
@@ -229,7 +229,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
         return None  # the wrong shape has been reported
     ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
     if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
-        message = "a limit has `of` with `letter` or with `where`, or it has a `step` alone"
+        message = "a limit needs `of` with `letter`, or `of` with `where`, or only `step`"
         faults.error("missing-key", message, node.place, help="such as `{of: frequency, letter: M, to: infinity}`")
         return None
     if found.to is not None and ways != ["letter"]:

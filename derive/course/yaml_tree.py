@@ -100,7 +100,7 @@ class Word(str):
 
 @dataclass(frozen=True)
 class Scalar:
-    """Text, and how it was written; `style` is YAML's: `''` plain, `'`, `"`, `>` or `|`."""
+    """Text, and how it was written: `style` is empty for plain text, otherwise `'`, `"`, `>` or `|`."""
 
     text: str
     style: str

@@ -52,7 +52,7 @@ def _settle(root: Path) -> None:
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
     """Return the page of a problem, or its errors, as plain data; the limits are the same as in a build's worker.
 
-    Work that exceeds the time limit may stop anywhere, so the process ends after the answer to such a question.
+    Work that exceeds the time limit may stop anywhere, so the server then ends this process.
     """
     problem = question["problem"]
     work = partial(main_part, root, problem, question["detail"])

@@ -165,7 +165,7 @@ def test_an_engine_that_is_not_installed_is_named(programs: Path) -> None:
     with pytest.raises(BuildFailed) as caught:
         chosen_engine("tectonic")
     assert caught.value.complaints[0].message == "the TeX engine `tectonic` is not installed"
-    assert caught.value.complaints[0].help == "use `pdflatex`, which is"
+    assert caught.value.complaints[0].help == "use `pdflatex`, which is installed"
 
 
 def test_an_unknown_engine_is_misuse(programs: Path) -> None:

@@ -189,7 +189,7 @@ class Formula(Brackets):
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
-        """Reject two adjacent numbers, which may be one number, a mixed number or a slip. Reject `a2`, which may have
+        """Reject two adjacent numbers, which may be one number, a mixed number or an error. Reject `a2`, which may have
         lost its subscript mark."""
         if before is None:
             return

@@ -81,7 +81,7 @@ class GroupKeys(Record):
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
     symbols: dict[Word, SortOfLetter] = key(
-        "letters of the document and their kinds, including those that steps introduce", SYMBOLS
+        "letters of the document and their kinds, including letters that steps introduce", SYMBOLS
     )
     given: Mapping | None = key(
         "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
