@@ -120,7 +120,7 @@ def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
     """Return an error of the author with a note that names the revision of the files; return a bug unchanged."""
     if isinstance(error, Bug):
         return error
-    note = f"this is the state at `{revision}`, derived with the present derive"
+    note = f"the error is about the files at `{revision}`, read by the installed derive"
     return type(error)([replace(each, notes=(*each.notes, note)) for each in error.complaints])
 
 

@@ -242,7 +242,7 @@ class _Printing:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation; it caches the layout of every expression."""
+    """Return the notation for these dimensions. A notation caches the layout of every expression, so it is reused."""
     return Notation(dict(dimensions), flat=flat)
 
 

@@ -65,7 +65,7 @@ def rendered(
 
     cache   the steps and drawings of earlier builds, which are used and extended
 
-    The parameters after `cache`, and `detail`, are the fields of `Wanted`.
+    `detail` and the parameters after `cache` are the fields of `Wanted`.
     """
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id)

@@ -156,9 +156,7 @@ def typeset(
             raise _failure(tex, source, output or "", engine, kept)
         content = pdf.read_bytes()
         if not _is_whole(content, source.with_suffix(".log")):
-            raise _failure(
-                tex, source, f"`{engine.name}` reports success, but what it wrote is not a PDF", engine, kept
-            )
+            raise _failure(tex, source, f"`{engine.name}` reports success, but its output is not a PDF", engine, kept)
         changed = write(target, content)
         if numbers and noted.is_file():
             numbers.keep(noted.read_bytes())

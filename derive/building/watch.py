@@ -24,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
 
-EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons, of the author's files and of derive's modules
+EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons of the author's files, and of derive's modules
 WRITTEN, DEPTH = (".yaml", ".py", ".j2"), 4
 
 Seen = Mapping[str, tuple[int, int, int]]

@@ -145,8 +145,8 @@ class Arithmetic:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"the base of `{self.shown(exponent)}`, `{self.shown(base)}`, is not known to be positive"
-            self.refuse("expression", message, base.start, base.end)
+            message = f"the base `{self.shown(base)}` of the exponent `{self.shown(exponent)}`"
+            self.refuse("expression", f"{message} is not known to be positive", base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)
         return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)

@@ -89,7 +89,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
         is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
         product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
-        help_line = f"write `{product}` for the symbol" if product else None
+        help_line = f"write `{product}` if you mean the symbol" if product else None
         wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
     if wanted.kind == "angular speed" and "Hz" in unit.names:
         help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"

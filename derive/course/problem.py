@@ -272,7 +272,7 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
     """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
-    Unless it is a phase portrait, it needs `against` and `range`. Without these keys, it must not have `against`."""
+    Unless it is a phase portrait, it needs `against` and `range`. A drawing with neither must not have `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         if drawing.is_of_engine and isinstance(script, Script):
@@ -391,7 +391,8 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
         return "", StockScript(stock_script(name), name.place)
     shown_as = normpath((PurePosixPath(path).parent / name).as_posix()) if SCRIPT.fullmatch(name) else ""
     if not shown_as.startswith("problems/"):
-        what = f"a script such as `block.py` or `../hw9/block.py`, or one of the engine, {', '.join(stock_names())}"
+        of_engine = f"a script of the engine ({', '.join(stock_names())})"
+        what = f"a script such as `block.py` or `../hw9/block.py`, or {of_engine}"
         help_line = did_you_mean(name, stock_names())
         faults.error("wrong-type", f"`solve` must be {what}, but it is `{abridged(name)}`", name.place, help=help_line)
     elif not (file := root / shown_as).exists():

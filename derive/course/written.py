@@ -193,7 +193,8 @@ class DrawingKeys(Record):
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(
-        "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ",
+        "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
+        "from those of the first",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
