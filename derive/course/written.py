@@ -198,8 +198,8 @@ class DrawingKeys(Record):
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
-        "whether several curves or paths are `together` in one panel or `apart`; by default together if they have the "
-        "same range and comparable sizes",
+        "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "
+        "and the curves of `cases` are together if they have the same range and comparable sizes",
         one_of(PANELS),
     )
 
