@@ -55,8 +55,8 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return, by key, the answers and every step on which they depend. The name with each step is that of the first
-    answer that needs the step."""
+    """Return, by key, the answers and every step on which they depend, each with the name of the first answer that
+    needs the step."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():

@@ -162,7 +162,7 @@ class Arithmetic:
         else:
             root = replace(inner, terms=1)
         if name in ("exp", "sinh", "cosh") and inner.expr.is_number and abs(inner.expr.evalf()) > MAX_EXP_ARGUMENT:
-            message = f"the argument of `{name}` may be from -{MAX_EXP_ARGUMENT} to {MAX_EXP_ARGUMENT}"
+            message = f"the argument of `{name}` must be from -{MAX_EXP_ARGUMENT} to {MAX_EXP_ARGUMENT}"
             self.refuse("too-large", message, inner.start, inner.end)
         return self.real(replace(root, expr=function(inner.expr), start=start, end=end, kind=None))
 
