@@ -55,7 +55,8 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return every step on which the answers depend, each with the first answer that depends on the step."""
+    """Return, by key, the answers and every step on which they depend, each with the name of the first answer that
+    needs the step."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():

@@ -37,8 +37,8 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Return the digest of the file's content; empty if the file is missing or cannot be read. So creating a file is a
-    change."""
+    """Return the digest of the file's content, or an empty text if the file is missing or cannot be read. So creating a
+    file also changes the result."""
     try:
         return digest(signed.regular_content(path))
     except OSError:
@@ -111,8 +111,8 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Remove the least recently used values if the folder is too large. A build calls this once, because listing
-        the folder takes time."""
+        """Keep the most recently used values that fit within `limit`, and remove the others. A build calls this once,
+        because listing the folder takes time."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit

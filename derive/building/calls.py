@@ -1,4 +1,4 @@
-"""Recorded calls of verbs, stored for each problem: many small texts in one value.
+"""Recorded calls of verbs, the functions that derive steps. All calls of a problem are stored as one value.
 
 Only a build that derives the problem reads this value, and the build replaces the value if it made new calls. The
 value contains the calls of the last build, and as many earlier calls as there is room for. So the calls from before an
@@ -16,7 +16,7 @@ from derive.building.cache import NO_CACHE, Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
 BETWEEN = "\n\n"  # separates calls: their texts contain no empty line
-ROOM = 2 * 1024 * 1024  # the most characters of stored calls that the last build did not use
+ROOM = 2 * 1024 * 1024  # the largest total length, in characters, of stored calls that the last build did not use
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls stored by earlier builds, the most recently used first."""
+        """The calls stored by earlier builds; the calls that the last build used come first."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
@@ -59,7 +59,8 @@ class Calls:
 
 @contextmanager
 def calls_of(problem_id: str, cache: Cache) -> Iterator[Memory | None]:
-    """Provide the memory of a problem's calls; save it afterwards even if the script failed. None without a cache."""
+    """Provide the memory of a problem's calls, and save it afterwards even if the script failed. Without a cache,
+    provide None."""
     if cache.folder is None:
         yield None
         return

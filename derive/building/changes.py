@@ -124,7 +124,8 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
     """Pair each part with the most similar part of the earlier page: answers, question and letter are compared. The
-    letter counts least, because letters change if a part is added before them."""
+    letter counts least, because a new part changes the letters of all later parts. A new or removed part is paired with
+    `_NO_PART`."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )

@@ -17,7 +17,7 @@ from derive.errors import Complaint, Misused, did_you_mean
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
     """Remove folders and return each with its size in bytes; if a set is being built, wait for the end of its build.
 
-    sets      the sets whose folders are removed; if empty, every folder below `build`
+    sets      the sets whose folders are removed; if empty, every folder in `build`
     cache     whether only the data stored for later builds are removed, and the documents stay
     waiting   a function that is called with the name of a set before a wait for the end of its build
     """
@@ -27,7 +27,8 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
     for name in sets:
         if name not in known:
             help_line = did_you_mean(name, known)
-            raise Misused(Complaint("no-such-set", f"no set is called `{name}`, and none was built", help=help_line))
+            message = f"no set is called `{name}`, and `build` has no folder of this name"
+            raise Misused(Complaint("no-such-set", message, help=help_line))
     meant = [path for path in folders if not sets or path.name in sets]
     found = []
     for outputs in meant:

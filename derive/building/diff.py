@@ -50,7 +50,7 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
 
 
 def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Diff:
-    """Return the changes since a revision; the installed derive derives the problem of the revision too."""
+    """Return the changes since a revision; the installed derive derives both states of the problem."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
         if problem_id not in problem_paths(old_root):
@@ -82,8 +82,8 @@ def built_page(root: Path, problem_id: str) -> Page:
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """Return the job that derives a page of the course in the folder `of`; the derivation is stored with the builds of
-    `root`."""
+    """Return the job that derives a page of the course in the folder `of`; the steps are stored in the cache of the
+    set's builds below `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 
@@ -120,7 +120,7 @@ def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
     """Return an error of the author with a note that names the revision of the files; return a bug unchanged."""
     if isinstance(error, Bug):
         return error
-    note = f"this is the state at `{revision}`, derived with the present derive"
+    note = f"the error is about the files at `{revision}`, read by the installed derive"
     return type(error)([replace(each, notes=(*each.notes, note)) for each in error.complaints])
 
 

@@ -88,7 +88,7 @@ def _root(root: Path | None) -> list[Finding]:
         ]
     sets = set_names(root)
     found = f"{shown_path(root / 'problems')}, with {', '.join(sets) or 'no set'}"
-    return [Finding("problems", bool(sets), found, "a set is a folder with a set.yaml"), _outputs(root)]
+    return [Finding("problems", bool(sets), found, "a set is a folder with a file `set.yaml`"), _outputs(root)]
 
 
 def _outputs(root: Path) -> Finding:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-# The width of the drawing of a normal mode of at most FEW masses, and its width if it is low: three are in a row.
+# The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
 OF_MODES, FEW = (3.6, 4.7), 4
 
 
@@ -82,7 +82,7 @@ def _files(
     if not zero:
         try:
             on_paper, on_screen = _drawn(drawing, known, notation, words, width, alt, cache)
-        except Rejected as error:  # the error of a mark has no place in the file
+        except Rejected as error:  # the error of a mark does not name a place in the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
         pdf, svg = on_paper.pdf, on_screen.svg

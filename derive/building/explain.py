@@ -29,7 +29,7 @@ Rows = list[tuple[str, ...]]
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
     """Return the explanation of the step with that key; without a key, a table with a row for each step. With
-    `as_json`, return JSON in place of text or table."""
+    `as_json`, return JSON in place of the text or the table."""
     problem, words = load_problem(root, problem_id), phrases(template_folder(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}

@@ -24,14 +24,14 @@ def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
 
     path   the problem's file, relative to `root`; by default it is found from the id
 
-    If the title mentions nothing and the file has no error, only the title and the points are read. Otherwise the whole
-    file is read, and the modules for mathematics are loaded if they are needed.
+    If the title has no mention and no formula, and the file has no error, only the title and the points are read.
+    Otherwise the whole file is read, and the modules for mathematics are loaded if they are needed.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """Return the points and a title without mentions; None if the title mentions something or the file has an error."""
+    """Return the points and the title; None if the title has a mention or a formula, or if an error is found."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)

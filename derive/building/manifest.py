@@ -121,7 +121,7 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether the PDF of a document exists, but a file, phrase or module on which it depends has changed.
+        """Return whether the PDF of a document exists, but an input on which the document depends has changed.
 
         Options of the command line are not compared.
         """

@@ -67,11 +67,11 @@ class _Answer:
 def faults_of_numbers(
     problem: Problem, derivation: Derivation, values: Mapping[str, Step], drawings: Iterable[Recorded]
 ) -> list[Complaint]:
-    """Return errors and warnings.
+    """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. There are two kinds of warnings. First, an answer
-    has no number, although all its symbols have numbers, or one of them has a number that nothing else uses. Second,
-    the sheet does not state a number that an answer needs.
+    It is an error if a form asks for a number that does not exist. There are two kinds of warnings. The first concerns
+    an answer without a number: either all its symbols have numbers, or one of them has a number that no plot and no
+    answer with a number uses. The second concerns a number that an answer needs and that the sheet does not state.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem: a plot needs numbers too
@@ -79,7 +79,8 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    served = [answer.part for answer in answers if answer.has_number]  # their forms may be meant for these answers only
+    # The form of a part may be meant only for those of its answers that have a number.
+    served = [answer.part for answer in answers if answer.has_number]
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
     return [

@@ -5,7 +5,7 @@ preamble and dumps a format, which is stored in the cache of the builds. The for
 reads it in half the time. In the source of a document, the lines of the preamble become comments, so that line numbers
 do not change. If the template has no such mark, or if TeX cannot dump a format, a document is typeset without a format.
 
-Source: *The TeXbook*, ch. 27 (formats), and the package mylatexformat.
+Source: *The TeXbook*, ch. 24 (the command that dumps a format), and the package mylatexformat.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ Environment = Mapping[str, str]
 
 def beginning(templates: Path, detail: str | None) -> str:
     """Return the preamble of documents at that level of detail, before any document exists. The result is empty if the
-    template has no mark, or if the preamble needs data other than the level."""
+    template has no mark or cannot be read, or if the preamble needs data other than the level."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 

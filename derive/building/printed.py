@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The result of `printed` contains only text and numbers, so that a worker can send it to its parent.
+The result of `printed` contains only plain data, so that a worker can send it to its parent.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class _Printing:
 
     def rendered(self) -> Rendered:
         problem, solved, document, notation = self.problem, self.solved, self.document, self.notation
-        warnings, files, documents = self._warnings(), self.files, self._documents()  # author's errors come first
+        warnings, files, documents = self._warnings(), self.files, self._documents()  # these raise the author's errors
         latex, html = self._latex(), self._html()
         return Rendered(
             id=problem.id,
@@ -137,7 +137,7 @@ class _Printing:
 
     @cached_property
     def heading(self) -> ProblemSet | None:
-        """The set of the problem, if prose refers to other problems by their numbers."""
+        """The set of the problem, if the prose of the problem refers to other problems by their numbers; else None."""
         mentions = (mention for prose in self.problem.texts for mention in prose.mentions)
         refers = any(mention.of == PROBLEM for mention in mentions)
         return problem_set(self.problem.root, self.problem.set_id) if refers else None
@@ -226,7 +226,7 @@ class _Printing:
     def _documents(self) -> dict[str, str]:
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
-        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a script may have its own rules
+        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a rule of a script has no task
         points = credits_of(self.document, self.rubric, tasks, values)
         kinds = self.wanted.documents
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
@@ -242,7 +242,7 @@ class _Printing:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation; it caches the layout of every expression."""
+    """Return the notation for these dimensions. A notation caches the layout of every expression, so it is reused."""
     return Notation(dict(dimensions), flat=flat)
 
 

@@ -22,7 +22,7 @@ Recipe = Mapping[str, str]
 
 
 def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of pages, without the documents to which they contribute."""
+    """Return the recipe of pages, without the entry for the documents to which the pages contribute."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
 
@@ -38,8 +38,8 @@ def recipe_digest(recipe: Recipe) -> str:
 
 
 def edited_since(root: Path, time: int) -> bool:
-    """Return whether a module of derive, a template or a phrase was written since that time in nanoseconds, even if its
-    content is the same."""
+    """Return whether a module of derive, a template or a file of phrases was written since that time (in nanoseconds),
+    even if its content is the same."""
     below = [str(folder / "templates") for folder in _folders(root)]
     return any(_has_changed(top, time) for top in (FOLDER, *below) if os.path.isdir(top))
 

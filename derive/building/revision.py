@@ -45,8 +45,8 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """Return the object name and the path of each plain file; links are left out, because they can lead out of the
-    revision."""
+    """Return the object name and the path of each plain file; links are left out, because their targets can be
+    outside the revision."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
@@ -79,7 +79,7 @@ def _commit(root: Path, revision: str) -> str:
         )
     if _git(root, "rev-parse", "--git-dir").returncode:
         message = "`--rev` compares with a revision of git, but the course is not in a repository of git"
-        help_line = "leave `--rev` out to compare with the last build; `git init` begins a repository"
+        help_line = "leave `--rev` out to compare with the last build; `git init` creates a repository"
         raise Misused(Complaint("no-repository", message, help=help_line))
     named = not revision.startswith("-") and revision.isprintable()
     found = _git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") if named else None

@@ -49,11 +49,11 @@ class Options:
     engine: str | None = None
     detail: str | None = None
     force: bool = False
-    jobs: int = 0  # jobs at once; 0: as many as there are processors
+    jobs: int = 0  # the number of jobs at a time; 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
     documents: tuple[str, ...] = ()  # documents to make; empty: those of the set, see `derive.building.documents`
-    evidence: str | None = None  # how much solutions show of their checks; default: what the set says
+    evidence: str | None = None  # how much solutions show of their checks; default: as the set states
 
 
 class Superseded(Exception):
@@ -376,7 +376,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return the page for a browser that accompanies a PDF."""
+        """Return the text of a page for a browser, by file name; if it cannot be made, add the error to the report."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:

@@ -1,7 +1,7 @@
 """Data stored between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
 
 Stored content is only read as data, never executed. The key is in the user's state folder, outside every course: a
-person who can only write in the `build` folder of a course cannot sign. If no key can be stored, each process has a key
+person who can write only in the `build` folder of a course cannot sign. If no key can be stored, each process has a key
 of its own. In this case, no process trusts what another process stored, and everything is derived again.
 """
 
@@ -62,7 +62,7 @@ def _signature(what: str, content: bytes) -> bytes:
 
 
 def key_file() -> Path | None:
-    """Return the path of this machine's key; None if the user has no folder of their own."""
+    """Return the path of this machine's key; None if the user has no home folder."""
     state = os.environ.get("XDG_STATE_HOME", "")
     try:
         folder = Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"

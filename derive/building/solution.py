@@ -65,7 +65,7 @@ def rendered(
 
     cache   the steps and drawings of earlier builds, which are used and extended
 
-    The other parameters are fields of `Wanted`.
+    `detail` and the parameters after `cache` are the fields of `Wanted`.
     """
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id)
@@ -83,8 +83,8 @@ def rendered(
 def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, stored or derived now, and the disagreements with the reference.
 
-    Newly derived steps are stored for later builds, unless they disagree with the reference or a file was edited after
-    it was read.
+    Newly derived steps are stored for later builds, unless the problem has errors, a step disagrees with the reference,
+    or a file was edited after the time `begun`.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -134,7 +134,7 @@ def derived(
     """Return the derivation of all answers, the steps that evaluate answers numerically (by key), the results of all
     steps (by key), and the record of the run.
 
-    faults   collects errors on which no step depends; by default they are raised
+    faults   collects errors that do not affect any step; by default they are raised
     """
     run = record.Run(memory=memory)
     try:

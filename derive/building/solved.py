@@ -6,7 +6,7 @@ reference. It also depends on these entries of the problem:
     the given values, the description, the symbols and their numbers, the number of significant figures
     the answers, forms and cases that parts ask for, and the chosen observations
     the limiting cases, with their `why:` and its line in the file
-    the quantities, ranges and curves of plots
+    the quantities, ranges, levels, surfaces, curves and labels of plots
 
 It does not depend on any other prose, on the points of the parts or on templates.
 """
@@ -54,7 +54,7 @@ class Solved:
 
     @classmethod
     def from_data(cls, data: Any) -> Solved | None:
-        """Return the derivation that `to_data` encoded; None if the data have any other shape."""
+        """Return the object that `to_data` encoded; None if the data have any other shape."""
         try:
             values = from_json(data["values"])
             told = tuple(

@@ -21,7 +21,7 @@ from derive.course.names import DOCUMENTS, INDEX, NAME
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 SUFFIXES = {"html", "json", "pdf", "svg", "tex", "txt"}  # suffixes of files that builds write
-MOST = 8  # the most reasons shown for one output
+MOST = 8  # the largest number of reasons or documents that a message lists
 _SUCH_AS = "name a page such as `build/hw9/block.pdf`, a problem or a set"
 
 
@@ -151,7 +151,7 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Return whether the set no longer lists this problem; False if the set's file was edited, because the edited file
+    """Return whether the set does not list this problem; False if the set's file was edited, because the edited file
     is not read."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]

@@ -16,7 +16,8 @@ from derive.render.rendered import Files, Rendered
 
 
 def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
-    """Return the PDF of a document; if TeX fails, the log is stored next to the set's outputs."""
+    """Return the PDF of a document; if TeX fails, the source and the log are stored in the folder `log` of the set's
+    outputs."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", included=files)
@@ -25,8 +26,8 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return path -> PDF for the report of each set, which contains only the checked problems. If this is only one of
-    several problems of the set, the path contains its name."""
+    """Return the report of each set, as path -> PDF; a report contains only the checked problems. If only one of
+    several problems of a set was checked, the path contains the name of this problem."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

@@ -1,7 +1,7 @@
-"""From a TeX source to a PDF: the TeX engines that exist, one run of an engine, and the meaning of its errors.
+"""From a TeX source to a PDF: the TeX engines that exist, the runs of an engine, and the meaning of its errors.
 
 The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
-another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own trees. A
+another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own folders. A
 source marks its pieces with comment lines `%% derive: hw9/block part b`; the message of a TeX error names the last such
 mark above the error.
 """
@@ -111,7 +111,7 @@ def chosen_engine(name: str | None) -> Engine:
         message, fix = "no TeX engine was found", f"{INSTALL}, or install TeX Live"
     else:
         message = f"the TeX engine `{wanted}` is not installed"
-        fix = f"use `{found[0].name}`, which is" if found else f"install `{wanted}`, or {INSTALL}"
+        fix = f"use `{found[0].name}`, which is installed" if found else f"install `{wanted}`, or {INSTALL}"
     raise BuildFailed(Complaint("no-tex", message, help=fix))
 
 
@@ -156,9 +156,7 @@ def typeset(
             raise _failure(tex, source, output or "", engine, kept)
         content = pdf.read_bytes()
         if not _is_whole(content, source.with_suffix(".log")):
-            raise _failure(
-                tex, source, f"`{engine.name}` reports success, but what it wrote is not a PDF", engine, kept
-            )
+            raise _failure(tex, source, f"`{engine.name}` reports success, but its output is not a PDF", engine, kept)
         changed = write(target, content)
         if numbers and noted.is_file():
             numbers.keep(noted.read_bytes())
@@ -187,8 +185,8 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """Typeset with a format of the preamble, and restore the source. Return None, or if this fails a text: the engine's
-    output or "no format".
+    """Typeset with a format of the preamble, and restore the source. Return None; if typesetting fails, return the
+    engine's output or "no format".
 
     If page numbers are needed but unknown, first make a run that only finds the page numbers.
     """
@@ -209,7 +207,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine as often as its log requests, at most `most` times; if it fails, return what it printed."""
+    """Run the engine as often as its log requests, at most `most` times; if a run fails, return its output."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -250,8 +248,8 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Return environment variables: long messages, a fixed date, and access only to the folder and the engine's
-    trees."""
+    """Return environment variables that set long messages, a fixed date, and access only to the working folder and the
+    engine's own folders."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",

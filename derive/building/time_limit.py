@@ -1,4 +1,4 @@
-"""The limit of a worker's processor time, in seconds, so that no problem fails because the machine is busy.
+"""The time limit of a worker, in seconds of processor time, so that no problem fails because the machine is busy.
 
 At the limit, `OutOfTime` is raised inside the work: the surrounding code records what the work was doing, and stores
 finished steps. Work that only waits uses no processor time, so it is stopped after the same number of wall-clock
@@ -20,14 +20,14 @@ __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
 IDLE = 0.02  # share of processor time below which work counts as waiting
-PATIENCE = 10  # even on a busy machine, work is stopped after this many times (limit + 6 s) of wall-clock time
+PATIENCE = 10  # even on a busy machine, work is stopped after PATIENCE * (limit + 6 s) of wall-clock time
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; if the system ends the process, write the running lines to
-    `trace`."""
+    """Limit the time of the work in the `with` block; if the system ends the process, write the lines that are
+    running to `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:

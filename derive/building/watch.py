@@ -1,7 +1,7 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
 The times and sizes of the files that authors write are compared many times a second. The comparison takes 1 % of the
-time of one processor, needs no package, and detects edits over a network. It needs no thread either, because forking a
+time of one processor, needs no package, and also detects edits on a network drive. It uses no thread, because forking a
 process with threads is not safe. An edit stops the build under way, but finished work is stored. So if you save several
 files together, only the last build is completed.
 """
@@ -24,7 +24,7 @@ from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
 
-EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons, of the author's files and of derive's modules
+EVERY, ENGINE_EVERY = 0.04, 1.0  # seconds between two comparisons of the author's files, and of derive's modules
 WRITTEN, DEPTH = (".yaml", ".py", ".j2"), 4
 
 Seen = Mapping[str, tuple[int, int, int]]
@@ -61,8 +61,8 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """Builds the requested sets and waits for edits. It remembers a digest of the modules that were loaded, and the
-    states of the files at the last comparison."""
+    """Builds the requested sets and waits for edits. It stores a digest of the modules that were loaded, and the states
+    of the files at the beginning of the last build."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
@@ -103,8 +103,8 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Raise `Superseded` if a file has changed since the last comparison. The build may have read a file that was
-        only partly written, so its errors are discarded."""
+        """Raise `Superseded` if a file has changed since the build began. The build may have read a file that was only
+        partly written, so the errors of the build are discarded."""
         if self._edited():
             raise Superseded
 

@@ -3,7 +3,7 @@ any time.
 
 The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing the
 child also kills the TeX that it runs. The child ends itself if the parent is gone. The parent has no threads, so
-forking is safe. The worker of a preview has the same limits, and the same errors if it gives no answer.
+forking is safe. The worker of a preview has the same limits, and the same errors if it returns no answer.
 `derive.building.time_limit` enforces the time limit.
 """
 
@@ -42,7 +42,7 @@ GIB = 2**30
 MEMORY_LIMIT, SMALLEST_MEMORY = 4.0, 0.25  # GiB
 TIME, MEMORY, TOO_DEEP = "time-limit", "memory-limit", "too-deep"  # error codes of the limits
 _TICK = 0.1
-_NAMED = 5  # the most steps that a message names
+_NAMED = 5  # the largest number of steps that a message names
 
 
 class Bug(Exception):
@@ -101,7 +101,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # a pipe: a worker that is stopped or dies writes its running lines to it
+    trace: int  # a pipe; a worker that is stopped or dies writes the lines that it was running into this pipe
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -175,7 +175,7 @@ class Crew:
 
 
 def under_way(running: Mapping[str, float], set_id: str = "") -> str:
-    """Return `block 2 s, pages of top 1 s`: the longest-running job first; the name of the given set is omitted."""
+    """Return text such as `block 2 s, pages of top 1 s`, the longest-running job first, without the name of the set."""
     longest = sorted(running.items(), key=lambda each: -each[1])
     named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
     return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
@@ -243,7 +243,7 @@ def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: I
     the reference file if the worker used this file, else the problem's file."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
-        place, help_ = Place(reference, 1), f"check what it states about {job.name}"
+        place, help_ = Place(reference, 1), f"check what this file states about {job.name}"
     return BuildFailed(Complaint(code, message, place, tuple(notes), help_))
 
 
@@ -259,7 +259,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
     """Return the error of a worker at its time limit. The error shows the running line, the work under way if it is
     known, and the finished steps."""
     late = late or OutOfTime()
-    asked = f", at last for `{late.answers[-1]}`" if late.answers else ""
+    asked = f", most recently for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
     message = f"{job.name} waited for over {job.limit:g} s{asked}" if late.waited else took
     notes = [f"it was at {', in '.join(late.doing)}"] if late.doing else []
@@ -375,12 +375,13 @@ def _bug(error: BaseException) -> Bug:
 
 
 def confine(lifeline: int, trace: int, limit: int) -> None:
-    """Make this process a worker: it ends with its parent, has a memory limit, and writes its running lines on
-    request."""
+    """Make this process a worker: it ends with its parent, has a memory limit, and writes the lines that it was running
+    to `trace` if it crashes."""
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    with contextlib.suppress(OSError, AttributeError):  # Linux kills the process even during a long multiplication
+    # On Linux, the system kills the process when the parent ends, even while the thread below cannot run.
+    with contextlib.suppress(OSError, AttributeError):
         own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
         fcntl.fcntl(own, fcntl.F_SETOWN, -os.getpgrp())

@@ -129,7 +129,7 @@ class Arithmetic:
                 "dimension" if exponent.dimension != NUMBER else "expression", message, exponent.start, exponent.end
             )
         if abs(number) > MAX_EXPONENT or number.q > MAX_EXPONENT:
-            message = f"the exponent is too large: {MAX_EXPONENT} is the most"
+            message = f"the exponent is too large: {MAX_EXPONENT} is the largest exponent and the largest denominator"
             self.refuse("too-large", message, exponent.start, exponent.end)
         whole = max(1, -(-abs(number.p) // number.q))
         size, terms = base.size * whole, base.terms**whole
@@ -145,8 +145,8 @@ class Arithmetic:
             message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
-            message = f"the base of `{self.shown(exponent)}`, `{self.shown(base)}`, is not known to be positive"
-            self.refuse("expression", message, base.start, base.end)
+            message = f"the base `{self.shown(base)}` of the exponent `{self.shown(exponent)}`"
+            self.refuse("expression", f"{message} is not known to be positive", base.start, base.end)
         size = base.size + exponent.size
         self.bound(base.start, exponent.end, size, base.terms)
         return Term(base.expr**exponent.expr, NUMBER, base.start, exponent.end, size, base.terms)
@@ -162,7 +162,8 @@ class Arithmetic:
         else:
             root = replace(inner, terms=1)
         if name in ("exp", "sinh", "cosh") and inner.expr.is_number and abs(inner.expr.evalf()) > MAX_EXP_ARGUMENT:
-            self.refuse("too-large", f"`{name}` of more than {MAX_EXP_ARGUMENT} is too large", inner.start, inner.end)
+            message = f"the argument of `{name}` must be from -{MAX_EXP_ARGUMENT} to {MAX_EXP_ARGUMENT}"
+            self.refuse("too-large", message, inner.start, inner.end)
         return self.real(replace(root, expr=function(inner.expr), start=start, end=end, kind=None))
 
     def number(self, text: str, start: int, end: int) -> Term:

@@ -26,8 +26,8 @@ PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
     """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
-    `Misused` is raised if the name is not allowed, if a file of the problem exists, or if the pattern or the problem
-    `like` does not exist.
+    `Misused` is raised if the name is not allowed, if a file of the new problem exists already, or if the pattern or
+    the problem `like` does not exist.
 
     templates   the folder that contains the patterns, in `new/`
     schemas     the folder of the schemas for editors
@@ -69,8 +69,8 @@ def _pattern(templates: Path, like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return the text of a problem's file, and that of its script, "" without a script. References to other problems
-    of the set become plain words."""
+    """Return the text of a problem's file and the text of its script, which is "" without a script. References to other
+    problems of the set become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])

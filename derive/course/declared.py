@@ -1,4 +1,4 @@
-"""The letters that a file declares, each with its kind and, if it states one, its range."""
+"""The letters that a file declares, each with its kind and, if one is stated, its range."""
 
 from __future__ import annotations
 

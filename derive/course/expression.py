@@ -1,15 +1,16 @@
-"""Expressions in YAML: they are parsed by a grammar of our own to SymPy expressions with dimensions.
+"""Expressions in YAML, which a grammar of our own converts to SymPy expressions with dimensions.
 
     sum      product (("+" | "-") product)*
     product  unary (("*" | "/") unary)*
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, `sin(30 deg)`. A number with another unit is replaced by a letter if
-`letter_for` returns one; otherwise the number is rejected.
+A number may be followed by the unit of an angle, as in `sin(30 deg)`. A number with another unit is replaced by a
+letter if `letter_for` returns one; otherwise the number is rejected.
 
-The grammar reads every character; no text ever reaches Python or SymPy as code. Every value is bounded
-before it is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying out.
+The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
+before the value is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying
+out.
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ def names_in(scalar: Scalar) -> list[Word]:
 
 
 def letters_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression without the unit behind a number, `deg` in `30 deg`."""
+    """Return the names in an expression without the units after numbers, such as `deg` in `30 deg`."""
     tokens = [m for m in _TOKEN.finditer(scalar.text) if m.lastgroup != "space"]
     units = {
         unit.start()
@@ -149,7 +150,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether the first token is a number and the second its unit, as in `30 deg`, and not a letter."""
+        """Return whether the first token is a number and the second its unit, as in `30 deg`, not a declared letter."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 
@@ -216,7 +217,8 @@ class _Parser(Arithmetic):
     def unary(self, depth: int) -> Term:
         here = self.token
         if depth > DEEPEST_EXPRESSION:
-            self.refuse("too-large", f"this expression is nested more than {DEEPEST_EXPRESSION} deep", here.start)
+            message = f"this expression is nested more than {DEEPEST_EXPRESSION} levels deep"
+            self.refuse("too-large", message, here.start)
         if sign := self.taken("-", "+"):
             term = self.unary(depth + 1)
             return self.negated(term, here.start) if sign == "-" else replace(term, start=here.start)
@@ -256,7 +258,7 @@ class _Parser(Arithmetic):
         kind = kind_of_dimension(unit.dimension)
         letter = self.letter_for(piece, kind) if self.letter_for and kind else None
         if letter is None:
-            message = f"`{piece.text}` is a number with a unit within an expression"
+            message = f"a number with a unit, `{piece.text}`, is not allowed within an expression"
             self.refuse("expression", message, start, end, "declare a letter for it, and give its number in `values`")
         return Term(letter, unit.dimension, start, end, kind=kind)
 

@@ -84,7 +84,7 @@ class Given:
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
     """Return the symbol of a declared letter. The letter `t` of kind time is the time itself; any other letter of kind
-    time is a duration. A letter whose range begins below zero is not positive, whatever its kind."""
+    time is a duration. A letter whose range begins below zero is not assumed to be positive, whatever its kind."""
     if name == TIME.name and kind == "time":
         return TIME
     is_positive = about_kind(kind).positive if lies is None else not lies.least.is_extended_negative
@@ -105,7 +105,7 @@ def read_givens(
 ) -> tuple[tuple[Given, ...], dict[str, Declared]]:
     """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
 
-    notes     for each name, where `solve()` asks for it
+    notes     for each name, a note that says where `solve()` asks for its value
     used      the names of symbols that already have a number
     numbers   the SI numbers of these symbols; with these numbers, a value of a positive kind must be positive
     """
@@ -311,8 +311,8 @@ class NumbersAsLetters:
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the value that replaces a number with a unit: zero, an exact angle, or a letter with a sign.
 
-        The result is None if the text is an expression. The number is one of a group of `of` numbers, such as three
-        sides.
+        The result is None if the text is an expression. `of` is the size of the group to which the number belongs, such
+        as 3 for the sides of a box.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
@@ -382,8 +382,8 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
         # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube. If all numbers are small multiples of the smallest
-        # number, they share one letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
+        # Equal numbers share a letter, so that a cube stays a cube. If all numbers are integer multiples of the
+        # smallest number, they share one letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1
         if smallest:
             entry, size = smallest, smallest.si

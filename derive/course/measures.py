@@ -89,7 +89,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
         is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
         product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
-        help_line = f"write `{product}` for the symbol" if product else None
+        help_line = f"write `{product}` if you mean the symbol" if product else None
         wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
     if wanted.kind == "angular speed" and "Hz" in unit.names:
         help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"
@@ -98,7 +98,8 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
         is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
         wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)
     if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
-        wanted.refuse("too-large", f"`{text}` has over 30 digits, a power above 10**50, or denominator 0", scalar.place)
+        message = f"`{text}` has over 30 digits, a power of ten beyond 50, or denominator 0"
+        wanted.refuse("too-large", message, scalar.place)
     value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
     return Number(value, unit.text, value * unit.factor, scalar)
 

@@ -142,7 +142,7 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 @dataclass(frozen=True)
 class Question(Record):
-    """One part of a problem. `forms` has an entry for an answer's key, or one entry under `None` for all answers."""
+    """One part of a problem. `forms` maps the key of an answer to its form, or `None` to one form for all answers."""
 
     ask: Prose = key(
         "the question, in prose; `<<cases>>` stands for the numbers in the cases of the part's plot",
@@ -173,8 +173,10 @@ class Question(Record):
     rubric: dict[Word, Fraction] = key(
         "points for some steps, by key; the remaining points are shared among the other steps", mapping_of(POINTS)
     )
-    method: Word | None = key("the method of this part, in place of that of the problem", METHOD)
-    cases: Word | None = key("a plot of `drawings:`; the answers get numbers for each of its `cases:`", TEXT)
+    method: Word | None = key("the method of this part, in place of the method of the problem", METHOD)
+    cases: Word | None = key(
+        "the name of a plot in `drawings:`; the answers get numbers for each of its `cases:`", TEXT
+    )
 
     def form_of(self, answer: str) -> AnswerForm:
         return self.forms.get(answer) or self.forms.get(None) or AnswerForm({}, {})
@@ -236,7 +238,7 @@ def points_in_all(
         return total if counted else None
     complete = len(counted) == sum(not part.extra for part in parts)
     if total > stated or (complete and total < stated):
-        added = f"those of the parts {'' if complete else 'already '}add up to {points_text(total)}"
+        added = f"the points of the parts {'' if complete else 'already '}add up to {points_text(total)}"
         faults.error("points", f"`points` is {points_text(stated)}, but {added}", place)
     return stated
 

@@ -48,12 +48,12 @@ class Range:
 class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
-    plot      the answer of which the engine draws a curve, or the two answers or formulas of which it draws a path
-    curves    the answers of which the engine draws curves in one panel
+    plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
+    curves    several answers, whose curves the engine draws in one plot
     labels    the names of the axes of a path, in place of its formulas
     surfaces  the names of the surfaces that are drawn with a path
     panels    whether curves are together in one panel or apart; None if derive decides
-    levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes
+    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes
     letters   the letters that formulas of a plot may contain, by name
     """
 
@@ -79,7 +79,7 @@ class Placement:
 
     @property
     def is_of_engine(self) -> bool:
-        """Whether the engine draws a plot of answers."""
+        """Whether the drawing is a plot that the engine draws."""
         return bool(self.plot or self.curves)
 
     @property
@@ -128,7 +128,7 @@ def _at(node: Tree | None, parts: int, faults: Faults) -> str | None:
     if isinstance(node, Scalar) and help_line is None and _KEY.fullmatch(node.text):
         return node.text  # whether this step exists is known only after the script has run
     last = f"part a to {letters[-1]}" if parts > 1 else "part a"
-    wrong_type(faults, "`at`", f"statement, {last}, or hidden", node, help_line)
+    wrong_type(faults, "`at`", f"statement, {last}, the key of a step, or hidden", node, help_line)
     return None
 
 

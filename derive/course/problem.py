@@ -93,7 +93,7 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, that limiting cases name, and that plots of one answer show."""
+        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
@@ -181,8 +181,8 @@ def load_problem(root: Path, problem_id: str) -> Problem:
 
 
 def problem_and_faults(root: Path, problem_id: str) -> tuple[Problem, Faults]:
-    """Return the problem, and the errors in its `drawings:`, on which no step depends. If there are other errors, raise
-    them together with those of `drawings:`."""
+    """Return the problem, and the errors in its `drawings:`, which do not affect any step. If there are other errors,
+    raise them together with the errors in `drawings:`."""
     faults, of_drawings = Faults(), Faults()
     path = path_of(root, problem_id)
     written = written_problem(root, problem_id, faults)
@@ -253,7 +253,7 @@ def _by_method(pinned: Pinned, written: ProblemKeys, script: Script | StockScrip
             of_names = {**{str(name): part.method for name in part.answers}, **of_names}
     methods = Methods(written.method, of_names)
     if not methods.stated or pinned.described is None and isinstance(script, StockScript):
-        return pinned  # without a description, its errors have been reported
+        return pinned  # the description has errors, which have been reported
     if pinned.described is None or not pinned.described.has_methods:
         message = "a `method` leads to equations of motion, so it belongs to `solve: system`"
         faults.error("unused-key", message, methods.stated[0].place, help="leave it out")
@@ -271,8 +271,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that a drawing with `plot` belongs to a script of the engine. Unless it is a phase portrait, it needs
-    `against` and `range`. A drawing without `plot` must not have `against`."""
+    """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
+    Unless it is a phase portrait, it needs `against` and `range`. A drawing with neither must not have `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         if drawing.is_of_engine and isinstance(script, Script):
@@ -283,7 +283,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             )
             faults.error("unused-key", message, (*drawing.plot, *drawing.curves)[0].place, help=help_line)
         elif drawing.plot and drawing.curves:
-            message = f"the plot `{drawing.key}` has `plot` or `curves`, but not both"
+            message = f"the plot `{drawing.key}` cannot have both `plot` and `curves`"
             help_line = "write all answers under `curves`"
             faults.error("unused-key", message, drawing.curves[0].place, help=help_line)
         elif drawing.levels or drawing.over:
@@ -294,7 +294,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
                 "missing-key", message, drawing.place, help="such as `against: theta, range: [-90 deg, 90 deg]`"
             )
         elif drawing.against and not drawing.is_of_engine:
-            faults.error("unused-key", "`against` has no effect without `plot`", drawing.against.place)
+            faults.error("unused-key", "`against` has no effect without `plot` or `curves`", drawing.against.place)
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
@@ -309,7 +309,7 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check that a phase portrait has one answer, values and two ranges, and neither `against` nor `range`."""
+    """Check that a phase portrait has one answer, `levels` and two ranges, but no `panels`, `against` or `range`."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if drawing.panels:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
@@ -391,7 +391,8 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
         return "", StockScript(stock_script(name), name.place)
     shown_as = normpath((PurePosixPath(path).parent / name).as_posix()) if SCRIPT.fullmatch(name) else ""
     if not shown_as.startswith("problems/"):
-        what = f"a script such as `block.py` or `../hw9/block.py`, or one of the engine, {', '.join(stock_names())}"
+        of_engine = f"a script of the engine ({', '.join(stock_names())})"
+        what = f"a script such as `block.py` or `../hw9/block.py`, or {of_engine}"
         help_line = did_you_mean(name, stock_names())
         faults.error("wrong-type", f"`solve` must be {what}, but it is `{abridged(name)}`", name.place, help=help_line)
     elif not (file := root / shown_as).exists():
@@ -466,8 +467,8 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
-    """Whether all errors are unknown keys within an entry, such as a particle, that resemble no known key. Then no
-    value is missing, so errors in the known keys are not consequences of these errors."""
+    """Whether each error is an unknown key that resembles no known key and is inside an entry, such as a particle. Then
+    no value is missing, so errors in the known keys are not consequences of these errors."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top

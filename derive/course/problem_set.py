@@ -136,7 +136,7 @@ def found_path(root: Path, problem_id: str) -> str | None:
 
 
 def topic_of(path: str) -> str:
-    """Return the folder of a problem's file within its set; nothing for a file next to `set.yaml`."""
+    """Return the folder of a problem's file within its set; "" for a file next to `set.yaml`."""
     parts = path.split("/")
     return parts[2] if len(parts) > 3 else ""
 

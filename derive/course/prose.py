@@ -1,8 +1,9 @@
 r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
-`<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`, and
-`<<problem top>>` for the number of another problem of the set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in
-the letters of the problem when the page is made (`derive.page.formulas`). `\$` is a dollar sign.
+`<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`,
+`<<figure axes>>` for the number of the drawing `axes`, and `<<problem top>>` for the number of another problem of the
+set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in the letters of the problem when the page is made
+(`derive.page.formulas`). `\$` is a dollar sign.
 
 Prose has no template commands; it is escaped when it is printed.
 """
@@ -207,7 +208,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _blanked(match: re.Match[str]) -> str:
-    """Return blanks for a formula; letters for a mention, because its square is LaTeX too: `<<x>>^2`."""
+    """Return blanks for a formula or a dollar sign, and letters for a mention, because `<<x>>^2` contains LaTeX."""
     return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
 
 

@@ -1,5 +1,5 @@
-"""Conditions that the givens of a script must satisfy: a disc mounted on a rod must not lie beyond the end of the
-rod."""
+"""Conditions that the givens of a script must satisfy, for example that a disc mounted on a rod does not lie beyond the
+end of the rod."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def require(condition: Boolean | bool, given: str, must: str) -> None:
 
     If it is unknown whether the condition holds, the condition is assumed, and the page states this assumption.
 
-    condition   a comparison of givens, `disc_at <= rod_length`, or several that must all hold, joined by `&`
+    condition   a comparison of givens, such as `disc_at <= rod_length`, or several comparisons joined by `&`
     given       the name of the parameter of `solve()`, for the error
     must        the requirement, for the message: "must not lie beyond the end of the rod"
     """
@@ -32,6 +32,6 @@ def require(condition: Boolean | bool, given: str, must: str) -> None:
             rejected("not-as-required", f"`{given}` {must}", place)
         if known == true:
             continue
-        if not isinstance(each, Relational):  # `a < b or c < d` does not say which inequality is assumed
+        if not isinstance(each, Relational):  # `(a < b) | (c < d)` does not say which inequality holds
             rejected("wrong-argument", f"`require` takes comparisons that must all hold, but not `{each}`", place)
         record.assume(Relation(each.lhs, _MARKS[each.rel_op], each.rhs))

@@ -1,4 +1,4 @@
-"""Scripts of the engine: `solve: system` names one, and `given:` then describes what it solves.
+"""Scripts of the engine: a key such as `solve: system` names a script, and `given:` describes the input of the script.
 
 Each script of the engine is a module of `derive/stock`. Its `STOCK` has the keys that are allowed under `given:`, the
 function that reads their values in the declared symbols, and the class that derives the answers. The module is loaded
@@ -57,7 +57,7 @@ class Methods:
 
 @dataclass(frozen=True)
 class Described:
-    """The description that a problem gives.
+    """The description of a system, body or rotation in a problem.
 
     letters   the symbols that the description introduces itself, such as coordinates and their rates
     chosen    the symbols that replace the numbers of the description; `measured` are these numbers

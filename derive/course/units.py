@@ -1,4 +1,4 @@
-"""Units, exactly: the size of each in the SI, as a rational number and a power of pi.
+"""Units: the exact size of each unit in the SI, as the product of a rational number and a power of pi.
 
 `rpm` is pi/30 rad/s and not 0.10472, so a number substituted at the end is exact (docs/decisions/0003-units.md).
 An angle is a number, but each unit records its power of an angle, so that `cm/rev` is rejected as the unit of a length,

@@ -164,12 +164,12 @@ class DrawingKeys(Record):
         PLOTTED,
     )
     curves: tuple[Word, ...] = key(
-        "for a script of the engine: answers with the same unit, such as `[weak, border, strong]`, whose curves are "
-        "drawn in one panel",
+        "if `solve` is `system`, `body` or `rotation`: answers with the same unit, such as `[weak, border, strong]`, "
+        "whose curves are drawn in one plot",
         list_of(TEXT, "a list of answers such as `[weak, strong]`", each="a curve"),
     )
     against: Word | None = key(
-        "the coordinate, the letter or `t`: on the horizontal axis of curves; along the path of two answers", TEXT
+        "the coordinate, letter or `t` that varies: along the horizontal axis of curves, or along a path", TEXT
     )
     labels: tuple[Word, ...] = key(
         "the names of the two axes of a path, such as `[x, y]`, in place of its formulas",
@@ -193,12 +193,13 @@ class DrawingKeys(Record):
         called="range",
     )
     cases: tuple[dict[Word, Tree], ...] = key(
-        "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ",
+        "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
+        "from those of the first",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
-        "whether several curves or paths are `together` in one panel or `apart`; by default together if they have the "
-        "same range and comparable sizes",
+        "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "
+        "and the curves of `cases` are together if they have the same range and comparable sizes",
         one_of(PANELS),
     )
 
@@ -211,10 +212,11 @@ class LimitKeys(Record):
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
     to: Formula | None = key("the limit of the letter: `infinity` or a value; default 0", FORMULA)
     where: dict[Word, Formula] = key(
-        "letters in a special case, `{b: a, c: a}`", mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`")
+        "letters and their values in a special case, such as `{b: a, c: a}`",
+        mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`"),
     )
     step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
-    stated: Formula | None = key("the result in that case; a wrong one is an error", FORMULA, called="is")
+    stated: Formula | None = key("the result in that case; a wrong result is an error", FORMULA, called="is")
     known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
 
@@ -228,7 +230,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
         return None  # the wrong shape has been reported
     ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
     if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
-        message = "a limit has `of` with `letter` or with `where`, or it has a `step` alone"
+        message = "a limit needs `of` with `letter`, or `of` with `where`, or only `step`"
         faults.error("missing-key", message, node.place, help="such as `{of: frequency, letter: M, to: infinity}`")
         return None
     if found.to is not None and ways != ["letter"]:

@@ -100,7 +100,7 @@ class Word(str):
 
 @dataclass(frozen=True)
 class Scalar:
-    """Text, and how it was written; `style` is YAML's: `''` plain, `'`, `"`, `>` or `|`."""
+    """Text, and how it was written: `style` is empty for plain text, otherwise `'`, `"`, `>` or `|`."""
 
     text: str
     style: str
@@ -346,7 +346,7 @@ class _Reader:
     def node(self, event: Any, depth: int) -> Tree:
         start, end = event.start_mark.index, event.end_mark.index
         if depth > DEEPEST_YAML:
-            self.refuse("too-deep", f"this is nested more than {DEEPEST_YAML} deep", event, 1)
+            self.refuse("too-deep", f"this is nested more than {DEEPEST_YAML} levels deep", event, 1)
             self.faults.stop()
         self.refuse_cleverness(event)
         if isinstance(event, yaml.SequenceStartEvent):

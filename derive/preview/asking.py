@@ -1,6 +1,6 @@
 """The worker of a preview, as the server controls it: the server asks, waits, ends a slow worker and starts a new one.
 
-The worker has the limits of a build's workers. If it gives no answer, the errors are the same as in a build.
+The worker has the limits of a build's workers. If it returns no answer, the errors are the same as in a build.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class _Worker:
         return line + ended
 
     def read(self, line: bytes) -> dict[str, Any] | None:
-        """Return the answer in a line, if it is the answer to the last question."""
+        """Return the answer in a line; None if the line is not an answer to the last question."""
         try:
             said = json.loads(line)
         except ValueError:

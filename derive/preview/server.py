@@ -36,7 +36,7 @@ _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORE
 ALIVE = 15.0  # seconds after which a message is sent even without news, so that a closed browser is noticed
 PROMPT = 5.0  # seconds within which a browser must send the next request on an open connection
 TAKEN = 30.0  # seconds within which a browser must receive an answer
-MOST = 64  # the most connections at a time; each page open in a browser uses one connection
+MOST = 64  # the largest number of connections at a time; each page open in a browser uses one connection
 FULL = 0.1  # seconds to wait for free descriptors
 CACHED = "no-store"
 NONE = "'none'"
@@ -151,7 +151,7 @@ class Handler(BaseHTTPRequestHandler):
             self._page(name)
 
     def _is_local(self) -> bool:
-        """Return whether the request uses a local name of this machine; requests from pages of other sites do not."""
+        """Return whether the request uses a local name of this machine; pages of other sites use other names."""
         return bool(_LOCAL.fullmatch(self.headers.get("Host") or ""))
 
     def _page(self, name: str) -> None:

@@ -33,7 +33,7 @@ def main(arguments: Sequence[str]) -> None:
     os.dup2(2, 1)  # a script's output goes to standard error: it is for the user, not an answer
     told = os.fdopen(answers, "w", encoding="utf-8")
     for packages in (("sympy", "mpmath"), ("matplotlib",)):
-        engine_digest(*packages)  # compute the digests before the modules are loaded: a later edit must not enter them
+        engine_digest(*packages)  # compute the digests before the modules are loaded: a later edit must not change them
     preload(root, derives=True, draws=False)
     for question in os.fdopen(questions, encoding="utf-8"):
         asked = json.loads(question)
@@ -52,7 +52,7 @@ def _settle(root: Path) -> None:
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
     """Return the page of a problem, or its errors, as plain data; the limits are the same as in a build's worker.
 
-    Work that exceeds the time limit may stop anywhere, so the process ends after the answer to such a question.
+    Work that exceeds the time limit may stop anywhere, so the server then ends this process.
     """
     problem = question["problem"]
     work = partial(main_part, root, problem, question["detail"])

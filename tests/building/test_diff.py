@@ -109,7 +109,7 @@ def test_a_fault_of_then_is_told_as_one(tmp_path: Path) -> None:
     edited(root, "points: ten", "points: 10")
     error = refusal(root, "HEAD")
     assert isinstance(error, Rejected)
-    assert error.complaints[0].notes[-1] == "this is the state at `HEAD`, derived with the present derive"
+    assert error.complaints[0].notes[-1] == "the error is about the files at `HEAD`, read by the installed derive"
     edited(root, "points: 10", "points: ten")
     assert refusal(root, "HEAD").complaints[0].notes == ()
 

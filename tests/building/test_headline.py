@@ -67,7 +67,7 @@ def test_of_a_plain_file_no_more_is_read_than_its_title_and_its_points(
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("points: 10", "points: 11", "those of the parts add up to 10"),
+        ("points: 10", "points: 11", "the points of the parts add up to 10"),
         ("points: 10", "points: ten", "`points` must be"),
         ("solve: block.py\n", "", "a problem needs `solve`"),
         ("answer: inertia_tensor", "answers: inertia_tensor", "a part has no key `answers`"),

@@ -165,7 +165,7 @@ def test_an_engine_that_is_not_installed_is_named(programs: Path) -> None:
     with pytest.raises(BuildFailed) as caught:
         chosen_engine("tectonic")
     assert caught.value.complaints[0].message == "the TeX engine `tectonic` is not installed"
-    assert caught.value.complaints[0].help == "use `pdflatex`, which is"
+    assert caught.value.complaints[0].help == "use `pdflatex`, which is installed"
 
 
 def test_an_unknown_engine_is_misuse(programs: Path) -> None:
@@ -225,7 +225,7 @@ def test_what_is_no_pdf_does_not_replace_one(programs: Path, target: Path, made:
     target.write_bytes(b"earlier")
     script = f"#!/bin/sh\nprintf '{made.replace('%', '%%')}' > block.pdf\n"
     found = complaint("x", target, program(programs, "pdflatex", script))
-    assert found.message == "TeX failed: `pdflatex` reports success, but what it wrote is not a PDF"
+    assert found.message == "TeX failed: `pdflatex` reports success, but its output is not a PDF"
     assert target.read_bytes() == b"earlier"
 
 

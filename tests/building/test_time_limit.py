@@ -107,7 +107,7 @@ def test_the_part_the_step_and_what_is_finished_are_told(tmp_path: Path, monkeyp
         with pytest.raises(BuildFailed) as caught:
             done(job)
     (complaint,) = caught.value.complaints
-    assert complaint.message == "`trial/one` took over 1 s of processor time, at last for `equations_of_motion`"
+    assert complaint.message == "`trial/one` took over 1 s of processor time, most recently for `equations_of_motion`"
     at, finished = complaint.notes
     assert at == "it was at `equation_of_motion` of `lagrangian`, `theta`, in part (a)"
     assert finished.startswith("finished, and kept for the next attempt: `") and finished.endswith("`lagrangian`")

@@ -156,7 +156,7 @@ def test_numbers_without_a_unit_are_for_numbers_only() -> None:
 def test_a_space_does_not_make_a_declared_letter_a_unit() -> None:
     with pytest.raises(Rejected, match=r"write `2\*M`"):
         value("2 M", "Mass")
-    with pytest.raises(Rejected, match=r"write `2\*m` for the symbol"):
+    with pytest.raises(Rejected, match=r"write `2\*m` if you mean the symbol"):
         value("2 m", "Mass", {"m": "mass"})
 
 

@@ -69,7 +69,7 @@ def test_points_of_some_parts_may_be_less_than_the_total_and_not_more() -> None:
     assert points_in_all(None, None, some[1:], faults) is None
     faults.stop()
     points_in_all(Fraction(3), None, some, faults)
-    with pytest.raises(Rejected, match="those of the parts already add up to 4"):
+    with pytest.raises(Rejected, match="the points of the parts already add up to 4"):
         faults.stop()
 
 

@@ -40,7 +40,7 @@ def test_a_place_is_the_statement_a_part_a_step_or_nowhere(at: str, tmp_path: Pa
 @pytest.mark.parametrize(("at", "help_line"), [("d", None), ("A", None), ("statment", "did you mean `statement`?")])
 def test_what_is_no_place_is_told_with_those_that_are(at: str, help_line: str | None, tmp_path: Path) -> None:
     (fault,) = refused(tmp_path, f"at: {at}")
-    assert fault.message.startswith("`at` must be statement, part a to c, or hidden")
+    assert fault.message.startswith("`at` must be statement, part a to c, the key of a step, or hidden")
     assert fault.help == help_line
 
 

@@ -86,7 +86,7 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
         ([("    against: theta\n", "")], "needs `against`"),
         ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against` with a letter, and `range`"),
         ([("    against: theta\n", "    against: phi\n")], "does not depend on `phi`"),
-        ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot`"),
+        ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
         ([("    plot: effective_potential\n", "    plot: equilibria\n")], "is several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),
     ],
@@ -436,7 +436,7 @@ def test_the_curves_of_several_answers_share_a_plot(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edits", "line", "said"),
     [
-        ([("curves: [", "plot: path_x\n    curves: [")], 20, "the plot `path` has `plot` or `curves`, but not both"),
+        ([("curves: [", "plot: path_x\n    curves: [")], 20, "the plot `path` cannot have both `plot` and `curves`"),
         ([("[path_x, path_z]\n    ag", "[path_x, path_x]\n    ag")], 19, "`path_x` has two curves"),
         ([("[path_x, path_z]\n    ag", "[path_x, top]\n    ag")], 19, "`top` is several results"),
         ([("[path_x, path_z]\n    ag", "[path_x, path_y]\n    ag")], 19, "`path_y` is not the name of an answer"),

@@ -1,7 +1,7 @@
 """Parses the LaTeX formulas of a document to SymPy expressions with dimensions; errors have exact places.
 
     tokens      the tokens of the text and their places, from pylatexenc
-    vocabulary  the LaTeX commands that the reader knows
+    vocabulary  the LaTeX commands that the reader accepts
     letters     the declared name for a letter with subscript and dots
     grids       sums and products of scalars, vectors and matrices
     integrals   integral signs, differentials, antiderivatives between limits

@@ -138,7 +138,7 @@ class Functions(Grids):
     def unit_at(self, cursor: Cursor) -> str:
         r"""Return the unit at the cursor, `\mathrm{m/s^2}` or `\text{ kg}`, as plain text; "" without a unit.
 
-        Only prose has units. An upright word is a declared letter rather than a unit, except after a number.
+        Units are read only in prose. An upright word that is also a declared letter is a unit only after a number.
         """
         token = cursor.token
         if not self.in_prose or token is None or token.kind != "command" or token.text not in FONTS | WORDS:

@@ -48,7 +48,7 @@ class Cursor:
         self.tokens = self.tokens[: self.at] + tokens + self.tokens[self.at + 1 :]
 
     def argument_after(self, mark: Token, text: str) -> Argument | None:
-        """Return the tokens of the group that follows a `^` or `_`, or the one token if it has no braces."""
+        """Return the group that follows a `^` or `_`, or the next token if there are no braces; None at the end."""
         token = self.token
         if token is None:
             return None

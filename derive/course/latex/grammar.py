@@ -64,7 +64,7 @@ class Formula(Brackets):
 
     def chain(self, cursor: Cursor) -> tuple[list[tuple[list[TermOrGrid], int, Token, Token]], list[str]]:
         """Return the sides, and the relation sign before each side. A side has its alternatives, its number of
-        branches, and its first and last token. The sign is "" if the first side has none before it."""
+        branches, and its first and last token. The first sign is "" if there is none before the first side."""
         without_title(cursor)
         sides, marks = [], [self.relation(cursor) or ""]
         while True:
@@ -116,7 +116,7 @@ class Formula(Brackets):
     def sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
         if depth > DEEPEST_FORMULA:
             here = cursor.token or cursor.before
-            self.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} deep", here.start)
+            self.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} levels deep", here.start)
         first = cursor.token
         sign = self.sign(cursor)
         left = self.product(cursor, depth)
@@ -189,7 +189,7 @@ class Formula(Brackets):
         return self.quotient_of(above, below)
 
     def check_side_by_side(self, before: Token | None, token: Token, factor: TermOrGrid) -> None:
-        """Reject two adjacent numbers, which may be one number, a mixed number or a slip. Reject `a2`, which may have
+        """Reject two adjacent numbers, which may be one number, a mixed number or an error. Reject `a2`, which may have
         lost its subscript mark."""
         if before is None:
             return

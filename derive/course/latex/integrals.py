@@ -76,7 +76,8 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """Evaluate the integrals of a product, beginning with the innermost integral, whose sign is the last."""
+    """Return a product with its integrals, which are formed but not evaluated. The last of `signs` belongs to the
+    innermost integral."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:

@@ -1,8 +1,9 @@
 """Quotations of a document in its own letters: prose with formulas between dollar signs.
 
 A quotation is data and never reaches TeX unchanged. The formulas of a quotation are split into commands and signs.
-These must be on a list and correctly nested; then they are written again. Anything unknown is rejected at its place in
-the text. A quotation may contain commands that the grammar does not read, because a garbled formula must be quoted too.
+The formula is written again from these pieces if each is on a list of known ones and all are correctly nested. Anything
+unknown is rejected at its place in the text. A quotation may contain commands that the grammar does not read, because
+the quoted formula may be garbled.
 """
 
 from __future__ import annotations

@@ -127,7 +127,7 @@ def _check_depth(reader: Arithmetic) -> None:
     for found in re.finditer(r"\\begin|\\end|\\?[{}\[\]]", reader.text):
         depth += 1 if found[0][-1] in "{[n" else -1
         if depth > DEEPEST_FORMULA:
-            reader.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} deep", found.start())
+            reader.refuse("too-large", f"this formula is nested more than {DEEPEST_FORMULA} levels deep", found.start())
 
 
 def _in_our_words(said: str) -> tuple[str, str | None]:

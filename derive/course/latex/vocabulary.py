@@ -103,7 +103,7 @@ REFUSED: Mapping[str, tuple[str, str | None]] = {
     "dots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
 }
 
-# Commands that prose and quotations may contain, although no meaning is known for them here.
+# Commands that prose and quotations may contain, although the grammar does not read them.
 ONLY_PRINTED = frozenset(
     ["iint", "iiint", "oint", "sum", "prod", "cdots", "ldots", "min", "max", "lim", "propto", "equiv", "sim", "in"]
     + ["Rightarrow", "perp", "parallel", "angle", "nabla", "langle", "rangle", "bar", "tilde"]

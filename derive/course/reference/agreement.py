@@ -263,8 +263,8 @@ def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
 
 
 def _coefficients(expr: Expr) -> dict[Expr, Expr]:
-    """Map products of letters to their coefficients; a letter that is a factor of every term under a root is taken
-    out."""
+    """Map products of letters to their coefficients; a letter that is a factor of every term under a root is taken out
+    of the root."""
     found: dict[Expr, Expr] = {}
     opened = expr.replace(
         lambda e: isinstance(e, Pow) and not e.exp.is_Integer, lambda e: factor_terms(e.base) ** e.exp

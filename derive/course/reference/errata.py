@@ -19,9 +19,9 @@ class Erratum:
     """`printed` and `right` are the wrong and the right value of the step `answer`; decimals keep their stated figures.
 
     `quote` and `instead` are what the document prints and what is right, in the document's own letters: prose with
-    formulas between dollar signs. `quote` is empty if the entry has neither `quote:` nor `latex:`, for example if its
-    value is under `states:`. Then `instead` is empty too. `line` is the line of the document. If a formula is garbled
-    in print, `answer` is empty, and `printed` and `right` are None.
+    formulas between dollar signs. `quote` is empty if the entry has neither `quote:` nor `latex:`; `instead` is empty
+    if the value is under `states:`. `line` is the line of the document. If a formula is garbled in print, `answer` is
+    empty, and `printed` and `right` are None.
     """
 
     answer: str

@@ -47,7 +47,7 @@ class EntryKeys(Record):
     part: Word | None = key("the part of the document", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)
     answer: Word | None = key("the key of the step that has this value", TEXT)
-    states: Tree | None = key("the value: an expression, 3 of them, or 3 rows of 3", _ANY_VALUE)
+    states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(
         "the value as the document prints it, in LaTeX; every side of a chain `a = b` is compared",
         as_written(SCALAR.schema, "a formula in LaTeX"),
@@ -81,7 +81,7 @@ class GroupKeys(Record):
 
     problem: Word | None = key("the problem of this set that the document solves", TEXT, required=True)
     symbols: dict[Word, SortOfLetter] = key(
-        "letters of the document and their kinds, including those that steps introduce", SYMBOLS
+        "letters of the document and their kinds, including letters that steps introduce", SYMBOLS
     )
     given: Mapping | None = key(
         "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
@@ -110,7 +110,7 @@ class DocumentKeys(Record):
 
 @dataclass(frozen=True)
 class OwnKeys(Record):
-    """The keys of `reference:` in a problem's own file, whose letters and givens are those of the problem."""
+    """The keys of `reference:` in a problem's own file; the letters and givens of the problem hold for the entries."""
 
     source: Word | None = key("the book and its section, or the document", TEXT, required=True)
     symbols: dict[Word, SortOfLetter] = key("letters that steps introduce, and their kinds", SYMBOLS)

@@ -305,9 +305,10 @@ class _EntryReader:
         are not compared for an erratum or after numbers have been substituted."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         if plain is not None and printed is not None:
-            self.faults.error("two-values", "an entry has `states` or `latex`, not both", entry.places["latex"])
+            self.faults.error("two-values", "an entry cannot have both `states` and `latex`", entry.places["latex"])
         elif plain is None and printed is None and entry.remark is None:
-            if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:  # an error of a key is not reported twice
+            # An unknown key, or a `states` or `latex` that could not be read, already has an error of its own.
+            if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])
         elif printed is not None:

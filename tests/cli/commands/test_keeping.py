@@ -31,7 +31,7 @@ def test_clean_takes_away_what_builds_made(course: Course, capfd: pytest.Capture
 
 def test_clean_knows_no_set_of_another_name(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["clean", "hw"]) == 2
-    assert "error[no-such-set]: no set is called `hw`, and none was built" in capfd.readouterr().err
+    assert "error[no-such-set]: no set is called `hw`, and `build` has no folder of this name" in capfd.readouterr().err
 
 
 def test_doctor_names_the_engine_and_where_it_is(course: Course, capfd: pytest.CaptureFixture[str]) -> None:

@@ -64,7 +64,7 @@ def test_words_are_one_token_as_they_stand() -> None:
         ("  ", "a formula is missing"),
         ("a" * (LONGEST_FORMULA + 1), f"{LONGEST_FORMULA} are allowed"),
         ("+a" * (MAX_TOKENS // 2 + 1), f"more than {MAX_TOKENS} letters and signs"),
-        ("{" * (DEEPEST_FORMULA + 1) + "}" * (DEEPEST_FORMULA + 1), f"more than {DEEPEST_FORMULA} deep"),
+        ("{" * (DEEPEST_FORMULA + 1) + "}" * (DEEPEST_FORMULA + 1), f"more than {DEEPEST_FORMULA} levels deep"),
         (r"a \left", "a bracket is missing after `\\left`"),
         (r"\left a", "`a` is not allowed after `\\left`"),
         (r"\frac{a}", "needs two values in braces"),
