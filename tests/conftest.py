@@ -43,7 +43,8 @@ def pytest_collection() -> Generator[None, object, object]:
     return found
 
 
-FAMILY, EVERY = 4, 5  # of a test with at least FAMILY cases, one case of EVERY is tried
+# number of cases of a test -> one case of how many is tried; all cases of tests with fewer than 4
+SAMPLED = {4: 5, 50: 10}
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -67,7 +68,8 @@ def _sampled(items: list[pytest.Item]) -> list[pytest.Item]:
     kept = []
     for item in items:
         family = item.nodeid.partition("[")[0]
-        if sizes[family] < FAMILY or seen[family] % EVERY == 0:
+        every = max((each for cases, each in SAMPLED.items() if sizes[family] >= cases), default=1)
+        if seen[family] % every == 0:
             kept.append(item)
         seen[family] += 1
     return kept

@@ -77,6 +77,7 @@ def verdicts_on(run: str, modules: Sequence[str], chosen: Callable[[Mutant], boo
     return list(in_a_process_of_its_own(verdicts))
 
 
+@pytest.mark.long
 def test_no_mutant_prints_another_result_or_another_sentence(found: list[Tried]) -> None:
     survived = [t for t in found if t.verdict is Verdict.SURVIVED and t.nature != "form" and t.id not in KNOWN]
     assert [f"{tried.id}\n{tried.told}" for tried in survived] == []

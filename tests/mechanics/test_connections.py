@@ -490,6 +490,7 @@ def test_the_force_of_a_wire_has_either_sign_and_is_never_lost(tmp_path: Path) -
     assert "is the force of a rail, which may have either sign" in message
 
 
+@pytest.mark.long
 def test_a_particle_leaves_a_hill_where_its_normal_force_vanishes(tmp_path: Path) -> None:
     """From rest at the top of y = -x^3/c^2, N is proportional to c^4 - 3 x^4."""
     hill = "-x**3/c**2"

@@ -84,6 +84,7 @@ def test_a_page_solves_equation_by_equation(tmp_path: Path) -> None:
     assert "Equations (2) and (5) give" in text and "= 5μ N/(2M a) = 5μ g/(2a)" in text
 
 
+@pytest.mark.long
 def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain() -> None:
     """The torque about the centre of the rod contains both components of the force at the hinge."""
     text = " ".join(rendered(ROOT, "library/hinge_force", only={"text"}).texts["text"].split())

@@ -71,6 +71,7 @@ def test_a_particle_from_rest_hits_the_floor_beyond_the_sphere(tmp_path: Path) -
     assert evidence["lagrange"] == "route" and evidence["motion"] == "witness"
 
 
+@pytest.mark.long
 def test_a_particle_strikes_a_wall_that_touches_the_sphere(tmp_path: Path) -> None:
     """An examination problem: with the speed sqrt(2 g R/5) at the top it leaves with sqrt(4 g R/5), and strikes the
     vertical tangent 11 R/32 above the point of contact."""
@@ -85,6 +86,7 @@ def test_a_particle_strikes_a_wall_that_touches_the_sphere(tmp_path: Path) -> No
     assert steps["landing_y"].value == Rational(11, 32) * Symbol("R", positive=True)
 
 
+@pytest.mark.long
 def test_a_bob_hits_the_pivot(tmp_path: Path) -> None:
     """The string goes slack at cos(theta) = -1/sqrt(3), for v_0^2 = (2 + sqrt(3)) g l."""
     steps = solved(tmp_path, PENDULUM)
@@ -100,6 +102,7 @@ def test_the_string_is_taut_again_at_three_times_the_angle(tmp_path: Path) -> No
         assert there == pytest.approx((-sin(3 * angle), -cos(3 * angle)), abs=1e-12)
 
 
+@pytest.mark.long
 def test_without_a_symbol_the_bob_returns_to_its_lowest_point_for_seven_halves(tmp_path: Path) -> None:
     """A particle inside a smooth sphere passes through its lowest point again if v_0^2 = 7 g l/2."""
     text = edited(
@@ -119,6 +122,7 @@ def test_without_a_symbol_the_bob_returns_to_its_lowest_point_for_seven_halves(t
     assert there == pytest.approx([0, -1, sqrt(3.5)], abs=1e-12)
 
 
+@pytest.mark.long
 def test_a_pushed_particle_lands_where_its_numbers_say(tmp_path: Path) -> None:
     """Compared with the flight by hand, for v_0^2 = g R/2."""
     steps = solved(tmp_path, pushed())
@@ -131,6 +135,7 @@ def test_a_pushed_particle_lands_where_its_numbers_say(tmp_path: Path) -> None:
     assert numbers(steps["landing_x"].value, v_0=speed) == pytest.approx(sin(angle) + v * cos(angle) * time)
 
 
+@pytest.mark.long
 def test_a_flight_may_end_on_a_slope_or_never_reach_a_ceiling(tmp_path: Path) -> None:
     asked = ("[flight, landing_x, landing_speed]", "landing")
     slope = solved(tmp_path, edited(SPHERE, (FLOOR, "floor: {through: [3*R, 0], along: [1, 1]}"), asked))
@@ -215,6 +220,7 @@ def test_a_wrong_law_is_refused(law: str, text: str, tmp_path: Path, monkeypatch
     assert {each.code for each in refused.value.complaints} & {"unverified", "contradicts-motion"}
 
 
+@pytest.mark.long
 def test_a_particle_that_stays_near_the_sphere_is_not_said_to_be_clear(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -282,6 +288,7 @@ def test_a_flight_without_symbols_has_no_condition_to_pass_a_place(tmp_path: Pat
         assert found.code == "no-condition" and said in found.message
 
 
+@pytest.mark.long
 def test_a_plane_that_moves_or_is_on_the_wrong_side_is_refused(tmp_path: Path) -> None:
     (moving,) = complaints(tmp_path, edited(SPHERE, (FLOOR, "floor: {through: [0, -R - g*t**2], along: [1, 0]}")))
     assert "needs a plane at rest" in moving.message

@@ -73,6 +73,7 @@ def test_a_damped_oscillator_has_the_roots_minus_beta_plus_or_minus_i_omega() ->
     assert all(each.grade == "proved" for key in ("exponents", "general_motion") for each in steps[key].step.evidence)
 
 
+@pytest.mark.long
 def test_an_overdamped_oscillator_has_two_real_roots() -> None:
     beta = b / (2 * m)
     apart = sqrt(beta**2 - k / m)
@@ -132,6 +133,7 @@ def test_the_constants_have_letters_that_the_problem_does_not_use(letters: Any, 
         assert [told[role].left.name for role in ("first", "second")] == constants
 
 
+@pytest.mark.long
 def test_two_cases_of_one_equation_have_one_characteristic_equation() -> None:
     x = along()
     motion = equation(damped(x))

@@ -70,6 +70,7 @@ def test_a_relativistic_oscillator() -> None:
     assert len(hamilton_equations(H)) == 2
 
 
+@pytest.mark.long
 def test_a_relativistic_particle_in_a_plane_in_a_magnetic_field() -> None:
     """Goldstein, section 7.9, with the potential A = B(-y, x)/2: p = m v/sqrt(1 - v^2/c^2) + q A."""
     x, y = coordinate("x", "length"), coordinate("y", "length")

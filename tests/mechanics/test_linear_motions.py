@@ -85,6 +85,7 @@ def test_a_damped_pendulum_to_first_order_below_and_above() -> None:
     assert above.step.outcome == "displaced_damped"
 
 
+@pytest.mark.long
 def test_the_damped_pendulum_swings_creeps_or_does_neither() -> None:
     """Taylor, section 5.4, beta = c/(2m): the frequency sqrt(g/l - beta^2); on the border (1 + beta t) e^(-beta t)."""
     motion, theta = damped()

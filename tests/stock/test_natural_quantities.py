@@ -88,6 +88,7 @@ def test_with_none_the_letters_of_the_problem_remain(tmp_path: Path) -> None:
     assert last_line(tmp_path, text, "frequency") == "G**2*M**2*m**3/l**3"
 
 
+@pytest.mark.long
 def test_a_motion_is_written_in_defined_quantities(tmp_path: Path) -> None:
     text = defined("{beta: b/(2*m), omega_0: sqrt(k/m), omega_1: sqrt(omega_0**2 - beta**2)}")
     found = solved(tmp_path, text)

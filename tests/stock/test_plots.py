@@ -462,6 +462,7 @@ def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
     assert found.message == "`double` is in m s and `path_x` in m, so they share no axis"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("cases", "said"),
     [
@@ -514,12 +515,24 @@ def test_panels_has_no_effect_on_a_single_curve_or_a_portrait(tmp_path: Path) ->
     assert any("`panels` has no effect on the phase portrait" in each for each in messages(tmp_path, several))
 
 
-SLIDE = (ROOT / "problems" / "library" / "constraints" / "off_a_sphere.yaml").read_text(encoding="utf-8")
+NEAR_A_SPHERE = edited(
+    THROW,
+    ("symbols: {", "symbols: {R: length, "),
+    ("z: length}\n", "z: length, u: angle, w: length}\n"),
+    ("at: stone}}\n", "at: stone}, above: {mass: m, at: [R*sin(u), R*cos(u)]}, below: {mass: m, at: [w, -R]}}\n"),
+    (
+        "  gravity: g\n",
+        "  gravity: g\n  surfaces: {sphere: {centre: [0, 0], radius: R}, floor: {through: [0, -R], along: [1, 0]}}\n"
+        "  contacts: [{of: above, on: sphere}, {of: below, on: floor}]\n",
+    ),
+    ("    caption: The path.", "    surfaces: [sphere, floor]\n    caption: The path."),
+    ("{v_0: 10 m/s", "{R: 1 m, v_0: 10 m/s"),
+)
 
 
 def surfaces_of(tmp_path: Path, *edits: tuple[str, str]) -> tuple[Outline, ...]:
     run = Run()
-    run_solve(loaded(tmp_path, edited(SLIDE, *edits)), run)
+    run_solve(loaded(tmp_path, edited(NEAR_A_SPHERE, *edits)), run)
     return next(each.outlines for each in run.drawings if isinstance(each, Plot) and each.key == "path")
 
 
@@ -529,7 +542,7 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
     assert simplify(sphere.expr - (sqrt(x**2 + y**2) - R)) == 0
     assert sphere.corners == (-R, -R, R, R)
     assert (simplify(floor.expr - y - R), floor.corners) == (0, ())
-    page = " ".join(rendered(course_with(tmp_path, SLIDE), "trial/one", only=("html",)).html.split())
+    page = " ".join(rendered(course_with(tmp_path, NEAR_A_SPHERE), "trial/one", only=("html",)).html.split())
     assert "The plot also shows the surfaces sphere and floor." in page
 
 
@@ -538,12 +551,12 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
     [
         ([("surfaces: [sphere, floor]", "surfaces: [sphere, flor]")], "no surface is called `flor`"),
         ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
-        ([("plot: [flight_x, flight_y]", "plot: [flight_x, flight_y/R]")], "the path is not in the plane of `sphere`"),
-        ([("plot: [flight_x, flight_y]", "plot: flight_y")], "`surfaces` has no effect on `path`, which is not a path"),
+        ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "the path is not in the plane of `sphere`"),
+        ([("plot: [path_x, path_z]", "plot: path_z")], "`surfaces` has no effect on `path`, which is not a path"),
     ],
 )
 def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
     tmp_path: Path, edits: list[tuple[str, str]], said: str
 ) -> None:
-    found = messages(tmp_path, edited(SLIDE, *edits))
+    found = messages(tmp_path, edited(NEAR_A_SPHERE, *edits))
     assert any(said in each for each in found), found

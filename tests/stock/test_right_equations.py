@@ -113,6 +113,7 @@ gravity: g
     assert abs(slope("phi", "F") / slope("x", "F")) == pytest.approx(0.3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("taken_out", ["", ", for: g", ", for: s", ", for: C"])
 def test_a_heavy_top_nods_about_its_steady_precession(tmp_path: Path, taken_out: str) -> None:
     """Omega^2 + (M g l)^2/(A Omega)^2 - 2 M g l cos(alpha)/A, where M g l + A Omega^2 cos(alpha) = C w Omega."""

@@ -56,7 +56,10 @@ def run(notebook: str, folder: Path) -> list[list[Any]]:
     return shown
 
 
-@pytest.mark.parametrize("name", ["block-numbers", "slab", "top"])
+LONG = [pytest.param(name, marks=pytest.mark.long) for name in ("block-numbers", "top")]
+
+
+@pytest.mark.parametrize("name", ["slab", *LONG])
 def test_its_cells_derive_the_answers_of_the_page(tmp_path: Path, name: str) -> None:
     problem, (edits, detail) = name.partition("-")[0], PAGES[name]
     course = course_in(tmp_path, edits, problem=problem)
@@ -74,6 +77,7 @@ def test_its_cells_derive_the_answers_of_the_page(tmp_path: Path, name: str) -> 
     assert all(drawing.startswith("<svg") for drawing in drawings)
 
 
+@pytest.mark.long
 def test_a_changed_problem_changes_what_its_cells_show(tmp_path: Path) -> None:
     notebook = rendered_once(course_in(tmp_path / "one"), "hw9/block", only={"notebook"}).texts["notebook"]
     shown = run(notebook, course_in(tmp_path / "two", {"[a, 2*a, 3*a]": "[a, a, 2*a]"}))

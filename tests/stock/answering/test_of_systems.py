@@ -211,6 +211,7 @@ parts:
 """
 
 
+@pytest.mark.long
 def test_where_several_conditions_are_needed_the_page_has_all_of_them(tmp_path: Path) -> None:
     """Routh's is one of two: Goldstein, section 3.12."""
     page = rendered(course_with(tmp_path, TRIANGLE), "trial/one", only={"text"}).texts["text"]
@@ -245,6 +246,7 @@ parts:
 """
 
 
+@pytest.mark.long
 def test_rest_on_a_turning_beam_needs_what_keeps_it_and_stability_what_holds_it_across(tmp_path: Path) -> None:
     """Goldstein, problem 2.21: at r = k r_0/(k - m omega^2), where omega^2 < k/m; stable where omega^2 < K/m too."""
     found = solved(tmp_path, BEAM)
