@@ -9,8 +9,6 @@ from derive.course.script import run
 from derive.course.stock import StockScript
 from derive.course.yaml_tree import abridged
 from derive.errors import DeriveError
-from derive.page.template import template_folder
-from derive.page.wording import Phrases, phrases
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 from derive.render.printing.said import named_result
@@ -30,7 +28,7 @@ def answers_of(root: Path, problem_id: str) -> Rows:
     The first names are the answers that the description offers, with the results of the problem, or the answers that
     the script returns. Then come the steps on which these answers depend.
     """
-    problem, words = load_problem(root, problem_id), phrases(template_folder(root))
+    problem = load_problem(root, problem_id)
     record = Run()
     with solving(problem, record):
         offered = _offered(problem)
@@ -40,7 +38,7 @@ def answers_of(root: Path, problem_id: str) -> Rows:
     notation = Notation(dimensions)
     rows = [(name, _meaning(name, problem), _values(each, notation)) for name, each in offered.items()]
     rows += [
-        (key, _on_the_way(quantity.step, leading, words), _value(quantity.step, notation))
+        (key, _on_the_way(quantity.step, leading), _value(quantity.step, notation))
         for key, (quantity, leading) in steps.items()
         if key not in offered
     ]
@@ -76,7 +74,7 @@ def _meaning(name: str, problem: Problem) -> str:
     return f"{meaning_of(name.removeprefix(f'{own}_'))}, of the {own}" if own else meaning_of(name)
 
 
-def _on_the_way(step: Step, leading: str, words: Phrases) -> str:
+def _on_the_way(step: Step, leading: str) -> str:
     called = step.rule.rpartition(".")[2].replace("_", " ")
     return f"a step of `{leading}`: {called}"
 

@@ -97,7 +97,7 @@ def _make_key(file: Path) -> None:
     """Write a new key, completely or not at all; if another process has already written one, that key stays."""
     with suppress(OSError):  # no key can be stored, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file):  # replace a key that is damaged or readable by others
+        if os.path.lexists(file) and _read_key(file) is None:  # replace a key that is damaged or readable by others
             file.unlink()
         with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # only for its owner
             temporary.write(secrets.token_bytes(KEY_BYTES))

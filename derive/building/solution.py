@@ -179,13 +179,13 @@ def _compared_before(step: Step, others: Iterable[Step]) -> bool:
 
 
 def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> None:
+    short = [name for name in known if "_" not in name]
     faults = [
         Complaint(
             "no-such-answer",
             f"`solve()` returns nothing called `{key}`",
             keys[key].place,
-            help=did_you_mean(key, known)
-            or "the steps are " + ", ".join(f"`{name}`" for name in known if "_" not in name),
+            help=did_you_mean(key, known) or "the steps are " + ", ".join(f"`{name}`" for name in short or known),
         )
         for keys in asked
         for key in keys

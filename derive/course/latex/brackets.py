@@ -83,7 +83,10 @@ class Brackets(Functions):
                 rows[-1][-1].append(inner)
         if rows[-1] == [[]]:
             rows.pop()
-        if not rows or len({len(row) for row in rows}) > 1 or len(rows) > MAX_SIDE or len(rows[0]) > MAX_SIDE:
+        if max(len(rows), *map(len, rows), 0) > MAX_SIDE:
+            said = f"a matrix has at most {MAX_SIDE} rows and {MAX_SIDE} columns"
+            self.refuse("shape", said, token.start, token.end)
+        if not rows or len({len(row) for row in rows}) > 1:
             told = ", ".join(str(len(row)) for row in rows) or "no"
             self.refuse("shape", f"rows of {told} entries do not make a matrix", token.start, token.end)
         entries = tuple(tuple(self.entry(cell, token, depth) for cell in row) for row in rows)

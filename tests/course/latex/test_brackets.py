@@ -37,6 +37,7 @@ def test_what_stands_in_brackets_is_one_value(text: str, meant: object) -> None:
         (r"(\{a,b,h\},b,h)", "a component must be a scalar, but this is a column of 3"),
         (r"\left.a\right|", "limits are missing after this bar"),
         (r"\begin{pmatrix} a & b \\ h \end{pmatrix}", "rows of 2, 1 entries do not make a matrix"),
+        (r"\begin{pmatrix} a & a & a & a & a & a & a \end{pmatrix}", "a matrix has at most 6 rows and 6 columns"),
         (r"\begin{pmatrix} a & \\ b & h \end{pmatrix}", "an entry of this matrix is empty"),
         (r"\left[z+a\right]_0", "the limit after `^` is missing"),
     ],
