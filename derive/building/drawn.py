@@ -119,6 +119,8 @@ def _drawn(
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
+    if width and what.body_size is not None:  # the author's width decides about the size of the body
+        what = replace(what, body_size=None)
     if what.mode is not None and not width and len(what.mode.moves) <= FEW:
         sizes = OF_MODES
     for wide in sizes:

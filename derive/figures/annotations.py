@@ -32,7 +32,7 @@ from derive.figures.space import (
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
-FORCE = 48.0  # length of the greatest force in force diagrams, in points
+FORCE = 58.0  # length of the greatest force in force diagrams, in points
 APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations

@@ -134,15 +134,19 @@ class FixedEnd(Surface):
 
 @dataclass(frozen=True)
 class SurfacePiece(Surface):
-    """A piece of the surface that touches a particle, with its slope.
+    """A piece of the surface that touches a particle or a body, with its slope.
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
+    below          the distance of a surface with hatches below `at`, in points: the radius of the disc of a particle
+    half           half the length of the piece, in points
     """
 
     at: Position
     normal: Position
     is_two_sided: bool = False
+    below: float = BOB
+    half: float = UNDER
     layer: ClassVar[int] = -1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -151,8 +155,8 @@ class SurfacePiece(Surface):
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = paper.spot(paper.numbers.vector(self.at))
         n = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.normal)))
-        below = 0.0 if self.is_two_sided else BOB
-        start, end = ((x - below * n[0] - s * n[1] * UNDER, y - below * n[1] + s * n[0] * UNDER) for s in (1, -1))
+        below, half = 0.0 if self.is_two_sided else self.below, self.half
+        start, end = ((x - below * n[0] - s * n[1] * half, y - below * n[1] + s * n[0] * half) for s in (1, -1))
         return [Stroke((start, end), "edge")] if self.is_two_sided else hatched(start, end, (-n[0], -n[1]))
 
     def in_words(self) -> InWords:

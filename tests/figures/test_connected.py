@@ -341,7 +341,7 @@ def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(t
     weight, friction, normal = of_class(drawings(tmp_path, text)["forces_ball"], Arrow)
     assert str(normal.label) == "N" and normal.keys == () and friction.keys == ("F",)
     assert normal.size / weight.size == pytest.approx(cos(0.63), abs=0.02)
-    assert friction.size / weight.size == pytest.approx(max(2 / 7 * sin(0.63), 0.2), abs=0.02)
+    assert friction.size / weight.size == pytest.approx(max(2 / 7 * sin(0.63), 0.25), abs=0.02)
     taken = edited(
         text,
         ("radius: a,", "radius: N,"),
