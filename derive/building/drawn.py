@@ -66,6 +66,8 @@ def _files(
     """Return the stored PDF and SVG, or draw them now. Both are stored as one value, separated by a zero byte."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
+    if isinstance(drawing, Drawing) and placement is not None and placement.view is not None:
+        drawing = replace(drawing, seen_from=placement.view)
     alt = inline_text(shown.alt, notation)
     data = json.dumps(drawings_to_data([drawing]))
     known: Any
