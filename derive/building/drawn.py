@@ -66,6 +66,8 @@ def _files(
     """Return the stored PDF and SVG, or draw them now. Both are stored as one value, separated by a zero byte."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
+    if isinstance(drawing, Drawing) and placement is not None and placement.view is not None:
+        drawing = replace(drawing, seen_from=placement.view)
     alt = inline_text(shown.alt, notation)
     data = json.dumps(drawings_to_data([drawing]))
     known: Any
@@ -119,6 +121,8 @@ def _drawn(
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
+    if width and what.body_size is not None:  # the author's width decides about the size of the body
+        what = replace(what, body_size=None)
     if what.mode is not None and not width and len(what.mode.moves) <= FEW:
         sizes = OF_MODES
     for wide in sizes:

@@ -48,6 +48,7 @@ class Range:
 class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
+    view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
     plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
     curves    several answers, whose curves the engine draws in one plot
     labels    the names of the axes of a path, in place of its formulas
@@ -63,6 +64,8 @@ class Placement:
     at_place: Place | None = field(default=None, repr=False)
     caption: Prose | None = None
     width: float | None = None
+    view: tuple[float, float] | None = None
+    view_place: Place | None = field(default=None, repr=False)
     values: tuple[tuple[Symbol, Expr], ...] = ()
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
@@ -101,6 +104,8 @@ def placements(
             at_place=written.at.place if written.at else None,
             caption=written.caption,
             width=_width(written.width, faults),
+            view=written.view,
+            view_place=written.places.get("view"),
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
             range=Range(written.ends) if written.ends else None,

@@ -141,8 +141,57 @@ def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | Non
 _PATH = "such as `potential_energy`, or `[path_x, path_z]` for a path"
 _PAIR = {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}
 PANELS = (TOGETHER, APART)
+# Directions from which a drawing in space is seen, in degrees: azimuth, from x towards y, and elevation above the xy
+# plane.
+VIEWS = {"front": (0.0, 0.0), "side": (-90.0, 0.0), "top": (-90.0, 90.0)}
+STEEPEST, ROUND = 90.0, 360.0  # the greatest elevation and azimuth
 ENDS = list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2)
 PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
+
+
+def _degrees(most: float) -> Reader[float]:
+    """Return the reader of an angle in degrees, with or without the unit, from `-most` to `most`."""
+
+    def read(node: Tree, name: str, faults: Faults) -> float | None:
+        number = _DEGREES.fullmatch(node.text.strip()) if isinstance(node, Scalar) else None
+        if number is not None and abs(float(number[1])) <= most:
+            return float(number[1])
+        wrong_type(faults, f"`{name}`", f"an angle from -{most:g} to {most:g} degrees, such as `30`", node)
+        return None
+
+    return Reader({"type": ["string", "number"], "pattern": _DEGREES.pattern}, read)
+
+
+_DEGREES = re.compile(r"^(-?\d+(?:\.\d+)?)( deg)?$", re.ASCII)
+
+
+@dataclass(frozen=True)
+class ViewKeys(Record):
+    """The direction from which a drawing in space is seen."""
+
+    azimuth: float | None = key("the angle about z, from x towards y, in degrees", _degrees(ROUND), required=True)
+    elevation: float | None = key("the angle above the xy plane, in degrees", _degrees(STEEPEST), required=True)
+
+
+_VIEW_IS = "{} or a mapping such as `{{azimuth: 30, elevation: 20}}`".format(", ".join(VIEWS))
+_VIEW = record_of(ViewKeys, "a view", _VIEW_IS)
+
+
+def _view(node: Tree, name: str, faults: Faults) -> tuple[float, float] | None:
+    if isinstance(node, Mapping):
+        read = _VIEW.read(node, name, faults)
+        if read is None or read.azimuth is None or read.elevation is None:
+            return None
+        return read.azimuth, read.elevation
+    if isinstance(node, Scalar) and node.text in VIEWS:
+        return VIEWS[node.text]
+    wrong_type(
+        faults, f"`{name}`", _VIEW_IS, node, did_you_mean(node.text, VIEWS) if isinstance(node, Scalar) else None
+    )
+    return None
+
+
+VIEW: Reader[tuple[float, float]] = Reader({"anyOf": [{"enum": list(VIEWS)}, _VIEW.schema]}, _view)
 
 
 @dataclass(frozen=True)
@@ -155,6 +204,11 @@ class DrawingKeys(Record):
     )
     caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
     width: Tree | None = key("width without labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
+    view: tuple[float, float] | None = key(
+        "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
+        "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",
+        VIEW,
+    )
     values: dict[Word, Tree] = key(
         "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )

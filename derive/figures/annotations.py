@@ -32,11 +32,12 @@ from derive.figures.space import (
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
-FORCE = 48.0  # length of the greatest force in force diagrams, in points
+FORCE = 58.0  # length of the greatest force in force diagrams, in points
 APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 ROUND = 10.0  # least radius of a rotation arrow, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and of a body above the ground, in points
 
@@ -91,7 +92,22 @@ class Axis(_Between):
         if self.past is not None:
             end = plus(end, unit(paper.numbers.vector(self.past)), PAST * paper.reach)
         spots = paper.spots(start, end)
+        if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
+            return self._along_sight(spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
         return [Stroke(spots, "axis", head=True), Tag(self.label, spots[1], direction(*spots))]
+
+    def _along_sight(self, spot: Spot, comes: bool) -> list[Piece]:
+        """Return a circle, with a dot for an axis towards the viewer and with a cross for an axis away from the
+        viewer."""
+        (x, y), far = spot, EYE * 0.7
+        cross = [Stroke(((x - far, y - s * far), (x + far, y + s * far)), "thin") for s in (-1, 1)]
+        signs: list[Piece] = [Bullet(spot, 1.1)] if comes else [*cross]
+        return [
+            Bullet(spot, EYE),
+            Bullet(spot, EYE - 0.6, "blank"),
+            *signs,
+            Tag(self.label, spot, (-0.7, 0.7), EYE + 2.0),
+        ]
 
 
 @dataclass(frozen=True)
@@ -170,13 +186,14 @@ class LengthMark(_Between):
         start, end = (paper.numbers.vector(each) for each in self.ends)
         if size_of(plus(end, start, -1.0)) < 1e-9 * paper.reach:
             return []
-        away = self._away(paper)
+        spots = paper.spots(start, end)
+        away = _square_to(direction(*spots), self._away(paper))
         clear = paper.numbers.of(self.clear) * paper.scale
 
         def set_off(spot: Spot, far: float) -> Spot:
             return spot[0] + away[0] * (clear + far), spot[1] + away[1] * (clear + far)
 
-        spots, off = paper.spots(start, end), ASIDE + self.beyond
+        off = ASIDE + self.beyond
         extensions = [Stroke((set_off(spot, 0.2 * ASIDE), set_off(spot, off + 0.25 * ASIDE)), "thin") for spot in spots]
         line = (set_off(spots[0], off), set_off(spots[1], off))
         (x, y), (u, v) = line
@@ -191,6 +208,15 @@ class LengthMark(_Between):
 
     def in_words(self) -> InWords | None:
         return self._if_named("length")
+
+
+def _square_to(line: Spot, away: Spot) -> Spot:
+    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; `away` itself if it is along
+    the line."""
+    share = away[0] * line[0] + away[1] * line[1]
+    x, y = away[0] - share * line[0], away[1] - share * line[1]
+    size = hypot(x, y)
+    return (x / size, y / size) if size > 0.05 else away
 
 
 # --- vectors and angles ----------------------------------------------------------------------------------------------

@@ -44,7 +44,7 @@ from derive.figures.surfaces import Circle as CircleMark
 from derive.figures.surfaces import TableMark
 from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
 from derive.figures.tops import euler_angles
-from derive.figures.turning import angle_marks, displacement_marks, downwards, line_between
+from derive.figures.turning import angle_marks, downwards, line_between, moving_end
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection
@@ -283,7 +283,7 @@ class Connections:
         for line in self.lines:
             yield from self._line(line, labels)
         for pin in self.pins:
-            yield self._pin(pin)
+            yield from self._pin(pin)
         for wire in self.wires:
             yield from self._wire(wire)
         for motor in connections_of(self.system, Motor):
@@ -634,8 +634,10 @@ class Connections:
             yield PointMark(column_of(place))
             return
         below = self.rows == 3 or line.is_rod or self.number((other - place).components[1]) < 0
-        yield FixedEnd(column_of(place), downwards(self.rows) if below else column_of(other - place), line.is_rod)
-        yield from displacement_marks(self.system, place)
+        if moving := list(moving_end(self.system, place, line.is_rod)):
+            yield from moving
+        else:
+            yield FixedEnd(column_of(place), downwards(self.rows) if below else column_of(other - place), line.is_rod)
 
     def _turns(self) -> bool:
         """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.
@@ -643,10 +645,11 @@ class Connections:
         angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return self.rows == 3 and any(angle.has(TIME) for angle in angles)
 
-    def _pin(self, pin: Pin) -> Mark:
-        if is_fixed(self.system, pin.at):
-            return FixedEnd(column_of(pin.at), downwards(self.rows), True)
-        return FixedEnd(column_of(pin.at), column_of(pin.at) * 0, True)
+    def _pin(self, pin: Pin) -> Iterable[Mark]:
+        if moving := list(moving_end(self.system, pin.at, True)):
+            return moving
+        still = is_fixed(self.system, pin.at)
+        return [FixedEnd(column_of(pin.at), downwards(self.rows) if still else column_of(pin.at) * 0, True)]
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
         """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""

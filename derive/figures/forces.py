@@ -17,7 +17,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, ForceArrow, PointMark
+from derive.figures.annotations import FORCE, ForceArrow, PointMark
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed
 from derive.figures.marks import Drawing, Mark
@@ -26,6 +26,7 @@ from derive.figures.placed_bodies import own_angle, placed_outline, with_its_sha
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.space import Vector, cross, dot, numeric, plus, size_of, unit
+from derive.figures.surfaces import ThinRod
 from derive.figures.surroundings import AngleBetween, SurfacePiece
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards
@@ -44,12 +45,18 @@ from derive.steps.trial_numbers import assumptions_about, trial_points
 
 __all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state"]
 
-LONG = Rational(4, 5)  # about the drawn length of the greatest force, relative to the size of the body
+LONG = Rational(4, 5)  # about the drawn length of the greatest force on a rod, relative to the size of the rod
+# The drawn size of a body that is not a rod, in a plane and in space, in points. The radius of a disc in a plane is 0.7
+# times this size.
+BODY, BODY_IN_SPACE = 32.0, 20.0
+LEAST = Rational(1, 4)  # the drawn length of a small force, relative to the greatest force
 VISIBLE, LONGER = Rational(1, 2), 2  # the desired length of the least force, and the limit of its enlargement
 OFF = Rational(
     1, 30
 )  # if a force acts along a rod: the distance of its arrow from the rod, relative to the rod's length
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
+ALONG = 3.5  # the distance of a force along a surface from this surface, on the side of the body, in points
+FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians, about as in other drawings
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
@@ -137,13 +144,20 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
     shares   the lengths of the arrows, in units of FORCE points; in space, relative to the body
     """
     of, drawn, reach = alone.of, alone.forces, _reach(alone.of, alone.forces, scene)
-    lengths = [float(LONG * share * reach) for share in shares]
+    outline = list(_outline(of))
+    is_rod = any(isinstance(mark, BarMark | ThinRod) for mark in outline)
+    size = (BODY if scene.in_a_plane else BODY_IN_SPACE) if isinstance(of, PlacedBody) and not is_rod else None
+    longest = LONG if size is None else Rational(FORCE / size)
+    lengths = [float(longest * share * reach) for share in shares]
     apart = _set_apart([each.line(length, scene) for each, length in zip(drawn, lengths, strict=True)])
-    arrows = [each.arrow(share, off, scene) for each, share, off in zip(drawn, shares, apart, strict=True)]
+    touched = _touched(scene, of) if size is not None or not isinstance(of, PlacedBody) else []
+    if size is not None:
+        apart = [off or _off_surface(each, touched, scene) for each, off in zip(drawn, apart, strict=True)]
+    arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
     angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
-    marks, mass = [*_outline(of), *_surfaces(scene, of), *arrows, *angles], explicit(_mass(of))
-    return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass)
+    marks, mass = [*outline, *_surfaces(touched, of), *arrows, *angles], explicit(_mass(of))
+    return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass, body_size=size)
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
@@ -177,10 +191,8 @@ class _Drawn:
         assert self.value is not None
         return replace(self, way=-self.way, value=-self.value, label=-self.label)
 
-    def arrow(self, size: Expr, aside: float, scene: Connections) -> Arrow:
-        """Return the arrow. In a plane its length is in points, the same for all bodies."""
-        sort = ForceArrow if scene.in_a_plane else Arrow
-        return sort(column_of(self.at), self.way, size, False, aside=aside, label=self.label, keys=self.keys)
+    def arrow(self, size: Expr, aside: float) -> ForceArrow:
+        return ForceArrow(column_of(self.at), self.way, size, False, aside=aside, label=self.label, keys=self.keys)
 
     def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
         """Return the start and the end of the arrow."""
@@ -234,8 +246,9 @@ def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | No
 
 
 def _share(size: float) -> Rational:
-    """Return the length of an arrow relative to the longest arrow: at least 1/5, so that small forces stay visible."""
-    return Rational(max(round(60 * size), 12), 60)
+    """Return the length of an arrow relative to the longest arrow: at least `LEAST`, so that small forces stay
+    visible."""
+    return max(Rational(round(60 * size), 60), LEAST)
 
 
 def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
@@ -350,12 +363,32 @@ def _outline(of: Any) -> Iterator[Mark]:
         yield ParticleMark(column_of(of.at), label=of.mass)
 
 
-def _surfaces(scene: Connections, of: Any) -> Iterator[Mark]:
-    """Yield a piece of each surface that touches a particle, so that the direction of the normal force is visible."""
-    if scene.in_a_plane and not isinstance(of, PlacedBody):
-        for touch in (each for each in scene.contacts if each.of == of):
-            normal = column_of(touch.normal)
+def _touched(scene: Connections, of: Any) -> list[Contact]:
+    """Return the contacts of a body with surfaces, in a plane."""
+    return [each for each in scene.contacts if each.of == of] if scene.in_a_plane else []
+
+
+def _surfaces(touched: Sequence[Contact], of: Any) -> Iterator[Mark]:
+    """Yield a piece of each surface that a body touches, so that the direction of the normal force is visible. The
+    surface is below the disc of a particle, but at the point of contact of a body."""
+    for touch in touched:
+        plain = touch.surface.is_two_sided or isinstance(touch.surface.moves, Location)  # a rail or a belt
+        normal = column_of(touch.normal)
+        if isinstance(of, PlacedBody):
+            yield SurfacePiece(column_of(touch.at), normal, plain, 0.0, FOOT)
+        else:
             yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided)
+
+
+def _off_surface(drawn: _Drawn, touched: Sequence[Contact], scene: Connections) -> float:
+    """Return the shift of an arrow to its left, in points. An arrow along a surface is shifted to the side of the body,
+    so that it does not cover the line of the surface."""
+    x, y, _ = _vector(scene, *drawn.way)
+    for touch in touched:
+        normal, gap = (_vector(scene, *place.components) for place in (touch.normal, drawn.at - touch.at))
+        if size_of(gap) < SLIGHT and abs(dot((x, y, 0.0), normal)) < SLIGHT:
+            return ALONG if dot((-y, x, 0.0), normal) > 0 else -ALONG
+    return 0.0
 
 
 def _weight(system: System, of: Any) -> Iterator[_Drawn]:

@@ -156,6 +156,8 @@ class Drawing:
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     mode          the normal mode that the drawing shows; None in any other drawing
+    seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
+    body_size     the size of the body in a force diagram, in points; None if the drawing fits its width
     """
 
     key: str
@@ -167,6 +169,8 @@ class Drawing:
     leads_to: tuple[str, ...] = ()
     forces_on: Any = None
     mode: ShownMode | None = None
+    body_size: float | None = None
+    seen_from: tuple[float, float] | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:

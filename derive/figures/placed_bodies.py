@@ -23,7 +23,7 @@ from derive.figures.space import Spot, Vector, hull, numeric
 from derive.figures.surfaces import Cavity, Circle, Hole, Revolved, ThinRod
 from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd
 from derive.figures.tops import follows_nodes, seen_upright, sizes_of_top, stance_values, turns_about_axes
-from derive.figures.turning import angle_marks, downwards
+from derive.figures.turning import angle_marks, downwards, moving_end
 from derive.mechanics.bodies.boundary import Boundary, Extruded, Faces, Hollowed, Rim, Round, Segment
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.bodies.regions import Point
@@ -86,6 +86,8 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
         yield from (
             (PointMark(column_of(placed.at)),) if in_space and _rolls(system, placed) else _holder(system, placed)
         )
+    elif square != 0:
+        yield from moving_end(system, placed.at, True)
     pivoted = pivot_of(system, placed) if square == 0 and not in_space else None
     if square != 0 and not moving_in(system, square):
         angles = angle_marks(system, _line_of_centre(placed, sqrt(square), outline))

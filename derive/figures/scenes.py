@@ -50,6 +50,7 @@ def drawing(
     leads_to: Sequence[str] = (),
     forces_on: Any = None,
     mode: ShownMode | None = None,
+    body_size: float | None = None,
 ) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
@@ -64,6 +65,7 @@ def drawing(
                results it shows
     forces_on  the mass of the body whose forces the drawing shows; the caption names this mass
     mode       the normal mode that the drawing shows; the caption names its frequency
+    body_size  the size of the body in a force diagram, in points; by default the drawing fits its width
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -74,7 +76,7 @@ def drawing(
     named = run.coordinates if run is not None else {}
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
-    placed = tuple(left_out), tuple(leads_to), forces_on, mode
+    placed = tuple(left_out), tuple(leads_to), forces_on, mode, body_size
     found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), *placed)
     noted(found)
     return found

@@ -27,7 +27,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.surroundings import DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
-from derive.figures.turning import downwards, link_marks
+from derive.figures.turning import downwards, link_marks, moving_end
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
@@ -503,6 +503,10 @@ class _Scene:
         """Return False for a fixed end: for a point that does not move and is not the position of a particle."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
+    def _is_free(self, end: Location) -> bool:
+        """Whether no mass is at the end of a spring."""
+        return not any(same(end, at) for _, at in self.system.masses)
+
     def _covered(self, end: Location) -> float:
         """Return the length of the end of a spring that a block covers, in points."""
         there = [particle for particle in self.system.particles if same(particle.at, end)]
@@ -518,6 +522,7 @@ class _Scene:
             yield SpringMark(a, b, (self._covered(each.start), self._covered(each.end)), label=constant)
         for end, way in ((each.start, b - a), (each.end, a - b)):
             if self._moves(end):
+                yield from moving_end(self.system, end, False) if elastic and self._is_free(end) else ()
                 continue
             if elastic:
                 turns = any(same(link.start, end) for link in self.links.values())

@@ -10,13 +10,15 @@ from typing import Any, ClassVar
 from derive.figures.annotations import ASIDE, measured
 from derive.figures.marks import LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
-from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
+from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
 
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 UNDER = 20.0  # half the length of the piece of a surface under a particle
+SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
+MOVES, BESIDE_RAIL = 14.0, 12.0  # half the length of the double arrow of a moving support, and its distance
 ARC = (11.0, 27.0)  # least and greatest radius of an arc, unless its angle is small
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
@@ -133,16 +135,68 @@ class FixedEnd(Surface):
 
 
 @dataclass(frozen=True)
+class MovingEnd(Surface):
+    """A support with a prescribed motion, with an arrow beside it: a pivot on a slider, which is on a rail; or a plate
+    at the end of a spring or a string.
+
+    along   the direction of the motion, or one of its two directions
+    side    the side of the arrow
+    joint   whether the point is a pivot
+    is_to_and_fro   whether the support may move in both directions, so that the arrow is a double arrow
+    """
+
+    at: Position
+    along: Position
+    side: Position
+    joint: bool = False
+    is_to_and_fro: bool = True
+    layer: ClassVar[int] = 4
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        u, v = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.along)))
+        p, q = _across(spot, (x + u, y + v), paper.spot(paper.numbers.vector(self.side)))
+
+        def moved(along: float, aside: float) -> Spot:
+            return x + along * u + aside * p, y + along * v + aside * q
+
+        wide, high = SLIDER
+        box = tuple(moved(a * wide / 2, b * high / 2) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+        slider: list[Piece] = [
+            Stroke((moved(-RAIL, 0.0), moved(RAIL, 0.0)), "ground"),
+            Patch(box, "body"),
+            Stroke((*box, box[0]), "edge"),
+            Bullet(spot, 2.2),
+            Bullet(spot, 1.3, "blank"),
+        ]
+        return [
+            *(slider if self.joint else [Stroke((moved(0.0, -STAND), moved(0.0, STAND)), "bar")]),
+            Stroke((moved(-MOVES, BESIDE_RAIL), moved(MOVES, BESIDE_RAIL)), "given", True, self.is_to_and_fro),
+            Tag(self.label, spot, (-u, -v), RAIL),
+        ]
+
+    def in_words(self) -> InWords:
+        return "moving_end", {"label": self.label}
+
+
+@dataclass(frozen=True)
 class SurfacePiece(Surface):
-    """A piece of the surface that touches a particle, with its slope.
+    """A piece of the surface that touches a particle or a body, with its slope.
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
+    below          the distance of a surface with hatches below `at`, in points: the radius of the disc of a particle
+    half           half the length of the piece, in points
     """
 
     at: Position
     normal: Position
     is_two_sided: bool = False
+    below: float = BOB
+    half: float = UNDER
     layer: ClassVar[int] = -1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -151,8 +205,8 @@ class SurfacePiece(Surface):
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = paper.spot(paper.numbers.vector(self.at))
         n = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.normal)))
-        below = 0.0 if self.is_two_sided else BOB
-        start, end = ((x - below * n[0] - s * n[1] * UNDER, y - below * n[1] + s * n[0] * UNDER) for s in (1, -1))
+        below, half = 0.0 if self.is_two_sided else self.below, self.half
+        start, end = ((x - below * n[0] - s * n[1] * half, y - below * n[1] + s * n[0] * half) for s in (1, -1))
         return [Stroke((start, end), "edge")] if self.is_two_sided else hatched(start, end, (-n[0], -n[1]))
 
     def in_words(self) -> InWords:

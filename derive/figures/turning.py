@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
@@ -15,11 +15,12 @@ from derive.figures.links import Link, angle_of_link, is_spring, moving_in, same
 from derive.figures.marks import Mark
 from derive.figures.parts import COIL, ConnectionMark
 from derive.figures.positions import column_of
-from derive.figures.surroundings import AngleBetween, DistanceMark, WayMark
+from derive.figures.surroundings import AngleBetween, DistanceMark, MovingEnd, WayMark
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 
 ZERO = Integer(0)
+PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, in points
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
@@ -81,14 +82,29 @@ def _has_spring(system: System, link: Link) -> bool:
     )
 
 
-def displacement_marks(system: System, support: Location) -> Iterable[Mark]:
-    """Yield the displacement of a support with a prescribed motion along x or y in a plane."""
-    moving = moving_in(system, *support.components)
-    rest = Location(tuple(_terms_without(c, moving) for c in support.components))
-    moved = [c for c in (support - rest).components if c != 0]
-    if len(rest.components) == 2 and len(moved) == 1:
-        side = [0, 1] if (support - rest).components[0] != 0 else [-1, 0]
-        yield DistanceMark(column_of(rest), column_of(support), ImmutableDenseMatrix(side), 18.0, label=moved[0])
+def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]:
+    """Yield a support with a prescribed motion along a straight line in a plane, and its displacement if the line is
+    horizontal or vertical. Yield nothing for any other support."""
+    if len(support.components) != 2 or moving_in(system, *support.components) != {TIME}:
+        return
+    rest = on_the_axis(support)
+    x, y = (tidied(c) for c in (support - rest).components)
+    slope = tidied(y / x) if x != 0 else ZERO
+    if moving_in(system, slope):
+        return
+    sense = _sense(y if x == 0 else x)
+    along = (sense or 1) * ImmutableDenseMatrix([1, slope] if x != 0 else [0, 1])
+    side = ImmutableDenseMatrix([0, 1] if x != 0 else [-1, 0])
+    yield MovingEnd(column_of(support), along, side, joint, sense == 0)
+    if x == 0 or y == 0:
+        yield DistanceMark(column_of(rest), column_of(support), side, PAST_SUPPORT, label=x if y == 0 else y)
+
+
+def _sense(value: Expr) -> int:
+    """Return 1 if a function of the time increases for positive times, -1 if it decreases, and 0 if neither is
+    known."""
+    rate = tidied(diff(value, TIME)).xreplace({TIME: Symbol("t", positive=True)})
+    return 1 if rate.is_positive else -1 if rate.is_negative else 0
 
 
 def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:

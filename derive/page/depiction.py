@@ -306,8 +306,9 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
     return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
 
 
-def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each `range`, `cases` and `panels` of a drawing that is not a plot."""
+def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Return a warning for each `range`, `cases` and `panels` of a drawing that is not a plot, and for each `view` of a
+    drawing that is not in space."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -316,7 +317,17 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
             message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
             place = placement.range.place if placement.range and name == "range" else placement.place
             found.append(Complaint("unused-key", message, place, help="leave it out", severity="warning"))
+        flat = next((d for d in drawings if d.key == placement.key and not _is_in_space(d)), None)
+        if placement.view is not None and flat is not None:
+            message = f"`view` has no effect on `{placement.key}`, which is not a drawing in space"
+            found.append(
+                Complaint("unused-key", message, placement.view_place, help="leave it out", severity="warning")
+            )
     return found
+
+
+def _is_in_space(drawing: m.Recorded) -> bool:
+    return isinstance(drawing, m.Drawing) and drawing.view == m.SPACE
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:

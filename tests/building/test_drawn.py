@@ -263,3 +263,10 @@ def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: 
         typeset(tex, target, chosen_engine(None), included=files)
         pages[name] = target.read_bytes()
     assert pages["with"] != pages["without"]
+
+
+def test_a_view_of_its_own_changes_only_that_drawing(tmp_path: Path, block: Rendered) -> None:
+    edits = {CAPTION: CAPTION + "    view: {azimuth: 60, elevation: 40}\n"}
+    found = rendered_once(course_in(tmp_path, edits), "hw9/block", draws=True)
+    same = {name for name, content in block.files if dict(found.files)[name] == content}
+    assert same == {"block-axes.pdf", "block-axes.svg"} and not found.warnings

@@ -98,3 +98,32 @@ def test_each_case_of_a_plot_has_its_own_numbers(tmp_path: Path) -> None:
 def test_cases_are_not_called_as_parts_are() -> None:
     assert [case_label(i) for i in (0, 1, 3, 9)] == ["i", "ii", "iv", "x"]
     assert case_label(10) == "11"
+
+
+@pytest.mark.parametrize(
+    ("view", "angles"),
+    [
+        ("front", (0.0, 0.0)),
+        ("top", (-90.0, 90.0)),
+        ("{azimuth: 30, elevation: 20}", (30.0, 20.0)),
+        ("{azimuth: -45.5 deg, elevation: 0}", (-45.5, 0.0)),
+    ],
+)
+def test_a_view_has_a_name_or_two_angles_in_degrees(view: str, angles: tuple[float, float], tmp_path: Path) -> None:
+    assert placed(tmp_path, f"view: {view}").view == angles
+
+
+@pytest.mark.parametrize(
+    ("view", "message", "help_line"),
+    [
+        ("frnt", "`view` must be front, side, top or a mapping such as", "did you mean `front`?"),
+        ("[30, 20]", "`view` must be front, side, top or a mapping such as", None),
+        ("{azimuth: 30, elevation: 95}", "`elevation` must be an angle from -90 to 90 degrees", None),
+        ("{azimuth: a, elevation: 20}", "`azimuth` must be an angle from -360 to 360 degrees", None),
+        ("{azimuth: 30}", "a view needs `elevation`", None),
+        ("{azimut: 30, elevation: 20}", "a view has no key `azimut`", "did you mean `azimuth`?"),
+    ],
+)
+def test_what_is_no_view_is_refused(view: str, message: str, help_line: str | None, tmp_path: Path) -> None:
+    (fault,) = refused(tmp_path, f"view: {view}")
+    assert fault.message.startswith(message) and fault.help == help_line

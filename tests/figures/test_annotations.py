@@ -10,13 +10,14 @@ from sympy import Rational, Symbol
 
 from derive.algebra.expressions import column
 from derive.figures import arc, arrow, axis_of_rotation, drawing, length_mark, outline, point_mark
-from derive.figures.annotations import AngleMark, Turn, measured
+from derive.figures.annotations import AngleMark, Axis, LengthMark, Turn, measured
 from derive.figures.marks import Drawing, Surface
 from derive.figures.pieces import Bullet, Stroke, Tag
 from derive.figures.space import hull, is_within
 from derive.figures.surfaces import Polyhedron
 from derive.mechanics import Cuboid
-from derive.render.drawing.camera import Numbers, best_stance
+from derive.render.drawing.camera import Numbers, best_stance, stance_from
+from derive.render.drawing.hidden_lines import OnPaper
 from tests.figures.scenery import NUMBERS, SLAB, M, a, area, heading, pieces_of, plane, strokes, theta, vectors_of_block
 from tests.mechanics.block import omega
 
@@ -129,3 +130,22 @@ def test_a_dimension_line_without_room_for_its_heads_has_arrows_outside() -> Non
     assert arrows[0].spots[0][1] < 0 and arrows[1].spots[0][1] > 3
     (label,) = (piece for piece in short if isinstance(piece, Tag))
     assert label.spot == arrows[1].spots[0]
+
+
+@pytest.mark.parametrize(("eye", "is_dot"), [((-90, 90), True), ((-90, -90), False)])
+def test_an_axis_along_the_line_of_sight_is_a_circle(eye: tuple[float, float], is_dot: bool) -> None:
+    """With a dot, it is towards the viewer; with a cross, away from the viewer."""
+    axis = Axis(column(0, 0, 0), column(0, 0, 1), label=a)
+    pieces = axis.pieces(OnPaper(Numbers({}), stance_from(*eye), 50.0))
+    bullets = [piece for piece in pieces if isinstance(piece, Bullet)]
+    assert (len(bullets), len([piece for piece in pieces if isinstance(piece, Stroke)])) == (
+        (3, 0) if is_dot else (2, 2)
+    )
+
+
+def test_a_dimension_line_in_space_has_its_extension_lines_at_right_angles() -> None:
+    mark = LengthMark(column(0, 0, 0), column(1, 0, 0), column(1, 1, 0), label=a)
+    line, *_ = (p for p in mark.pieces(OnPaper(Numbers({}), stance_from(30, 30), 60.0)) if isinstance(p, Stroke))
+    (x, y), (u, v) = line.spots
+    (p, q), (r, s) = OnPaper(Numbers({}), stance_from(30, 30), 60.0).spots((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    assert (u - x) * (r - p) + (v - y) * (s - q) == pytest.approx(0, abs=1e-9)

@@ -26,7 +26,15 @@ from derive.figures.parts import (
 from derive.figures.pieces import Stroke
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle, Revolved, TableMark
-from derive.figures.surroundings import AngleBetween, CurvedGround, DistanceMark, FixedEnd, GroundMark, WayMark
+from derive.figures.surroundings import (
+    AngleBetween,
+    CurvedGround,
+    DistanceMark,
+    FixedEnd,
+    GroundMark,
+    MovingEnd,
+    WayMark,
+)
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import Run
@@ -341,7 +349,7 @@ def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(t
     weight, friction, normal = of_class(drawings(tmp_path, text)["forces_ball"], Arrow)
     assert str(normal.label) == "N" and normal.keys == () and friction.keys == ("F",)
     assert normal.size / weight.size == pytest.approx(cos(0.63), abs=0.02)
-    assert friction.size / weight.size == pytest.approx(max(2 / 7 * sin(0.63), 0.2), abs=0.02)
+    assert friction.size / weight.size == pytest.approx(max(2 / 7 * sin(0.63), 0.25), abs=0.02)
     taken = edited(
         text,
         ("radius: a,", "radius: N,"),
@@ -485,3 +493,42 @@ def test_the_distance_from_an_incline_is_measured_from_the_incline(tmp_path: Pat
         return u * sin(0.5) + v * cos(0.5)
 
     assert height(marks["y"].start) == pytest.approx(0.0) and height(marks["y"].end) == pytest.approx(1.0)
+
+
+DRIVEN = """\
+title: A spring with a driven end
+solve: system
+symbols: {m: mass, k: spring constant, l: length}
+given:
+  coordinates: {x: length}
+  functions: {X: length}
+  places: {A: [l + x, 0]}
+  particles: {block: {mass: m, at: A}}
+  springs: {from: [X, 0], to: block, constant: k, length: l}
+statement: A block on a spring.
+parts:
+  - ask: Find the equation of motion.
+    answer: motion_x
+"""
+ROD = """\
+title: A rod on a moving pivot
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  functions: {Y: length}
+  bodies: {rod: {shape: rod, length: l, mass: m, from: [0, Y], along: [sin(theta), -cos(theta)]}}
+  gravity: g
+statement: A rod.
+parts:
+  - ask: Find the equation of motion.
+    answer: motion_theta
+"""
+
+
+def test_the_driven_ends_of_springs_and_rods_are_drawn_with_their_displacements(tmp_path: Path) -> None:
+    for name, text, letter, joint in (("spring", DRIVEN, "X", False), ("rod", ROD, "Y", True)):
+        found = drawings(tmp_path / name, text)["system"]
+        (end,) = of_class(found, MovingEnd)
+        assert end.joint is joint and not of_class(found, FixedEnd)
+        assert letter in [str(mark.label) for mark in of_class(found, DistanceMark)]

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from derive.figures.annotations import FORCE, ForceArrow
+from derive.figures.forces import ALONG, APART
+from derive.figures.pieces import Patch, Stroke
 from derive.figures.surroundings import SurfacePiece
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
@@ -62,3 +64,27 @@ def test_a_pulley_with_a_horizontal_string_has_no_diagram_because_its_axle_force
     plain = text[:start] + text[end:].replace("answer: [light_x, light]", "answer: accelerations").split("drawings:")[0]
     assert "forces_pulley" in drawings(tmp_path / "vertical", plain)
     assert "forces_pulley" not in drawings(tmp_path / "horizontal", edited(plain, ("at: [R, -y]", "at: [y, R]")))
+
+
+def test_the_forces_on_a_round_body_are_longer_than_its_radius_and_its_surface_is_drawn(tmp_path: Path) -> None:
+    """The tip of the weight is outside the disc, and no arrow is so short that its head covers it."""
+    drawing = drawings(tmp_path, library("disc_incline"))["forces_disc"]
+    pieces = picture(drawing, Numbers({}), 5.0, 4.2)
+    disc = next(piece.spots for piece in pieces if isinstance(piece, Patch))
+    radius = (max(x for x, _ in disc) - min(x for x, _ in disc)) / 2
+    lengths = [dist(*piece.spots) for piece in pieces if isinstance(piece, Stroke) and piece.pen == "given"]
+    assert max(lengths) == pytest.approx(FORCE, abs=0.1) and max(lengths) > 2 * radius
+    assert min(lengths) > 14
+    (surface,) = of_class(drawing, SurfacePiece)
+    assert len([piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == "hatch"]) > 5
+    assert surface.below == 0
+
+
+def test_a_force_along_a_surface_is_beside_its_line_and_the_normal_force_beside_the_weight(tmp_path: Path) -> None:
+    drawing = drawings(tmp_path, library("sliding_to_rolling"))["forces_ball"]
+    pieces = picture(drawing, Numbers({}), 5.0, 4.2)
+    weight, normal, friction = (p.spots for p in pieces if isinstance(p, Stroke) and p.pen == "given")
+    (ground,) = (piece.spots for piece in pieces if isinstance(piece, Stroke) and piece.pen == "ground")
+    assert friction[0][1] - ground[0][1] == pytest.approx(ALONG) and friction[1][1] == pytest.approx(friction[0][1])
+    assert abs(normal[0][0] - weight[0][0]) == pytest.approx(APART)
+    assert weight[1][1] < ground[0][1] < normal[0][1] + 1e-6  # the label of the weight is below the surface

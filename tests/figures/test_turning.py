@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import pytest
+from sympy import cos, sin
 
+from derive.algebra.expressions import TIME
 from derive.figures.annotations import AxisOfRotation
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark
-from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, WayMark
-from derive.figures.turning import downwards
-from tests.figures.machines import SKETCHES, SYSTEMS, at, labels, of, omega
+from derive.figures.pieces import Stroke
+from derive.figures.surroundings import AngleBetween, DistanceMark, FixedEnd, MovingEnd, WayMark
+from derive.figures.turning import downwards, moving_end
+from derive.mechanics import point
+from derive.mechanics.kinematics.places import Location
+from derive.render.drawing.camera import FLAT, Numbers
+from derive.render.drawing.hidden_lines import OnPaper
+from tests.figures.machines import SKETCHES, SYSTEMS, a, at, labels, of, omega
 
 
 def test_a_double_pendulum_has_two_rods_two_angles_and_one_pivot() -> None:
@@ -28,6 +35,38 @@ def test_angles_are_counted_from_the_downward_vertical(name: str) -> None:
 
 def test_a_support_that_is_shaken_shows_how_far_it_has_moved() -> None:
     assert [str(each) for each in labels(SKETCHES["driven"], DistanceMark)] == ["a*cos(omega*t)"]
+
+
+def test_a_support_that_is_shaken_is_a_slider_with_a_double_arrow() -> None:
+    """A fixed hinge on hatched ground would be wrong."""
+    found = SKETCHES["driven"]
+    (end,) = of(found, MovingEnd)
+    assert not of(found, FixedEnd) and end.joint and end.is_to_and_fro and end.in_words()[0] == "moving_end"
+    pieces = end.pieces(OnPaper(Numbers({}), FLAT))
+    (arrow,) = (piece for piece in pieces if isinstance(piece, Stroke) and piece.head and piece.tail)
+    (rail,) = (piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == "ground")
+    assert arrow.spots[0][1] == arrow.spots[1][1] > rail.spots[0][1] == rail.spots[1][1]
+
+
+@pytest.mark.parametrize(("place", "along", "both"), [
+    (point(0, a * TIME**2 / 2), [0, 1], False), (point(0, -a * TIME), [0, -1], False),
+    (point(0, a * cos(omega * TIME)), [0, 1], True), (point(a * TIME, 2 * a * TIME), [1, 2], False),
+])  # fmt: skip
+def test_a_support_that_moves_in_one_sense_has_one_arrowhead(place: Location, along: list[int], both: bool) -> None:
+    (end, *more) = moving_end(SYSTEMS["driven"], place, True)
+    assert (at(end.along), end.is_to_and_fro, len(more)) == (along, both, 0 if 0 not in along else 1)
+
+
+def test_a_support_on_a_circle_or_at_rest_has_no_slider() -> None:
+    there = point(a * cos(omega * TIME), a * sin(omega * TIME))
+    assert [*moving_end(SYSTEMS["driven"], there, True), *moving_end(SYSTEMS["driven"], point(a, 0), True)] == []
+
+
+def test_the_driven_end_of_a_spring_is_a_plate() -> None:
+    system = SYSTEMS["driven"]
+    (plate, _) = moving_end(system, point(a * cos(omega * TIME), 0), False)
+    (line,) = (p for p in plate.pieces(OnPaper(Numbers({}), FLAT)) if isinstance(p, Stroke) and p.pen == "bar")
+    assert line.spots[0][0] == line.spots[1][0]
 
 
 def test_a_spring_that_swings_has_its_length_beside_it() -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 from math import isclose
+from typing import Any
 
 import pytest
 from sympy import Matrix, Rational, cos, sin, sqrt
@@ -12,9 +14,10 @@ from derive.algebra.expressions import TIME, column
 from derive.errors import Rejected
 from derive.figures import arrow, drawing, outline, particle
 from derive.figures.sketches import BROADSIDE
-from derive.figures.space import dot, size_of, unit
+from derive.figures.space import Vector, dot, size_of, unit
+from derive.figures.surfaces import Polyhedron, ThinRod
 from derive.mechanics import Cuboid, coordinate, point
-from derive.render.drawing.camera import USUAL, Numbers, best_stance, stance_from, stand_ins, with_coordinates
+from derive.render.drawing.camera import OPEN, USUAL, Numbers, best_stance, stance_from, stand_ins, with_coordinates
 from derive.steps.record import recorded
 from tests.figures.scenery import M, a, heading, pieces_of, strokes
 from tests.mechanics.block import b, c
@@ -85,3 +88,29 @@ def test_a_plane_that_is_carried_round_is_seen_from_its_front() -> None:
     across, upwards = USUAL.spot(level)
     assert isclose(across, 1.0, abs_tol=1e-9)
     assert isclose(upwards, 0.0, abs_tol=1e-9)
+
+
+def test_the_author_chooses_the_view() -> None:
+    slanting = drawing("one", [arrow(column(1, 2, 1), size=1), arrow(column(1, -2, 3), size=1)])
+    assert best_stance(replace(slanting, seen_from=(60.0, 40.0)), Numbers({})) == stance_from(60, 40)
+
+
+@pytest.mark.parametrize(
+    ("corners", "normal"),
+    [
+        (((0, 0, 0), (1, 0, 0), (0, 1, 0)), (0.0, 0.0, 1.0)),
+        (((0, 0, 0), (1, 0, 0), (0, 0, 1)), (0.0, 1.0, 0.0)),
+        (((0, 0, 0), (0, 1, 0), (0, 0, 1)), (1.0, 0.0, 0.0)),
+    ],
+)
+def test_a_flat_body_is_not_seen_edge_on(corners: Any, normal: Vector) -> None:
+    plate = Polyhedron(tuple(column(*corner) for corner in corners))
+    stance = best_stance(drawing("one", plate), Numbers({}))
+    assert abs(dot(stance.eye, normal)) > OPEN
+    assert (stance == USUAL) is (normal[0] == 1.0)
+
+
+def test_a_body_that_is_not_flat_and_a_rod_have_the_usual_view() -> None:
+    box = outline(Cuboid((a, a, a), M), named=False)
+    rod = ThinRod(column(0, 0, 0), column(1, 0, 0))
+    assert best_stance(drawing("one", box), Numbers({})) == best_stance(drawing("two", rod), Numbers({})) == USUAL

@@ -19,10 +19,12 @@ from derive.algebra.expressions import TIME, explicit
 from derive.errors import Complaint, Rejected
 from derive.figures.extrema import values_along
 from derive.figures.marks import PLANE, Drawing, Surface
-from derive.figures.space import Stance, Vector, angle_of, size_of, unit
+from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, size_of, unit
 
 ANGLE = pi / 5
 APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
+OPEN = 0.5  # least cosine of the angle between the normal of a flat body and the line of sight
+THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of length coordinates without a number, in units of the typical length
 
 
@@ -129,13 +131,16 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the view of a drawing. Of several views in space, it is the one in which vectors are long and far apart
-    and do not end at corners. Without vectors, or with a plane that moves in time, it is the usual view.
+    """Return the view of a drawing: the view that the author chooses, if there is one. Otherwise, of several views in
+    space, it is the one in which vectors are long and far apart and do not end at corners. Without vectors, or with a
+    plane that moves in time, it is the usual view or, for a flat body, the first view in which the body is open.
 
     `reach` is the size of the bodies.
     """
     if drawing.view == PLANE:
         return FLAT
+    if drawing.seen_from is not None:
+        return stance_from(*drawing.seen_from)
     if TIME in dict(drawing.values):  # a moving plane is already rotated so that its front is visible
         return USUAL
     shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]
@@ -145,13 +150,37 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
     ]
     pairs += [pair for pair in combinations(vectors, 2) if pair not in pairs]
     if not vectors and not pairs:
-        return USUAL
+        return _open_view(drawing, numbers, reach)
     tried = [stance_from(azimuth, elevation) for elevation in (18, 24, 30, 38) for azimuth in range(15, 76, 6)]
     ends = [tip for mark in drawing.marks if (tip := mark.tip(numbers, reach)) is not None]
     corners = [at for mark in drawing.marks if isinstance(mark, Surface) for at in mark.vertices(numbers)]
     return max(
         tried, key=lambda stance: _clearness(stance, vectors, pairs) * _apartness(stance, ends, corners, APART * reach)
     )
+
+
+def _open_view(drawing: Drawing, numbers: Numbers, reach: float) -> Stance:
+    """Return the usual view or, if all bodies are in one plane that would be seen almost edge-on, the first view in
+    which this plane is open."""
+    places = [place for mark in drawing.marks if isinstance(mark, Surface) for place in mark.places(numbers)]
+    normal = _normal_of(places, reach)
+    if normal is None:
+        return USUAL
+    views = [USUAL, *(stance_from(azimuth, elevation) for elevation in (18, 38) for azimuth in (25, 40, 55))]
+    return next((view for view in views if abs(dot(normal, view.eye)) > OPEN), views[-1])
+
+
+def _normal_of(places: Sequence[Vector], reach: float) -> Vector | None:
+    """Return the normal of the plane that contains all places; None if there is no such plane, or if the places are on
+    one line."""
+    if not places:
+        return None
+    ways = [plus(place, places[0], -1.0) for place in places]
+    longest = max(ways, key=size_of)
+    normal = max((cross(longest, way) for way in ways), key=size_of)
+    if size_of(normal) < THIN * reach**2:
+        return None
+    return unit(normal) if all(abs(dot(unit(normal), way)) < THIN * reach for way in ways) else None
 
 
 def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector], enough: float) -> float:

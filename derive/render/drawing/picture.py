@@ -40,6 +40,8 @@ def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> 
     paper = _paper(drawing, numbers)
     if drawing.forces_on is not None and paper.is_of_a_point:
         return _pieces(drawing, paper)  # all lengths of the force diagram of a particle are in points
+    if drawing.body_size is not None:
+        return _pieces(drawing, replace(paper, scale=drawing.body_size / paper.reach))
     room = width * POINTS_PER_CM, height * POINTS_PER_CM
     # Arrows that start at the masses of a mode do not change the scale, so that all modes have almost the same scale.
     kept = (mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow) or mark.side is not None)
