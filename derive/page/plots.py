@@ -134,8 +134,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
         _curve(problem, each, placement, known, shown, both)
         for (each, _), known, shown, both in zip(pairs, numbers, own, ends, strict=True)
     )
-    in_degrees = plot.of == "angle" and all((end / DEGREE).is_Rational for both in ends for end in both)
-    variable = IN_DEGREES if in_degrees else Axis(_unit(plot.of))
+    variable = IN_DEGREES if plot.of == "angle" and not _in_radians(ends) else Axis(_unit(plot.of))
     if plot.others and len({(curve.label, curve.numbers) for curve in found}) < len(found):
         message = f"two curves of the plot `{plot.key}` have the same name and the same numbers"
         help_line = "give the answers different symbols, or write a case for each curve"
@@ -143,6 +142,12 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     across = _axis(plot.across.unit) if plot.across else variable
     together = _are_together(problem, plot, placement, found)
     return Curves(found, variable, _axis(plot.unit_up), across, shared, together)
+
+
+def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
+    """Return whether an end of the range is a rational number of radians other than zero, as an author wrote it; an end
+    such as acos(2/3) has no unit of its own."""
+    return any(end.is_Rational and end != 0 for both in ends for end in both)
 
 
 def plots_with_cases(plot: Plot, placement: Placement | None) -> list[tuple[Plot, tuple[Measured, ...]]]:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, cos, pi, sin, symbols
+from sympy import Expr, Integer, Rational, acos, cos, pi, sin, symbols
 
 from derive.course.given import Measured
 from derive.course.placement import Placement
@@ -85,8 +85,9 @@ def test_a_range_goes_from_a_smaller_number_to_a_larger(ends: tuple[Expr, Expr])
     assert complaint.message == "the range of `potential` must go from a smaller number to a larger number"
 
 
-def test_an_angle_is_told_in_degrees_if_its_ends_are() -> None:
+def test_an_angle_is_told_in_degrees_unless_its_ends_are_numbers_of_radians() -> None:
     assert curves(theta).variable.unit == "°"
+    assert curves(theta, Integer(0), acos(Rational(2, 3))).variable.unit == "°"
     assert curves(theta).variable.per_unit == pytest.approx(57.29578)
     assert curves(theta, Integer(-1), Integer(1)).variable == Axis("rad")
     assert curves(theta, -pi, pi, of="length").variable.unit == "m"

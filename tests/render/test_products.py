@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Expr, Integer, Matrix, Mul, Rational, Symbol, pi, sin, sqrt, symbols
+from sympy import Expr, Integer, Matrix, Mul, Rational, Symbol, cos, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import Root, explicit
@@ -219,3 +219,18 @@ def test_powers_of_a_letter_with_a_letter_stand_together() -> None:
 @pytest.mark.parametrize(("text", "shown"), [("-1.50", "-1.50"), ("2.66e-26", "2.66×10⁻²⁶"), ("3e4", "3×10⁴")])
 def test_the_digits_that_were_kept_are_shown(text: str, shown: str) -> None:
     assert plain(rounded_number(text)) == shown
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (2 * sin(a) / cos(a), 2 * tan(a)),
+        (g * (1 + M * sin(a) ** 2 / cos(a) ** 2), g * (1 + M * tan(a) ** 2)),
+        (sqrt(g * sin(a) / (b * cos(a))), sqrt(g * tan(a) / b)),
+        (M * cos(a) / sin(a), M * cos(a) / sin(a)),
+        (sin(a) ** 2 / cos(a), sin(a) ** 2 / cos(a)),
+        (sin(a) / cos(b), sin(a) / cos(b)),
+    ],
+)
+def test_a_result_has_a_tangent_for_a_quotient_of_sine_and_cosine(value: Expr, shown: Expr) -> None:
+    assert present(value) == shown

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from enum import IntEnum, auto
 from typing import Any
 
-from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, factorint, fraction, gcd, ilcm
+from sympy import Add, Expr, Integer, MatrixBase, Mul, Pow, Rational, cos, factorint, fraction, gcd, ilcm, sin, tan
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension
@@ -104,13 +104,34 @@ def times_ten_to(power: int) -> Layout:
 
 
 def present(value: Any) -> Any:
-    """Return a vector or tensor with its common factor in front; anything else is unchanged."""
-    if not isinstance(value, MatrixBase) or all(entry == 0 for entry in value):
+    """Return a vector or tensor with its common factor in front, and a scalar with tangents for quotients of sine and
+    cosine."""
+    if not isinstance(value, MatrixBase):
+        return with_tangents(value) if isinstance(value, Expr) else value
+    if all(entry == 0 for entry in value):
         return value
     if value.free_symbols and all(entry.is_Symbol or entry == 0 for entry in value):
         return value
     factor, rest = factored_matrix(value)
     return value if factor == 1 else scaled(factor, rest)
+
+
+def with_tangents(value: Expr) -> Expr:
+    """Write tan a for sin a/cos a, and the same for equal powers; cos a/sin a is unchanged, because it is defined at
+    90 degrees."""
+    if not value.has(sin) or not value.has(cos):
+        return value
+    return value.replace(lambda part: bool(part.is_Mul), _with_tangent)
+
+
+def _with_tangent(product: Expr) -> Expr:
+    powers = dict(each.as_base_exp() for each in product.args)
+    for base, power in powers.items():
+        below = cos(base.args[0]) if isinstance(base, sin) else None
+        if below in powers and powers[below] == -power and power.is_positive:
+            kept = (each for each in product.args if each.as_base_exp()[0] not in (base, below))
+            product = Mul(*kept, tan(base.args[0]) ** power)
+    return product
 
 
 def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
