@@ -18,6 +18,7 @@ from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
+EQUILIBRIA = "equilibria"  # the answer whose plot is a bifurcation diagram
 _KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres
 
@@ -53,7 +54,8 @@ class Placement:
     labels    the names of the axes of a path, in place of its formulas
     surfaces  the names of the surfaces that are drawn with a path
     panels    whether curves are together in one panel or apart; None if derive decides
-    levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes
+    levels, over   of a phase portrait: the values on its curves, and the ranges of its two axes; `over` of a
+              bifurcation diagram: the range of its vertical axis
     letters   the letters that formulas of a plot may contain, by name
     """
 
@@ -72,7 +74,7 @@ class Placement:
     labels: tuple[Word, ...] = ()
     surfaces: tuple[Word, ...] = ()
     panels: str | None = None
-    against: Word | None = None
+    against: Formula | None = None
     levels: tuple[Formula, ...] = ()
     over: Table[Word, Range] = field(default_factory=dict, repr=False)
     letters: Table[str, Declared] = field(default_factory=dict, repr=False)
@@ -81,6 +83,11 @@ class Placement:
     def is_of_engine(self) -> bool:
         """Whether the engine draws a plot of answers."""
         return bool(self.plot or self.curves)
+
+    @property
+    def is_diagram(self) -> bool:
+        """Whether the drawing is a bifurcation diagram: the equilibria against a parameter."""
+        return self.plot == (EQUILIBRIA,)
 
     @property
     def is_portrait(self) -> bool:
