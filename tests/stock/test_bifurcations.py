@@ -124,11 +124,19 @@ def test_the_vertical_axis_shows_the_range_that_the_problem_states(tmp_path: Pat
     assert "θ_2 = " not in page.split("A diagram of")[1].split(">")[0]
 
 
+WITHOUT_TOP = [
+    ("{theta: angle}", "{theta: 'angle in (-pi, pi)'}"),
+    ("[rest_1, rest_2, rest_3]", "equilibria"),
+    ("[stability_1, stability_2, stability_3]", "stability"),
+]
+
+
 def test_equilibria_outside_the_range_of_the_coordinate_are_not_missed(tmp_path: Path) -> None:
     page = page_of(tmp_path, edited(WIRE, ("{x: length}", "{x: positive length}")))
     assert "x_0 is stable from 0 m to 0.1 m with values from 0.1 m to 0 m." in page
-    page = page_of(tmp_path, edited(MOTOR, ("{theta: angle}", "{theta: 'angle in (0, pi/2)'}")))
-    assert "θ_0 is stable from 0 to 1 with values from 0° to 90°." in page
+    page = page_of(tmp_path, edited(HOOP, *WITHOUT_TOP))
+    assert "θ_1 = 0° is stable from 0 to 1" in page
+    assert "180°" not in page
 
 
 @pytest.mark.parametrize(
