@@ -18,6 +18,7 @@ from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
+EQUILIBRIA = "equilibria"  # the answer whose plot is a bifurcation diagram
 _KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres
 
@@ -48,14 +49,15 @@ class Range:
 class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
-    view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
-    plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
-    curves    several answers, whose curves the engine draws in one plot
-    labels    the names of the axes of a path, in place of its formulas
-    surfaces  the names of the surfaces that are drawn with a path
-    panels    whether curves are together in one panel or apart; None if derive decides
-    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes
-    letters   the letters that formulas of a plot may contain, by name
+        view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
+        plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
+        curves    several answers, whose curves the engine draws in one plot
+        labels    the names of the axes of a path, in place of its formulas
+        surfaces  the names of the surfaces that are drawn with a path
+        panels    whether curves are together in one panel or apart; None if derive decides
+    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
+              bifurcation diagram: the range of its vertical axis
+        letters   the letters that formulas of a plot may contain, by name
     """
 
     key: str
@@ -75,7 +77,7 @@ class Placement:
     labels: tuple[Word, ...] = ()
     surfaces: tuple[Word, ...] = ()
     panels: str | None = None
-    against: Word | None = None
+    against: Formula | None = None
     levels: tuple[Formula, ...] = ()
     over: Table[Word, Range] = field(default_factory=dict, repr=False)
     letters: Table[str, Declared] = field(default_factory=dict, repr=False)
@@ -84,6 +86,11 @@ class Placement:
     def is_of_engine(self) -> bool:
         """Whether the drawing is a plot that the engine draws."""
         return bool(self.plot or self.curves)
+
+    @property
+    def is_diagram(self) -> bool:
+        """Whether the drawing is a bifurcation diagram: the equilibria against a parameter."""
+        return self.plot == (EQUILIBRIA,)
 
     @property
     def is_portrait(self) -> bool:

@@ -93,7 +93,8 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws."""
+        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws. Those
+        of bifurcation diagrams are not among them."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
@@ -238,7 +239,8 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    plotted: list[Word] = [drawing.plot[0] for drawing in drawings if len(drawing.plot) == 1]
+    # A diagram also shows equilibria that no part asks for, such as the mirror image of another one.
+    plotted: list[Word] = [each.plot[0] for each in drawings if len(each.plot) == 1 and not each.is_diagram]
     plotted += [name for drawing in drawings for name in drawing.curves]
     for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
         first.setdefault(str(name), name)
@@ -286,8 +288,11 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             message = f"the plot `{drawing.key}` cannot have both `plot` and `curves`"
             help_line = "write all answers under `curves`"
             faults.error("unused-key", message, drawing.curves[0].place, help=help_line)
-        elif drawing.levels or drawing.over:
+        elif drawing.levels or (drawing.over and not drawing.is_diagram):
             _check_portrait(drawing, faults)
+        elif drawing.is_diagram and len(drawing.over) > 1:
+            message = f"the diagram `{drawing.key}` has one vertical axis, so `over` has one coordinate"
+            faults.error("wrong-argument", message, drawing.place, help="such as `over: {theta: [-90 deg, 90 deg]}`")
         elif drawing.is_of_engine and (drawing.against is None or drawing.range is None):
             message = f"the plot `{drawing.key}` needs `against` with a letter, and `range` with two ends"
             faults.error(

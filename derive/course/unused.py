@@ -81,7 +81,7 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
     """Yield the letters that a drawing uses: those with values, and those in the formulas of a plot."""
     yield from drawing.values
     ends = [end for both in drawing.over.values() for end in both]
-    for formula in (*(drawing.plot or ()), *drawing.levels, *(drawing.ends or ()), *ends):
+    for formula in (*(drawing.plot or ()), drawing.against or "", *drawing.levels, *(drawing.ends or ()), *ends):
         yield from _NAME.findall(formula)
 
 

@@ -214,7 +214,8 @@ class DrawingKeys(Record):
     )
     plot: tuple[Formula, ...] | None = key(
         "if `solve` is `system`, `body` or `rotation`: the answer whose curve is drawn, such as `potential_energy`; or "
-        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn",
+        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn; `equilibria` draws a bifurcation "
+        "diagram",
         PLOTTED,
     )
     curves: tuple[Word, ...] = key(
@@ -222,8 +223,10 @@ class DrawingKeys(Record):
         "whose curves are drawn in one plot",
         list_of(TEXT, "a list of answers such as `[weak, strong]`", each="a curve"),
     )
-    against: Word | None = key(
-        "the coordinate, letter or `t` that varies: along the horizontal axis of curves, or along a path", TEXT
+    against: Formula | None = key(
+        "the coordinate, letter or `t` that varies: along the horizontal axis of curves, or along a path. With "
+        "`plot: equilibria`, a letter or a ratio such as `omega/omega_c`",
+        FORMULA,
     )
     labels: tuple[Word, ...] = key(
         "the names of the two axes of a path, such as `[x, y]`, in place of its formulas",
@@ -239,7 +242,9 @@ class DrawingKeys(Record):
         list_of(FORMULA, "a list of values such as `[-5 J, m*g*l]`"),
     )
     over: dict[Word, tuple[Formula, ...]] = key(
-        "for a phase portrait: a coordinate and its momentum, each with its two ends", mapping_of(ENDS)
+        "for a phase portrait: a coordinate and its momentum, each with its two ends; for a bifurcation diagram: the "
+        "coordinate, if the vertical axis does not show all equilibria",
+        mapping_of(ENDS),
     )
     ends: tuple[Formula, ...] | None = key(
         "the two ends of a plot, such as `[-60 deg, 60 deg]` or, with an answer, `[0 s, 2*top_time]`",

@@ -9,6 +9,8 @@ from derive.algebra.encoding import as_data, from_data
 from derive.figures.marks import (
     MARK_CLASSES,
     Across,
+    Branch,
+    Diagram,
     Drawing,
     Further,
     Levels,
@@ -32,6 +34,8 @@ def _classes() -> dict[str, Any]:
     return {
         **MARK_CLASSES,
         "Across": Across,
+        "Branch": Branch,
+        "Diagram": Diagram,
         "Drawing": Drawing,
         "Further": Further,
         "Levels": Levels,

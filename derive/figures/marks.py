@@ -232,6 +232,57 @@ class Outline:
 
 
 @dataclass(frozen=True)
+class Branch:
+    """One equilibrium of a bifurcation diagram.
+
+    label    the symbol of the equilibrium
+    place    the equilibrium value of the coordinate
+    exists   the condition under which the equilibrium exists; None if it exists always
+    stable   whether the equilibrium is stable, or the condition under which it is stable
+    key      the key of the step that found the equilibrium
+    """
+
+    label: Any
+    place: Any
+    exists: Any
+    stable: Any
+    key: str
+
+    @property
+    def conditions(self) -> tuple[Any, ...]:
+        """Return the conditions for existence and for stability."""
+        return tuple(each for each in (self.exists, self.stable) if each is not None and not isinstance(each, bool))
+
+    @property
+    def drawn(self) -> tuple[Any, ...]:
+        """Return the value and the conditions."""
+        return (self.place, *self.conditions)
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """The equilibria of one coordinate against a parameter, and the potential energy of which they are stationary
+    points.
+
+    against      the name of the horizontal axis: the parameter, or a ratio of symbols
+    ends         the ends of the vertical axis, if the problem states them
+    within       the ends of the declared range of the coordinate; None for an end that is not finite
+    """
+
+    branches: tuple[Branch, ...]
+    energy: Any
+    coordinate: Any
+    against: Any
+    ends: tuple[Any, ...] = ()
+    within: tuple[Any, Any] = (None, None)
+
+    @property
+    def drawn(self) -> tuple[Any, ...]:
+        """Return the values and the conditions that determine the branches."""
+        return tuple(value for each in self.branches for value in each.drawn)
+
+
+@dataclass(frozen=True)
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
@@ -243,6 +294,7 @@ class Plot:
     levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
     others           curves of other quantities of the same kind in the same panel
     outlines         surfaces in the plane of a path
+    diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
     """
 
     key: str
@@ -259,6 +311,7 @@ class Plot:
     levels: Levels | None = None
     others: tuple[Further, ...] = ()
     outlines: tuple[Outline, ...] = ()
+    diagram: Diagram | None = None
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -277,6 +330,8 @@ class Plot:
     @property
     def shown(self) -> tuple[Any, ...]:
         """Return the values that the plot shows."""
+        if self.diagram is not None:
+            return self.diagram.drawn
         return (self.expr,) if self.across is None else (self.across.expr, self.expr)
 
     @property
@@ -293,8 +348,14 @@ class Plot:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """Return the ends of the range; for a phase portrait, also those of the vertical axis."""
-        return (self.lower, self.upper, *((self.levels.low, self.levels.high) if self.levels else ()))
+        """Return the ends of the range; for a phase portrait or a diagram, also those of the vertical axis."""
+        up = (self.levels.low, self.levels.high) if self.levels else self.diagram.ends if self.diagram else ()
+        return (self.lower, self.upper, *up)
+
+    @property
+    def named_across(self) -> Any:
+        """Return the name of the horizontal axis of curves, of a phase portrait or of a diagram."""
+        return self.diagram.against if self.diagram else self.variable
 
     @property
     def values(self) -> tuple[Any, ...]:

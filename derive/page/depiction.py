@@ -21,6 +21,7 @@ from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
+from derive.figures.branches import BranchLine
 from derive.page.plots import (
     Curve,
     Curves,
@@ -99,6 +100,8 @@ def depictions(
             try:
                 alt = alternative(problem, drawing, placement, words)
                 if caption and isinstance(drawing, m.Plot):
+                    if drawing.diagram is not None:
+                        caption += (Text(" "), *filled(words.drawings["solid_and_dashed"], {}))
                     caption += _numbers_of_all(problem, drawing, placement, words)
             except Rejected as error:
                 faults += error.complaints
@@ -225,7 +228,7 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
     """Return an error for each curve whose numbers violate a condition under which the plotted result holds, such as
     b^2 < 4 k m for an underdamped motion."""
     placement = placement_of(problem, drawing.key)
-    if not isinstance(drawing, m.Plot):
+    if not isinstance(drawing, m.Plot) or drawing.diagram is not None:  # a diagram shows where its conditions hold
         return []
     names = {name: explicit(value) for step in derivation.steps for name, value in step.names}
     try:
@@ -456,10 +459,12 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     first = curves.curves[0]
     names = {
         "quantity": joined([_named(label) for label in plot.labels], words.labels["and"]),
-        "variable": _named(plot.variable),
+        "variable": _named(plot.named_across),
         "lower": with_unit(first.lower * curves.variable.per_unit, curves.variable.unit),
         "upper": with_unit(first.upper * curves.variable.per_unit, curves.variable.unit),
     }
+    if plot.diagram is not None:
+        return _spaced([*_diagrams(plot, curves, words, names), *_shared(curves, words)])
     if plot.levels is not None:
         return _spaced([*_portraits(plot, curves, words, names), *_shared(curves, words)])
     if plot.across is not None:
@@ -497,6 +502,38 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
             "thick": joined([(Math(value),) for value, is_thick in plot.levels.values if is_thick], last),
         }
         yield filled(words.drawings["portrait_values"], own)
+
+
+def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
+    """Yield words for the axes of a bifurcation diagram, and for the branches and the bifurcations of each panel."""
+    assert plot.diagram is not None
+    last = words.labels["and"]
+    yield filled(words.drawings["diagram"], names)
+    for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
+        assert curve.diagram is not None
+        own: dict[str, Any] = {"letter": letter, "numbers": joined(_put_in(curve.numbers), last)}
+        told = []
+        for i in dict.fromkeys(line.of for line in curve.diagram.lines):
+            lines = [line for line in curve.diagram.lines if line.of == i]
+            values = {with_unit(y * curves.up.per_unit, curves.up.unit) for line in lines for _, y in line.points}
+            parts = [filled(words.drawings["branch_part"], _part(line, curves, len(values) > 1)) for line in lines]
+            named: dict[str, Any] = {"name": _named(plot.diagram.branches[i].label), "parts": joined(parts, last)}
+            named["value"] = values.pop() if len(values) == 1 else ""
+            told.append(filled(words.drawings["branch"], named))
+        across = curves.variable
+        changes = [(Text(with_unit(each.at * across.per_unit, across.unit)),) for each in curve.diagram.changes]
+        own |= {"branches": joined(told, last), "changes": joined(changes, last), "variable": names["variable"]}
+        yield filled(words.drawings["diagram_branches"], own)
+
+
+def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
+    """Return the names for the words about a part of a branch: its ends, and its values if they vary."""
+    (start, first), (end, second) = line.points[0], line.points[-1]
+    ends = {"start": start, "end": end}
+    values = {"first": first, "second": second}
+    told = {name: with_unit(x * curves.variable.per_unit, curves.variable.unit) for name, x in ends.items()}
+    told |= {name: with_unit(y * curves.up.per_unit, curves.up.unit) for name, y in values.items()}
+    return {**told, "stable": line.is_stable, "varies": varies}
 
 
 def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:

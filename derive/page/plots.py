@@ -26,6 +26,7 @@ from derive.figures.extrema import NOISE, Extremum, extrema, values_along
 from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
+    from derive.figures.branches import Bifurcations
     from derive.figures.portrait import Portrait
 
 Path: TypeAlias = tuple[tuple[float, float], ...]
@@ -48,6 +49,7 @@ class Curve:
     path     points of a path in the order of the motion
     portrait the curves of a phase portrait
     outlines surfaces in the plane of a path
+    diagram  the branches of a bifurcation diagram
     """
 
     expr: Expr
@@ -61,6 +63,7 @@ class Curve:
     path: Path = field(default=(), repr=False)
     portrait: Portrait | None = None
     outlines: tuple[Outline, ...] = ()
+    diagram: Bifurcations | None = None
 
     @cached_property
     def spots(self) -> Path:
@@ -177,7 +180,7 @@ def _are_together(problem: Problem, plot: Plot, placement: Placement | None, cur
     """Return whether the curves are in one panel: as the problem states, else the curves of several quantities, and the
     cases of one quantity that have the same range, if none of them is much smaller than all of them."""
     stated = placement.panels if placement else None
-    if len(curves) < 2 or plot.levels is not None or stated == APART:
+    if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False
     if stated == TOGETHER and len(curves) > MOST_TOGETHER:
         message = f"the panel of `{plot.key}` has room for at most {MOST_TOGETHER} curves, but there are {len(curves)}"
@@ -261,7 +264,8 @@ def _range(
 def _place_of_range(problem: Problem, plot: Plot, placement: Placement | None, variable: Symbol) -> Place:
     if placement is None:
         return _place(problem, placement)
-    written = placement.over.get(Word(variable.name)) if plot.levels else placement.range
+    over = placement.over.get(Word(variable.name)) if plot.levels or plot.diagram else None
+    written = over or placement.range
     return written.place if written else placement.place
 
 
@@ -277,6 +281,8 @@ def _curve(
     own: tuple[Measured, ...],
     ends: tuple[Expr, Expr],
 ) -> Curve:
+    if plot.diagram is not None:
+        return _diagram(problem, plot, placement, numbers, own, ends)
     *across, expr = (each.xreplace(numbers) for each in plot.shown)
     if any(each.has(nan, zoo, oo) for each in (*across, expr)):
         message = f"the plot `{plot.key}` has no curve for these numbers, because a denominator vanishes"
@@ -298,6 +304,28 @@ def _curve(
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
         found = extrema(expr, plot.variable, lower, upper)
         return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+
+
+def _diagram(
+    problem: Problem,
+    plot: Plot,
+    placement: Placement | None,
+    numbers: Mapping[Any, Expr],
+    own: tuple[Measured, ...],
+    ends: tuple[Expr, Expr],
+) -> Curve:
+    """Return the branches of a bifurcation diagram as a curve without extrema."""
+    assert plot.diagram is not None
+    from derive.figures.branches import bifurcations_of  # imports mpmath
+
+    lower, upper = (float(end) for end in ends)
+    axis = None
+    if plot.diagram.ends:
+        low, high = _range(problem, plot, placement, plot.diagram.coordinate, plot.diagram.ends, numbers)
+        axis = float(low), float(high)
+    with told_at(_place(problem, placement)):
+        found = bifurcations_of(plot.diagram, plot.variable, (lower, upper), numbers, axis, plot.kind == "angle")
+    return Curve(plot.expr, plot.variable, lower, upper, own, (), plot.label, diagram=found)
 
 
 def _with_numbers(outline: Outline, numbers: Mapping[Any, Expr]) -> Outline:

@@ -14,10 +14,35 @@ from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
-from tests.courses import ROOT
 from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, loaded, messages
 
-HOOP = (ROOT / "problems" / "library" / "constraints" / "turning_hoop.yaml").read_text(encoding="utf-8")
+HOOP = """\
+title: A bead on a rotating hoop
+solve: system
+symbols: {R: length, m: mass, g: acceleration, omega: angular speed}
+given:
+  coordinates: {theta: angle}
+  axes: {hoop: [{z: omega*t}]}
+  particles:
+    bead: {mass: m, at: {in: hoop, by: [R*sin(theta), 0, -R*cos(theta)]}}
+  gravity: g
+statement: A bead of mass <<m>> on a hoop of radius <<R>> that rotates at the rate <<omega>>.
+parts:
+  - {ask: Find the Lagrangian., answer: lagrangian}
+  - ask: Which equilibria are stable? Plot the effective potential for two rotations, <<cases>>.
+    answer: [equilibria, stability]
+  - {ask: Find the energy function., answer: energy_function}
+drawings:
+  energy:
+    plot: effective_potential
+    against: theta
+    range: [-200 deg, 200 deg]
+    at: b
+    caption: The effective potential energy for a slow and for a fast rotation.
+    cases:
+      - {R: 1 m, m: 1 kg, g: 9.8 m/s^2, omega: 2 rad/s}
+      - {omega: 4 rad/s}
+"""
 
 PENDULUM = """\
 title: A pendulum
@@ -87,7 +112,7 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
         ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against` with a letter, and `range`"),
         ([("    against: theta\n", "    against: phi\n")], "does not depend on `phi`"),
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
-        ([("    plot: effective_potential\n", "    plot: equilibria\n")], "is several results"),
+        ([("    plot: effective_potential\n", "    plot: stability\n")], "is several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),
     ],
 )
@@ -136,26 +161,26 @@ FAST = "      - {omega: 4 rad/s}\n"
     [
         (
             [("    cases:\n" + SLOW + FAST, "    values: {R: 1 m}\n"), (", <<cases>>", "")],
-            56,
+            23,
             "`values` has no effect on the plot `energy`",
             "",
         ),
         (
             [("    cases:\n" + SLOW + FAST, ""), (", <<cases>>", "")],
-            50,
+            17,
             "needs a number for `R`, `g`, `m`, `omega`",
             "under the `values` of the problem, or under the `cases` of the drawing",
         ),
-        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 58, "`theta` varies along the horizontal axis", ""),
-        ([(FAST, "      - {omega: 2 rad/s}\n")], 58, "case ii of the plot `energy` is the same as case i", ""),
-        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 58, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 4 rad/s, theta: 10 deg}\n")], 25, "`theta` varies along the horizontal axis", ""),
+        ([(FAST, "      - {omega: 2 rad/s}\n")], 25, "case ii of the plot `energy` is the same as case i", ""),
+        ([(FAST, "      - {omega: 2.0 rad/s}\n")], 25, "case ii of the plot `energy` is the same as case i", ""),
         (
-            [("    at: c\n", "    at: d\n")],
-            39,
-            "no plot in part c has `cases`",
-            "the plot `energy` is in part d: mention `<<cases>>` there, or move the plot with `at: c`",
+            [("    at: b\n", "    at: c\n")],
+            13,
+            "no plot in part b has `cases`",
+            "the plot `energy` is in part c: mention `<<cases>>` there, or move the plot with `at: b`",
         ),
-        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 57,
+        ([("symbols: {R: length,", "symbols: {R: length, M: mass,"), (SLOW, SLOW.replace("{R", "{M: 1 kg, R"))], 24,
          "`M` does not occur in the drawing `energy`, so its value is not used", ""),
     ],
 )  # fmt: skip

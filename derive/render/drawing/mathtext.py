@@ -24,14 +24,14 @@ class Span:
     bold: bool = False
 
 
-def runs(layout: Layout) -> tuple[Span, ...]:
-    """Return the runs of a label, from left to right."""
+def runs(layout: Layout, inline: bool = False) -> tuple[Span, ...]:
+    """Return the runs of a label, from left to right; with `inline`, fractions are a/b."""
     items = layout.items if isinstance(layout, Row) else (layout,)
     found: list[Span] = []
     pending: list[Layout] = []
     for item in items:
         if isinstance(item, Name) and item.style == "vector":
-            found += _plain(pending)
+            found += _plain(pending, inline)
             pending = []
             letter = replace(item, subscript="", style="scalar")
             found.append(Span(_mathtext(letter), bold=True))
@@ -40,15 +40,15 @@ def runs(layout: Layout) -> tuple[Span, ...]:
                 found.append(Span("${}" + below + "$"))
         else:
             pending.append(item)
-    return tuple(found + _plain(pending))
+    return tuple(found + _plain(pending, inline))
 
 
-def _plain(items: list[Layout]) -> list[Span]:
-    return [Span(_mathtext(Row(tuple(items))))] if items else []
+def _plain(items: list[Layout], inline: bool) -> list[Span]:
+    return [Span(_mathtext(Row(tuple(items)), inline))] if items else []
 
 
-def _mathtext(layout: Layout) -> str:
-    text = _BOLD.sub(r"\1", latex(layout))
+def _mathtext(layout: Layout, inline: bool = False) -> str:
+    text = _BOLD.sub(r"\1", latex(layout, inline=inline))
     text = _FUNCTION.sub(r"\1\\,\2", text)
     for unknown, known in _UNKNOWN.items():
         text = text.replace(unknown, known)

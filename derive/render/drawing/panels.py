@@ -9,11 +9,12 @@ from typing import Any, TypeAlias
 
 from derive.algebra.expressions import Amount
 from derive.course.given import Measured
+from derive.figures.branches import Bifurcations
 from derive.figures.extrema import MINIMUM
 from derive.figures.marks import Outline, Plot
 from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Axis, Curve, Curves, told_value
+from derive.page.plots import DEGREES, Axis, Curve, Curves, told_value, with_unit
 from derive.page.wording import Phrases
 from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
@@ -26,6 +27,8 @@ MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one 
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
 MARGIN = 0.08  # any other margin around a curve or a path, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
+LOWEST = 0.03  # part of the vertical axis of a diagram, at its lower end, without numbers: those below are close
+DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
 USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
 
@@ -48,6 +51,22 @@ class Trace:
 
 
 @dataclass(frozen=True)
+class Part:
+    """A part of a branch of a bifurcation diagram: its points, and whether the equilibrium is stable there."""
+
+    points: tuple[Spot, ...]
+    is_stable: bool
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A bifurcation: its places, and the value of the parameter."""
+
+    places: tuple[Spot, ...]
+    name: str
+
+
+@dataclass(frozen=True)
 class Panel:
     """The contents of one panel, before the panel has a size.
 
@@ -59,6 +78,8 @@ class Panel:
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
     outlines         the lines of surfaces in the plane of a path
+    branches         the branches of a bifurcation diagram, each with its name and its parts
+    changes          the bifurcations
     shape            height divided by width, if it is not that of the paper
     """
 
@@ -72,6 +93,8 @@ class Panel:
     shape: float | None = None
     lines: tuple[LevelLine, ...] = ()
     outlines: tuple[tuple[Spot, ...], ...] = ()
+    branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
+    changes: tuple[Mark, ...] = ()
 
     @property
     def has_several(self) -> bool:
@@ -85,6 +108,8 @@ class Panel:
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
         yield from (name for _, _, names in self.turns for name in names)
+        yield from (name for name, _ in self.branches)
+        yield from (change.name for change in self.changes)
         yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
 
 
@@ -102,6 +127,8 @@ def panel_of(
         return path_panel(plot, own, curves, notation, letter)
     if own[0].portrait:
         return portrait_panel(plot, own[0], own[0].portrait, curves, notation, letter)
+    if own[0].diagram:
+        return diagram_panel(plot, own[0], own[0].diagram, curves, notation, letter)
     return curve_panel(plot, own, curves, notation, words, letter, height)
 
 
@@ -219,6 +246,43 @@ def portrait_panel(
     )
 
 
+def diagram_panel(
+    plot: Plot, curve: Curve, found: Bifurcations, curves: Curves, notation: Notation, letter: str
+) -> Panel:
+    """Return the panel of a bifurcation diagram."""
+    assert plot.diagram is not None
+    across, up = curves.variable, curves.up
+    start, end = (x * across.per_unit for x in (curve.lower, curve.upper))
+    low, high = _with_margin(found.low * up.per_unit, found.high * up.per_unit)
+    powers = _power(start, end, across), _power(low, high, up)
+    ticks = _scaled_ticks(powers[1], low, high, MOST_UP + 2, up.in_degrees)
+    parts: dict[int, list[Part]] = {}
+    for line in found.lines:
+        parts.setdefault(line.of, []).append(Part(_scaled(line.points, across, up), line.is_stable))
+    names = (_mathtext(notation.layout(plot.diagram.branches[i].label)) for i in parts)
+    parameter = _mathtext(notation.layout(plot.named_across), inline=True)
+    return Panel(
+        traces=(),
+        values=(start, low, end, high),
+        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, across.in_degrees),
+        up=tuple(tick for tick in ticks if tick[0] > low + LOWEST * (high - low)),
+        names=(
+            _axis_name((plot.named_across,), across.unit, notation, powers[0], inline=True),
+            _axis_name((plot.label,), up.unit, notation, powers[1]),
+        ),
+        numbers=_title(letter, [curve], curves, notation),
+        branches=tuple((f"${name}$", tuple(own)) for name, own in zip(names, parts.values(), strict=True)),
+        changes=tuple(
+            Mark(
+                _scaled([(each.at, place) for place in each.places], across, up),
+                f"${parameter} = {_mathtext_of_value(with_unit(each.at * across.per_unit, across.unit))}$",
+            )
+            for each in found.changes
+        ),
+        shape=DIAGRAM,
+    )
+
+
 # --- ranges and ticks ------------------------------------------------------------------------------------------------
 
 
@@ -320,10 +384,10 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
     return tuple(dict.fromkeys(curve.label for curve in own))
 
 
-def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0) -> str:
+def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0, inline: bool = False) -> str:
     """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
     `v / (m/s)`, `U / (10^33 J)`."""
-    name = r",\,".join(_mathtext(notation.layout(symbol)) for symbol in symbols)
+    name = r",\,".join(_mathtext(notation.layout(symbol), inline) for symbol in symbols)
     parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
     is_product = len(parts) > 1 or any(sign in unit for sign in " /")
     divisor = r"\,".join(parts)
@@ -340,8 +404,8 @@ def _numbers(numbers: Sequence[Measured], notation: Notation) -> list[str]:
     return items
 
 
-def _mathtext(layout: Any) -> str:
-    return "".join(run.text.strip("$") for run in runs(layout))
+def _mathtext(layout: Any, inline: bool = False) -> str:
+    return "".join(run.text.strip("$") for run in runs(layout, inline))
 
 
 def _mathtext_of_value(told: str) -> str:

@@ -26,7 +26,7 @@ from derive.page.wording import Phrases
 from derive.render.drawing.canvas import LINE, QUIET, shapes_of
 from derive.render.drawing.curve_names import beside_curves, corner_for, dots_of, is_clear, is_inside, rows_of
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
-from derive.render.drawing.panels import Panel, Turn, panel_of
+from derive.render.drawing.panels import Mark, Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.notation import Notation
 
@@ -212,6 +212,8 @@ class Names:
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     """Return the names in a panel. If there are several curves, extrema are marked only where their values have room.
     The names of the curves are next to them, else in a legend in the panel, else in a legend above it."""
+    if panel.branches:
+        return _names_of_branches(panel, frame, writing)
     if not panel.has_several:
         return Names((), panel.turns, tuple(_names_with_room(panel, frame, writing)))
     lines = [dots_of(frame.spots(trace.points)) for trace in panel.traces]
@@ -238,6 +240,53 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     rows = rows_of([SAMPLE + PAD + wide + BETWEEN for wide, _ in sizes], right - left)
     top = above + PAD + size[1] / len(sizes) * len(rows)
     return Names(tuple(_legend(panel, writing, sizes, rows, (left, top))), marked, named, top)
+
+
+def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
+    """Return the names of the branches of a diagram, each next to its branch, and the values of the parameter at the
+    bifurcations. A name without a clear place is left out; the alternative text has all names and values."""
+    lines = [[dot for part in parts for dot in dots_of(frame.spots(part.points))] for _, parts in panel.branches]
+    below = frame.paper[1]
+    guides = [frame.spots(_guide(change, frame)) for change in panel.changes]
+    around = [dot for guide in guides for dot in dots_of(guide)]
+    shapes: list[Shape] = []
+    taken: list[Extent] = []
+    for change, guide in zip(panel.changes, guides, strict=True):
+        size = writing.size(change.name, SMALLEST)
+        every = [dot for line in (*lines, around) for dot in line]
+        tried = (*_around(guide[1], size), *_around((guide[0][0], below + TICK + size[1]), size))
+        box = next((box for box in tried if is_inside(box, frame.paper) and is_clear(box, every, taken)), None)
+        if box is not None:
+            taken.append(box)
+            shapes.append(writing.at(box[:2], change.name, SMALLEST, (0.0, 0.0)))
+    left, _, right, above = frame.paper
+    inner = left + TICK + PAD, below + TICK + PAD, right, above
+    for i, (name, _) in enumerate(panel.branches):
+        others = [dot for k, line in enumerate(lines) if k != i for dot in line]
+        found = beside_curves([lines[i]], [writing.size(name, SMALLEST)], inner, taken, [*others, *around])
+        if found is not None:
+            taken.append(found[0])
+            shapes.append(writing.at(found[0][:2], name, SMALLEST, (0.0, 0.0)))
+    return Names(tuple(shapes), (), ())
+
+
+def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
+    """Return the line from the horizontal axis to the highest place of a bifurcation."""
+    highest = max(change.places, key=lambda place: place[1])
+    return (highest[0], frame.values[1]), highest
+
+
+def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
+    """Yield boxes of a name around a point: on the right and on the left, above and below."""
+    (x, y), (wide, high) = spot, size
+    gap = PAD + DOT
+    for left, below in (
+        (x + gap, y + gap),
+        (x + gap, y - gap - high),
+        (x - gap - wide, y + gap),
+        (x - gap - wide, y - gap - high),
+    ):
+        yield left, below, left + wide, below + high
 
 
 def _size_of_legend(sizes: Sequence[tuple[float, float]]) -> tuple[float, float]:
@@ -336,6 +385,14 @@ def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
         yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
     for outline in panel.outlines:
         yield Stroke(frame.spots(outline), "edge")
+    for change in panel.changes:
+        yield Stroke(frame.spots(_guide(change, frame)), "hidden")
+    for _, parts in panel.branches:
+        for part in parts:
+            yield Stroke(frame.spots(part.points), "curve" if part.is_stable else "dashed_curve")
+    for change in panel.changes:
+        for place in change.places:
+            yield Bullet(frame.spot(place), DOT, "ink")
     for i, trace in enumerate(panel.traces):
         spots, pen = frame.spots(trace.points), PENS_OF_CURVES[i % len(PENS_OF_CURVES)]
         yield Stroke(spots, pen)

@@ -21,6 +21,7 @@ from derive.course.stock import Described
 from derive.course.yaml_tree import Word
 from derive.errors import DeriveError
 from derive.mechanics import Coordinate
+from derive.steps.derivation import returned_quantities
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
 from derive.stock.answering.plots import Plotted
@@ -123,8 +124,9 @@ class StockAnswers(Answers[W]):
         """Return the answers by the requested names, and draw the requested plots. A subclass also draws the described
         objects."""
         found = self.by_name.answers(asked)
+        shown = {quantity.key for quantity in returned_quantities(found)}
         for drawing in drawings:
-            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces)
+            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces, shown)
             if drawing.is_portrait:
                 plotted.draw_levels()
             elif drawing.is_of_engine and drawing.against and drawing.range:

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, Symbol
+from sympy import Expr, Integer, Symbol
 
 from derive.algebra.expressions import TIME, explicit, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension, unit_of_dimension, unit_of_kind
-from derive.course.expression import Declared
+from derive.course.expression import Declared, names_in
 from derive.course.given import read_end
 from derive.course.placement import Placement, Range
 from derive.course.stock import told_at
+from derive.course.yaml_tree import Formula as LetterOrRatio
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import did_you_mean, rejected
 from derive.figures import plot
-from derive.figures.marks import Across, Further, Levels, Outline, Plot, noted
+from derive.figures.marks import Across, Diagram, Further, Levels, Outline, Plot, letters_in, noted
 from derive.mechanics import Coordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import letter_of_momentum
 from derive.steps.step import Quantity
+from derive.stock.answering.diagrams import Equilibria, Parameter, equilibria_of, ratio
 from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
 
+ZERO = Integer(0)
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
 
@@ -47,16 +50,20 @@ class Plotted:
     named         a function that returns the steps that a name denotes
     coordinates   the coordinates of the system, by name
     surfaces      returns the surfaces, by name
+    shown         the keys of the steps that parts ask for
     """
 
     drawing: Placement
     named: Callable[[Word], tuple[Quantity, ...]]
     coordinates: Mapping[str, Coordinate]
     surfaces: Callable[[], Mapping[str, Any]] = dict
+    shown: Collection[str] = ()
 
-    def draw(self, against: Word, ends: Range) -> None:
+    def draw(self, against: LetterOrRatio, ends: Range) -> None:
         """Draw the plot against a coordinate, the time or a declared symbol."""
-        if self.drawing.curves:
+        if self.drawing.is_diagram:
+            self._diagram(self.drawing.plot[0], against, ends)
+        elif self.drawing.curves:
             self._curves(self.drawing.curves, against, ends)
         elif len(self.drawing.plot) == 1:
             self._curve(self.drawing.plot[0], against, ends)
@@ -147,6 +154,52 @@ class Plotted:
             rejected("wrong-argument", f"`{name}` moves, so a path cannot show it", name.place, "leave it out")
         corners = tuple(explicit(c) for corner in surface.corners for c in corner.components)
         return Outline(str(name), expr, plane, corners)
+
+    def _diagram(self, answer: Word, against: LetterOrRatio, ends: Range) -> None:
+        """Draw the equilibria of one coordinate against a letter or a ratio."""
+        with told_at(answer.place):
+            found = equilibria_of(answer, self.named(answer), self.named(Word.at("stability", answer.place)))
+            q = found.coordinate
+            moving = self.coordinates[q.name]
+            parameter = self._parameter(against, found)
+            branches = tuple(map(parameter.branch, found.branches))
+        (lower, upper), keys = self._range(ends, parameter.kind)
+        axis: list[Expr] = []
+        keys_up: tuple[str, ...] = ()
+        for name, both in self.drawing.over.items():
+            if name != q.name:
+                message = f"`{name}` is not on the vertical axis of the diagram"
+                rejected("wrong-argument", message, name.place, f"this axis shows `{q.name}`")
+            axis, keys_up = self._range(both, moving.kind)
+        energy = parameter.put_in(found.energy)
+        diagram = Diagram(branches, energy, q, parameter.name, tuple(axis), found.within)
+        used = (*found.keys(self.shown), *parameter.keys, *keys, *keys_up)
+        with told_at(answer.place):
+            noted(
+                Plot(self.drawing.key, q, ZERO, parameter.symbol, lower, upper, moving.kind, parameter.kind,
+                     tuple(dict.fromkeys(used)), diagram=diagram)
+            )  # fmt: skip
+
+    def _parameter(self, against: LetterOrRatio, found: Equilibria) -> Parameter:
+        """Return the parameter of a diagram, on which the equilibria or their stability must depend."""
+        known = {symbol.name: symbol for branch in found.branches for symbol in letters_in(branch.drawn)}
+        declared = self.drawing.letters.get(str(against))
+        if declared is not None:
+            parameter = Parameter(declared.symbol, declared.symbol, declared.kind)
+        else:
+            shown = self._shown(against.scalar)
+            if shown.unit:
+                message = f"`{against}` is in {shown.unit}, so it is not a ratio"
+                help_line = "the parameter of a diagram is a letter or a pure number, such as `omega/omega_c`"
+                rejected("wrong-argument", message, against.place, help_line)
+            names = [self._letters[name].symbol for name in names_in(against.scalar) if name in self._letters]
+            letters = [letter for letter in names if letter in shown.expr.free_symbols]
+            parameter = ratio(shown.label, shown.expr, letters, against, shown.keys)
+        replaced = parameter.letter[0] if parameter.letter else parameter.symbol
+        if replaced not in known.values():
+            message = f"neither the equilibria nor their stability depend on `{replaced.name}`, so there is no diagram"
+            rejected("wrong-argument", message, against.place, did_you_mean(against, known))
+        return parameter
 
     def draw_levels(self) -> None:
         """Draw a phase portrait: curves in the plane of a coordinate and its momentum."""
