@@ -226,7 +226,7 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether a displacement grows at the trial numbers at which the energy falls in some direction.
+    """Whether some displacement grows for all trial numbers for which the energy falls in some direction.
 
     This must be checked because gyroscopic forces could stabilise the equilibrium. If the mass points and forces are
     unknown, the result is true.
@@ -418,7 +418,7 @@ def curvature(facts: Judged, fact: Extreme) -> bool:
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
-    """Whether the result is the curvature at the equilibrium; it must vanish on the boundary, if there is one."""
+    """Whether the result is the curvature at the equilibrium, and vanishes on the boundary if there is one."""
     q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     if energy.has(Abs):
@@ -465,7 +465,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge whether the first nonzero derivative yields this shape, by differentiation; the step uses a series."""
+    """Judge by differentiation whether the first nonzero derivative yields this shape. The step itself uses a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]
