@@ -89,7 +89,7 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
 
 
 def squared_rate(facts: Judged, number: Expr) -> Expr:
-    """Return the squared angular frequency for a number that is this frequency or, if the answer is a period, the period."""
+    """Return the squared angular frequency. The number is this frequency or, if the answer is a period, the period."""
     return 4 * pi**2 / number**2 if facts.words["seen"] == "period" else number**2
 
 

@@ -1,4 +1,4 @@
-"""Observations about symbols: for example, that an answer does not depend on a symbol or vanishes for one of its values."""
+"""Observations about symbols, for example that an answer does not depend on a symbol or vanishes for some value."""
 
 from __future__ import annotations
 
@@ -464,8 +464,10 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at these two angles and not between
-    them. The entry must be sin(angle) cos(angle) times factors that have one sign for all angles in this range."""
+    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both and not between them.
+
+    The entry must be sin(angle) cos(angle) times factors that have one sign for all angles in this range.
+    """
     lies = range_of(angle)
     if lies is not None and not (lies.holds(Integer(0)) and lies.holds(pi / 2)):
         return False

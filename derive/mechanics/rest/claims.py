@@ -465,7 +465,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by differentiation whether the first nonzero derivative yields this shape. The step itself uses a series."""
+    """Judge by differentiation whether the first nonzero derivative yields this shape. The step uses a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

@@ -87,8 +87,8 @@ def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequen
 
 @lru_cache(maxsize=16)  # each equilibrium of a system needs the same function
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
-    """Return the given symbols, and m a - F along each coordinate as a function of coordinates, rates, accelerations and
-    these symbols."""
+    """Return the given symbols, and m a - F along each coordinate as a function of coordinates, rates, accelerations
+    and these symbols."""
     moving = matter.coordinates
     idle = {other.multiplier: Integer(0) for other in matter.others if other.multiplier is not None}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]

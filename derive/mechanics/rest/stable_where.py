@@ -1,4 +1,4 @@
-"""Find the values of a symbol for which an equilibrium is stable; a higher order decides whether the boundary is one."""
+"""Find the values of a symbol for which an equilibrium is stable; a higher order decides about the boundary."""
 
 from __future__ import annotations
 

@@ -368,7 +368,7 @@ def part_of_sign(sign: int) -> Predicate:
 
 
 def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
-    """Whether all limits of the Cartesian coordinates are constant; true if the sentence does not mention edges."""
+    """Whether the coordinates are Cartesian with constant limits; true if the sentence does not mention edges."""
     if "edged" not in facts.words:
         return True
     body = facts.subject.body
@@ -442,7 +442,7 @@ def of_their_kinds(facts: Judged, outcome: str) -> bool:
 
 
 def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
-    """Whether these inputs have the kinds that `_KINDS` lists, and the sentence names Euler's equations if and only if
+    """Whether the inputs have the kinds that `_KINDS` lists, and the sentence names Euler's equations if and only if
     the axes are principal axes."""
     along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
     return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)

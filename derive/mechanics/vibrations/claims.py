@@ -68,7 +68,7 @@ def free_motion(wanted: str) -> Predicate:
     """Judge the kind of a free motion.
 
     If a or c is zero, the other coefficients decide. Otherwise the signs of c/a and of the discriminant decide. If the
-    sign of the discriminant is unknown, the stated condition must be that for a discriminant of the sign of this kind.
+    sign of the discriminant is unknown, the sentence must state that the discriminant has the sign for this kind.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -139,7 +139,7 @@ def constants_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _coefficients(facts: Judged) -> tuple[Expr, ...]:
-    """Return the derivatives of the equation of motion by the acceleration, the rate and the coordinate."""
+    """Return the coefficients of the acceleration, the rate and the coordinate in the equation of motion."""
     q, equation = facts.inputs["q"], explicit(facts.inputs["equation"])
     solved_for = facts.quantities["equation"].symbol
     residual = equation.residual if isinstance(equation, Relation) else solved_for - equation
@@ -167,7 +167,7 @@ def is_frequency_with_damping(facts: Judged) -> bool:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """Whether the stated condition holds exactly if the discriminant has the wanted sign.
+    """Whether the stated condition holds if and only if the discriminant has the wanted sign.
 
     At the boundary of the condition the discriminant must vanish. On both sides of the boundary the sign of the
     discriminant is checked numerically.
@@ -479,9 +479,12 @@ def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
 
 
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence is right about the coupling: no equations are coupled, and perhaps all coordinates have this
-    frequency; or some of the equations are coupled. The equations that the sentence names must be those of the
-    coordinates with this frequency."""
+    """Whether the word for the coupling is right.
+
+    Some equations must be coupled for the word "others", and none for any other word. The word must be "all" if and
+    only if all coordinates have this frequency. The sentence must name the equations of the coordinates with this
+    frequency.
+    """
     coupling, own = facts.words["coupling"], list(facts.inputs["own"])
     every = range(Matrix(facts.inputs["mass"]).shape[0])
     if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
@@ -560,7 +563,7 @@ def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate
 
     displaced   whether an equilibrium value of some coordinate is not zero
     lossy       whether there is drag; None if this is not judged
-    driven      the right side of the equation is not zero
+    driven      whether the right side of the equation is not zero
     """
 
     def is_so(facts: Judged) -> bool:

@@ -64,7 +64,8 @@ def steady_amplitude(
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate of the equation of motion
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag: without damping, above resonance, it is pi).
+    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
+    damping).
     Errors: the equation is not linear with constant coefficients, or is not driven by a single force F cos(omega t)
     with positive F; an undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.

@@ -338,7 +338,7 @@ def linear_stability(
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
     block = [i for i in range(len(linear)) if not _oscillates_by_itself(together, i)] or range(len(linear))
     part = together.part(block)
-    # `normal_modes` uses the same equation, unless other coordinates are not coupled to each other
+    # `normal_modes` uses the same characteristic equation if all coordinates of `part` are coupled to each other
     is_shared = key == "stability" and not together.is_conservative and len(part.blocks) == 1
     system = part.of_kind(Gyroscopic)
     equations = TurningModes(linear, block, system, letter_of_frequency, "" if is_shared else f"{key}_")
@@ -514,7 +514,7 @@ def _place_among(i: int, number: int) -> str:
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:
-    """Return the discriminant of the square-free part of a polynomial; it vanishes where two roots coincide."""
+    """Return the discriminant of the square-free part of a polynomial, which vanishes where two roots coincide."""
     found = Poly(value, square).sqf_part()
     return discriminant(found.as_expr(), square)
 
