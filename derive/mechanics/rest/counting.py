@@ -69,7 +69,7 @@ def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:
-    """Whether the value is real, and is positive if q is positive; otherwise it is not an equilibrium."""
+    """Whether the value may be an equilibrium: it must be real and, for a positive coordinate q, positive."""
     return bool(value.is_real and (value > 0 or not q.is_positive))
 
 

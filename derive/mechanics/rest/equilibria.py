@@ -394,9 +394,10 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor of the force is zero, except the factors that contain q.
+    """Return the condition that no factor of the force without q is zero.
 
-    If such a factor is zero, every value of q is an equilibrium. The result is None if no such factor may be zero.
+    If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q may be
+    zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))

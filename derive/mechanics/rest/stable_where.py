@@ -39,7 +39,7 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which an equilibrium is stable, such as S > S_0; S = S_0 is included if it is known to be stable.
+    """Condition under which an equilibrium is stable: S > S_0, or S >= S_0 if S = S_0 is known to be stable.
 
     of   a result of `stability` that depends on a condition on the symbols
     Check: above and below the boundary, the condition holds if and only if the second derivative is positive.

@@ -121,7 +121,7 @@ def is_general_motion(facts: Judged) -> bool:
 
 
 def is_driving_term(changes: bool) -> Naming:
-    """Check that the term is f(t) in the equation of motion, and that it depends on the time, or does not."""
+    """Check that the term is f(t) in the equation of motion. It must depend on the time if and only if `changes`."""
 
     def is_so(facts: Judged, term: Any) -> bool:
         return bool(term == facts.inputs["driven"]) and term != 0 and depends_on_time(term) == changes
@@ -182,7 +182,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str | None:
-    """Return the word for a motion with a positive decay rate; None if the sign of the rate is unknown."""
+    """Return `word` for a positive decay rate, "runs_away" for a negative one, and None if the sign is unknown."""
     return word if has_sign(rate, 1) else "runs_away" if has_sign(rate, -1) else None
 
 

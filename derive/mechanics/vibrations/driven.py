@@ -59,7 +59,7 @@ def steady_amplitude(
 ) -> tuple[Quantity, Quantity]:
     """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
     tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
-    if the sign of c - a omega^2 is unknown, it is assumed to be positive.
+    if the sign of c - a omega^2 is unknown, c > a omega^2 is assumed.
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate of the equation of motion

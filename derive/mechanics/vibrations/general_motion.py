@@ -65,7 +65,7 @@ class LinearCoefficients:
 
 @dataclass(frozen=True)
 class Sought:
-    """A linear equation of second order whose motion is to be found.
+    """A linear equation whose motion is to be found.
 
     sort        the kind of motion, an outcome of `solution`
     condition   the condition for this kind, if the symbols leave it open
@@ -165,8 +165,8 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 
 
 def general_motion(sought: Sought) -> GeneralMotion | None:
-    """Return the general motion, with the steps that lead to this motion; None for an equation that is integrated
-    directly, because c = 0 or because it is of first order."""
+    """Return the general motion, with the steps that lead to this motion; None for an equation of first order or with
+    c = 0, whose motion is found without these steps."""
     if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or sought.linear.c == 0):
         return None
     known = _known(sought, f"{sought.key}_general", HARMONIC_MOTION, GENERAL_MOTION)
