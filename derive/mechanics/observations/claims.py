@@ -1,7 +1,7 @@
 """Predicates of observations.
 
-Most of them compare numbers at trial points. They compute the value of the answer and, where possible, of the first
-line of its derivation, which is not yet simplified.
+Most of them compare numbers at trial points. They evaluate the answer and, where possible, the first line of its
+derivation, which is not yet simplified.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ def closes_for(ratio: int) -> Naming:
 
 
 def rate_on_the_circle(facts: Judged, told: Any) -> bool:
-    """Whether the rate in symbols, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
+    """Whether the rate in symbols, such as l/(m r_0^2), is the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in q.named_values)
     letters = told.right if isinstance(told, Relation) else told
     return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
@@ -307,12 +307,13 @@ def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 def is_the_result(facts: Judged, told: Any) -> bool:
-    """Whether the stated value is the result, which the outcome judges, and agrees with the assumptions of the page."""
+    """Whether the stated value is the result and agrees with the assumptions of the page. The outcome judges the result
+    itself."""
     return bool(told == facts.result) and _is_allowed(told)
 
 
 def _is_allowed(place: Relation) -> bool:
-    """Whether the assumptions hold for the stated value of a symbol, at some numbers of the other symbols."""
+    """Whether the assumptions hold for the stated value of a symbol and for some numbers for the other symbols."""
     there = {place.left: explicit(place.right)}
     about = [each for each in map(explicit, map(with_numbers, assumed())) if each.has(place.left)]
     apart = [Relation(expand(each.residual.xreplace(there)), each.operator, 0) for each in about]
@@ -333,7 +334,7 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not change with the symbol, although some equation from which it was derived does."""
+    """Whether the answer does not depend on the symbol, although an equation that leads to the answer does."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -408,8 +409,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable if and only if the others do not exist, and the others are stable where they
-    exist.
+    """Whether an equilibrium is stable if and only if two others do not exist, and the two others are stable where
+    they exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
     than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the

@@ -167,7 +167,7 @@ UNAFFECTED = Rule(
 
 
 def unaffected(view: View) -> Observed:
-    """Mode whose frequency does not depend on a spring constant or a mass, and the reason in its shape."""
+    """Mode whose frequency does not depend on a spring constant or a mass, and the reason: the shape of the mode."""
     shapes = [q for q in view.answers if q.step.rule == "vibrations.mode_shape"]
     frequencies = [q for q in view.answers if q.step.rule == "vibrations.mode_frequency"]
     used = {s for q in frequencies for s in explicit(q.value).free_symbols}

@@ -76,7 +76,8 @@ def _letters(facts: Judged) -> set[Any]:
 def _is_there(facts: Judged, point: Point) -> bool:
     """Whether the equilibrium exists for these trial numbers.
 
-    The coordinates must be real, distances among them positive, and forces that contain a distance |u| must vanish.
+    All coordinates must be real, coordinates that are distances must be positive, and forces that contain a distance
+    |u| must vanish.
     """
     entries, distances = _entries(facts.result), {int(i) for i in facts.inputs["distances"]}
     signs = [sign_at(entry, point) for entry in entries]

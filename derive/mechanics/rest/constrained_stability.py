@@ -88,7 +88,7 @@ class Allowed:
         return ImmutableDenseMatrix([[tidied((a.T * second * b)[0]) for b in self.ways] for a in self.ways])
 
     def along_curves(self) -> MatrixBase:
-        """Return the same as `matrix`, from the energy along curves on the constraints, without multipliers."""
+        """Return the matrix `matrix` from the energy along curves on the constraints, without multipliers."""
         count = len(self.ways)
         squares = {}
         for i, j in product(range(count), repeat=2):

@@ -29,7 +29,7 @@ ISOTROPIC_WHERE = Rule(
 
 
 def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") -> Quantity:
-    """Condition under which all three principal moments are equal, I_1 = I_3, solved for one symbol, for example h = 2R.
+    """Condition under which all three principal moments are equal, I_1 = I_3, solved for a symbol, for example h = 2R.
 
     moments   principal moments (3), kg m^2, at least two of them equal
     letter    the symbol of a positive quantity, or the expression of this quantity in the script, such as 2b for h

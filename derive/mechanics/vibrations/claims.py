@@ -559,7 +559,7 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge three statements separately; each must be true if its argument is true, and false if it is false.
+    """Judge three statements. Each of them must be true if and only if its argument is true.
 
     displaced   whether an equilibrium value of some coordinate is not zero
     lossy       whether there is drag; None if this is not judged

@@ -144,7 +144,7 @@ def _of_cosines_and_sines(equations: TurningModes) -> Expr:
 
 GYROSCOPIC_FREQUENCY = Rule(
     "vibrations.gyroscopic_frequency",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23",
     outcomes={
         "oscillating": claims.frequency(1),
         "growing": claims.frequency(-1),
@@ -159,7 +159,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional.
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
     """
     system, letter = equations.system, equations.letter
     root, number = system.roots[n], equations.before + n + 1
