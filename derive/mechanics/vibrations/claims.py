@@ -797,7 +797,7 @@ def positive_where_real(facts: Judged, outcome: str) -> bool:
 
 
 def somewhere_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the second frequency is never smaller than the first, and greater for some values of the symbols."""
+    """Whether the second frequency is greater than the first for some trial numbers, and not known to be smaller."""
     return not_negative(facts, outcome) and 1 in signs_of(explicit(facts.result))
 
 

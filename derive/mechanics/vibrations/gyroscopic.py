@@ -66,7 +66,8 @@ class TurningModes(Equations[Gyroscopic]):
     def found(self) -> tuple[Quantity, ...]:
         """Return the frequencies, then the motion for each frequency for which the amplitudes are found.
 
-        No motion is returned for a zero or repeated frequency, or if an amplitude is neither real nor imaginary.
+        No motion is returned for a zero or repeated frequency, if the sign of omega is unknown, or if an amplitude is
+        neither real nor imaginary.
         """
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
