@@ -1,4 +1,4 @@
-"""The table of observations, in the order of their value, and the choice of those that a page prints."""
+"""The table of the kinds of observations, the most instructive first, and the choice of those that a page prints."""
 
 from __future__ import annotations
 

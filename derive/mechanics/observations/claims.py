@@ -1,7 +1,7 @@
 """Predicates of observations.
 
-Most of them compare numbers at trial points. They compute the value of the answer and, where possible, of the first
-line of its derivation, which is not yet simplified.
+Most of them compare numbers at trial points. They evaluate the answer and, where possible, the first line of its
+derivation, which is not yet simplified.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
 
 
 def squared_rate(facts: Judged, number: Expr) -> Expr:
-    """Return the square of an angular frequency, from this frequency or, if the answer is a period, from the period."""
+    """Return the squared angular frequency. The number is this frequency or, if the answer is a period, the period."""
     return 4 * pi**2 / number**2 if facts.words["seen"] == "period" else number**2
 
 
@@ -105,8 +105,8 @@ def swings_like_a_pendulum(facts: Judged) -> bool:
 
 
 def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
-    """Whether the stated length is the result and does not contain g, or is a symbol. If the length is a symbol,
-    another predicate checks its value, or the outcome checks the acceleration that is stated with it."""
+    """Whether the stated length is the result and does not contain g, or is a symbol whose value or acceleration is
+    stated, too. If it is such a symbol, another predicate checks the value, or the outcome checks the acceleration."""
     if told == facts.result:
         return facts.inputs["g"] not in told.free_symbols
     return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
@@ -175,7 +175,7 @@ def closes_for(ratio: int) -> Naming:
 
 
 def rate_on_the_circle(facts: Judged, told: Any) -> bool:
-    """Whether the rate in symbols, such as l/(m r_0^2), has the value of the orbital rate on the circular orbit."""
+    """Whether the rate in symbols, such as l/(m r_0^2), is the orbital rate on the circular orbit."""
     names = dict(entry for q in facts.quantities.values() for entry in q.named_values)
     letters = told.right if isinstance(told, Relation) else told
     return _agree(explicit(bound(letters, names)), facts.inputs["orbital_rate"])
@@ -207,7 +207,7 @@ def ratio_of_modes(rational: bool) -> Predicate:
 
 
 def _is_a_frequency(facts: Judged, number: Expr, point: Point) -> bool:
-    """Whether det(K - omega^2 M) = 0, which is false of a growth rate."""
+    """Whether det(K - omega^2 M) = 0. A growth rate does not satisfy this equation."""
     mass, stiffness = (matrix.applyfunc(lambda e: value_at(e, point)) for matrix in facts.inputs["system"])
     found, size = ((stiffness - sign * number**2 * mass).det() for sign in (1, -1))
     return bool(abs(found) <= abs(size) / 10**9)  # the determinant loses digits
@@ -307,12 +307,13 @@ def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 def is_the_result(facts: Judged, told: Any) -> bool:
-    """Whether the stated value is the result, which the outcome judges, and agrees with the assumptions of the page."""
+    """Whether the stated value is the result and agrees with the assumptions of the page. The outcome judges the result
+    itself."""
     return bool(told == facts.result) and _is_allowed(told)
 
 
 def _is_allowed(place: Relation) -> bool:
-    """Whether the assumptions hold for the stated value of a symbol, at some numbers of the other symbols."""
+    """Whether the assumptions hold for the stated value of a symbol and for some numbers for the other symbols."""
     there = {place.left: explicit(place.right)}
     about = [each for each in map(explicit, map(with_numbers, assumed())) if each.has(place.left)]
     apart = [Relation(expand(each.residual.xreplace(there)), each.operator, 0) for each in about]
@@ -333,7 +334,7 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not change with the symbol, although some equation from which it was derived does."""
+    """Whether the answer does not depend on the symbol, although an equation that leads to the answer does."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -408,8 +409,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable if and only if the others do not exist, and the others are stable where they
-    exist.
+    """Whether an equilibrium is stable if and only if two others do not exist, and the two others are stable where
+    they exist.
 
     Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
     than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
@@ -432,7 +433,7 @@ def branches_off(facts: Judged) -> bool:
 
 
 def is_this_multiple(facts: Judged) -> bool:
-    """Whether the first answer is this multiple of the second one, a number other than 1 and -1."""
+    """Whether the first answer is this multiple of the second one: a rational number greater than 1 or less than -1."""
     of, other = (explicit(facts.quantities[role].value) for role in ("of", "other"))
     ratio = facts.result
     agrees = everywhere(numbers([of, other]), lambda p: same(value_at(of, p), ratio * value_at(other, p)))
@@ -453,10 +454,10 @@ def are_in_order(facts: Judged) -> bool:
 
 
 def first_to_arrive(facts: Judged) -> bool:
-    """Whether the accelerations are in order and constant, so that of two bodies released together from rest the one
-    with the greater acceleration arrives first.
+    """Whether the accelerations are constant and in falling order.
 
-    The cases differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
+    Of two bodies that are released together from rest, the one with the greater acceleration then arrives first. The
+    cases must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
     """
     cases = [q for role, q in facts.quantities.items() if role.startswith("case_")]
     told = [[value for role, value in q.step.roles if role.startswith("value_")] for q in cases]
@@ -508,7 +509,8 @@ def slides_freely(facts: Judged) -> bool:
 def keeps_the_spring(facts: Judged) -> bool:
     """Whether the energy of the springs with this constant does not change to second order along the mode.
 
-    The stiffness that belongs to the constant is the difference of the stiffness for two values of the constant.
+    The stiffness matrix of these springs is the difference between the stiffness matrices for two values of the
+    constant.
     """
     letter, shape = facts.inputs["letter"], explicit(facts.quantities["shape"].value)
     stiffness = facts.inputs["stiffness"]
@@ -644,7 +646,7 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
     )
 
 
-# --- places where something holds for every position ---
+# --- statements about all positions or all angles ---
 
 
 def holds_everywhere(facts: Judged) -> bool:
@@ -677,7 +679,8 @@ def has_one_sign(facts: Judged) -> bool:
 
 
 def balances(facts: Judged) -> bool:
-    """Whether the torque vanishes at 0 and 90 degrees and at no angle between them, and both are in the declared range.
+    """Whether the torque vanishes at 0 and 90 degrees and at no angle between them, and both angles are in the
+    declared range.
 
     With u = tan(angle/2), each component is a rational function of u; Sturm's theorem counts its zeros for 0 < u < 1.
     """
@@ -709,6 +712,9 @@ def balances(facts: Judged) -> bool:
 def is_an_angle(facts: Judged, told: Relation) -> bool:
     """Whether the statement gives a number for the angle; the outcome judges this number."""
     return told.left == facts.inputs["angle"] and bool(told.right.is_number)
+
+
+# --- sums, products, percentages and limits ---
 
 
 def have_this_sum_and_product(facts: Judged) -> bool:

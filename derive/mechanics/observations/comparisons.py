@@ -116,7 +116,7 @@ def _in_order(falling: Sequence[Quantity], kind: str) -> Quantity:
 
 
 def _case(q: Quantity) -> Any:
-    """Return the value of a symbol in a special case: I = 2 M R^2/5."""
+    """Return the value of a symbol in a special case, such as I = 2 M R^2/5."""
     return next(told for role, told in q.step.roles if role.startswith("value_"))
 
 
@@ -167,7 +167,7 @@ UNAFFECTED = Rule(
 
 
 def unaffected(view: View) -> Observed:
-    """Mode whose frequency does not depend on a spring constant or a mass, and the reason in its shape."""
+    """Mode whose frequency does not depend on a spring constant or a mass, and the reason: the shape of the mode."""
     shapes = [q for q in view.answers if q.step.rule == "vibrations.mode_shape"]
     frequencies = [q for q in view.answers if q.step.rule == "vibrations.mode_frequency"]
     used = {s for q in frequencies for s in explicit(q.value).free_symbols}
@@ -189,8 +189,11 @@ def linear_equations(of: Quantity) -> Linear | None:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return the outcome, "spring" for a spring constant or "mass" for the mass of a single coordinate, and the matrix
-    that contains the symbol; otherwise an empty outcome."""
+    """Return the outcome and its data.
+
+    The outcome is "spring" for a spring constant in the stiffness matrix, "mass" for a mass that is in one diagonal
+    entry of the mass matrix and not in the stiffness matrix, and "" for any other symbol.
+    """
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}

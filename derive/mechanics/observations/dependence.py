@@ -1,4 +1,4 @@
-"""Observations about symbols, such as what an answer does not depend on, where it vanishes or where it diverges."""
+"""Observations about symbols, for example that an answer does not depend on a symbol or vanishes for some value."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ from derive.steps.step import Quantity, is_zero
 INVERSE = {cos: acos, sin: asin, tan: atan}
 SOLVED = ("answers.roots", "answers.put_in", "answers.solved_for")
 FREQUENCIES = ("vibrations.frequency", "vibrations.period")
-SIZES = ("mass", "length", "acceleration", "spring constant")  # symbols of a system, not of its motion
-CHOSEN = ("angle", "time", "speed", "angular speed")  # symbols of a motion, which may be results of other parts
+SIZES = ("mass", "length", "acceleration", "spring constant")  # kinds of symbols that describe a system, not its motion
+CHOSEN = ("angle", "time", "speed", "angular speed")  # kinds of symbols that describe a motion
 DEGREE = pi / 180
 
 INDEPENDENT = Rule(
@@ -85,8 +85,8 @@ def independent(view: View) -> Observed:
 def _may_be_free(view: View, of: Quantity) -> bool:
     """Whether it is worth saying on which symbols an answer does not depend.
 
-    A special case has no other values of the symbols that were replaced. An answer with an angular momentum may depend
-    on every symbol that is in this momentum.
+    An answer for a special case holds only for the substituted values. An answer that contains an angular momentum may
+    depend on every symbol that is in the expression for this momentum.
     """
     kept = {*view.of_kind("angular momentum")} & explicit(of.value).free_symbols
     if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or kept:
@@ -464,8 +464,10 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle. The entry must be sin(angle) cos(angle) times factors
-    that have one sign for all angles in this range."""
+    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both and not between them.
+
+    The entry must be sin(angle) cos(angle) times factors that have one sign for all angles in this range.
+    """
     lies = range_of(angle)
     if lies is not None and not (lies.holds(Integer(0)) and lies.holds(pi / 2)):
         return False

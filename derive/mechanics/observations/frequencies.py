@@ -80,7 +80,8 @@ def _squared(of: Quantity) -> Expr:
 
 
 def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str, Any], list[Quantity]] | None:
-    """Return the outcome, the data of the sentence, and the step that introduces the symbol of the length.
+    """Return the outcome, the data of the sentence, and a list of the steps that the sentence cites; None if there is
+    nothing to state. Only a step that introduces the symbol of the length is cited.
 
     A length that is only a given symbol is not worth a sentence: the system may be a simple pendulum.
     """
@@ -140,7 +141,7 @@ ORBIT = Rule(
 
 
 def orbit(view: View) -> Observed:
-    """Ratio of the radial frequency and the orbital rate: a nearly circular orbit closes if this ratio is rational."""
+    """Ratio of the radial frequency to the orbital rate: a nearly circular orbit closes if this ratio is rational."""
     for of in view.values("angular speed"):
         if of.step.rule in OSCILLATES and _seen(of) and _has_polar_coordinates(view):
             for there, told, step in _orbital_rates(view):
@@ -334,8 +335,11 @@ def exact(view: View) -> Observed:
 
 
 def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
-    """Return the Lagrangian of a page whose only coordinate oscillates about an equilibrium, and its parts; None if the
-    page has no such Lagrangian of the form mu(q) q_dot^2/2 - U(q)."""
+    """Return the step of the Lagrangian and the parts of this Lagrangian.
+
+    The Lagrangian must have the form mu(q) q_dot^2/2 - U(q), and its only coordinate must oscillate about an
+    equilibrium. If the page has no such Lagrangian, the result is None.
+    """
     linear = next((fact for q in view.shown if (fact := q.fact(Linear)) is not None), None)
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
     if linear is None or lagrangian is None or len(linear.place) != 1 or len(lagrangian.coordinates) != 1:

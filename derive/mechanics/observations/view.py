@@ -64,7 +64,7 @@ class View:
 def observation(rule: Rule, law: Law, inputs: Mapping[str, Any], **more: Any) -> Quantity:
     """Return the step of an observation: it has no symbol, and its inputs may belong to different bodies or systems.
 
-    more   further arguments of `establish`: its key, routes, outcome and phrase data
+    more   further arguments of `establish`, such as the key, the routes, the outcome and the phrase data
     """
     lines = Lines(put_in=None, result=False, arranged=explicit)
     return establish(rule, None, law, inputs, lines=lines, scope=Scope(differ=EVERYTHING), **more)

@@ -76,7 +76,8 @@ def _letters(facts: Judged) -> set[Any]:
 def _is_there(facts: Judged, point: Point) -> bool:
     """Whether the equilibrium exists for these trial numbers.
 
-    The coordinates must be real, distances among them positive, and forces that contain a distance |u| must vanish.
+    All coordinates must be real, coordinates that are distances must be positive, and forces that contain a distance
+    |u| must vanish.
     """
     entries, distances = _entries(facts.result), {int(i) for i in facts.inputs["distances"]}
     signs = [sign_at(entry, point) for entry in entries]
@@ -226,7 +227,7 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether a displacement grows at the trial numbers at which the energy falls in some direction.
+    """Whether some displacement grows for all trial numbers for which the energy falls in some direction.
 
     This must be checked because gyroscopic forces could stabilise the equilibrium. If the mass points and forces are
     unknown, the result is true.
@@ -381,7 +382,7 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies; values have 60 digits
+DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies; a value has 60 digits or more
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:
@@ -418,7 +419,7 @@ def curvature(facts: Judged, fact: Extreme) -> bool:
 
 
 def shape(facts: Judged, fact: Shape) -> bool:
-    """Whether the result is the curvature at the equilibrium; it must vanish on the boundary, if there is one."""
+    """Whether the result is the curvature at the equilibrium, and vanishes on the boundary if there is one."""
     q, result, energy = fact.coordinate, explicit(facts.result), explicit(fact.potential.value)
     on_border = fact.border is None or is_zero(result.subs(fact.border.left, fact.border.right))
     if energy.has(Abs):
@@ -465,7 +466,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge whether the first nonzero derivative yields this shape, by differentiation; the step uses a series."""
+    """Judge by differentiation whether the first nonzero derivative yields this shape. The step uses a series."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

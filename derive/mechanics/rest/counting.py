@@ -1,4 +1,4 @@
-"""Count the zeros of a force numerically: a force must have as many zeros as equilibria were found."""
+"""Count the zeros of a force numerically: their number must equal the number of equilibria that were found."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # number of parts of a range; number of sets of numbers for the symbols
-HALVINGS, SHRUNK = 40, 1e-6  # halvings; at a zero the force must then be below this fraction of its first value
+HALVINGS, SHRUNK = (
+    40,
+    1e-6,
+)  # number of halvings; at a zero the force must then be below this fraction of its first value
 LITTLE = 1e-9
 
 
@@ -66,7 +69,7 @@ def _holds(exists: Relation | None, point: Mapping[Symbol, Expr]) -> bool:
 
 
 def _is_place(value: Expr, q: Symbol) -> bool:
-    """Whether the value is real, and is positive if q is positive; otherwise it is not an equilibrium."""
+    """Whether the value may be an equilibrium: it must be real and, for a positive coordinate q, positive."""
     return bool(value.is_real and (value > 0 or not q.is_positive))
 
 
@@ -74,8 +77,8 @@ def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
     """Return the values of the coordinate at which the force is evaluated.
 
     If the force is periodic in a full turn, the grid covers one turn. The ends of the grid are chosen so that the
-    force is unlikely to vanish there. For any other force, such as that of a twisted wire, the grid covers the whole
-    axis and is finest at the scale of the expected zeros.
+    force is unlikely to vanish there. For any other force, such as the torque of a twisted wire, the grid
+    covers all values, or all positive values of a positive coordinate. It is finest at the scale of the expected zeros.
     """
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]

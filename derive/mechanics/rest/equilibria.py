@@ -149,8 +149,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
-    Angles are between -pi and pi. Coordinates are positive if they are declared so, and within their ranges. A
-    coordinate that no force depends on may have any value.
+    Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
+    stays in this range. A coordinate that no force depends on may have any value.
     Keys: for the conditions, `condition_` and the name of the coordinate; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force
@@ -346,8 +346,8 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """If U contains conserved momenta and there is one coordinate, return this coordinate with the key `steady`;
-    otherwise return an empty mapping."""
+    """Return the only coordinate with the key `steady` if U contains conserved momenta. If U does not, or if there are
+    several coordinates, return an empty mapping."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -368,8 +368,8 @@ def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Rout
 
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
-    """Return dU/dq from the virtual work of the forces with the potential energy U, or from the first order of U in a
-    displacement."""
+    """Return dU/dq from the virtual work of the forces and of the inertia of mass points at rest. If mass points and
+    forces are unknown, return dU/dq from the first order of U in a displacement."""
     matter = matter_behind(potential)
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
@@ -394,9 +394,10 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that the factors of the force that do not contain q are not zero.
+    """Return the condition that no factor of the force without q is zero.
 
-    If such a factor is zero, every value of q is an equilibrium. The result is None if no such factor may be zero.
+    If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q may be
+    zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))

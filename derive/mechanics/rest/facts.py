@@ -47,7 +47,8 @@ class Shape(Fact):
     """The curvature of a potential energy at an equilibrium.
 
     place    the equilibrium value of the coordinate
-    border   a symbol and the value for which the curvature vanishes; None if there is no such boundary
+    border   a symbol and its value on the boundary of stability, where the curvature vanishes; None if there is no
+             boundary, or if no higher order decides there
     """
 
     missing = "is not the curvature at an equilibrium"
@@ -63,9 +64,9 @@ class StableWhere(Fact):
 
     energy         the potential energy, J
     place          the equilibrium value of the coordinate
-    border         a symbol and its value on the boundary of the condition
-    stable_there   whether the equilibrium is stable on the boundary, by the higher order that decides there; None if no
-                   order decides
+    border         a symbol and its value on the boundary of the condition; None if no order decides there
+    stable_there   whether the equilibrium is stable on the boundary, where a higher order decides; None if no order
+                   decides there
     """
 
     missing = "is not a result of `stability` that depends on a condition"

@@ -1,7 +1,7 @@
 """Decide numerically whether displacements from an equilibrium grow, from the exponents of the linearised motion.
 
-For small motions the virtual work of m a - F of the mass points along each coordinate is linear in displacements, rates
-and accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+For small motions, the virtual work of m a - F along each coordinate is linear in displacements, rates and
+accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
@@ -24,7 +24,7 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-SMALL = 10  # a growth rate or a gyroscopic force below 10^-SMALL of the largest value counts as zero
+SMALL = 10  # a growth rate, a gyroscopic force or an eigenvalue of M below 10^-SMALL of the largest counts as zero
 FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain
@@ -87,7 +87,8 @@ def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequen
 
 @lru_cache(maxsize=16)  # each equilibrium of a system needs the same function
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
-    """Return m a - F along each coordinate as a function of coordinates, rates, accelerations and other symbols."""
+    """Return the given symbols, and m a - F along each coordinate as a function of coordinates, rates, accelerations
+    and these symbols."""
     moving = matter.coordinates
     idle = {other.multiplier: Integer(0) for other in matter.others if other.multiplier is not None}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]

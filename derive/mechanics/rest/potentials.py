@@ -170,7 +170,8 @@ def leading_order(
     at         the value q_0 of the coordinate; 0 by default
     Check: among the first n derivatives of U at q_0, only the n-th does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
-    on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound, flat_at_bound.
+    with its value on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound,
+    flat_at_bound.
     Errors: U' does not vanish at q_0; the boundary belongs to another potential energy.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """

@@ -90,9 +90,9 @@ def stability(
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order up to the eighth
     decides); for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second
     order the energy is constant in some direction, and falls in none).
-    Errors: a force remains at the equilibrium; coordinates are missing; the energy of several coordinates has no
-    minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a magnetic
-    field.
+    Errors: a force remains at the equilibrium; coordinates are missing; the kinetic energy may be negative; the energy
+    has no minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a
+    magnetic field.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
     """
     require_kind("stability", "of", of, "energy")
@@ -258,7 +258,7 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 def _decided_where(
     place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
 ) -> list[Fact]:
-    """Return the fact from which `stable_where` derives a condition; empty if the stability has no condition."""
+    """Return a list with the fact from which `stable_where` derives a condition; empty if there is no condition."""
     if condition is None:
         return []
     there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
@@ -268,8 +268,8 @@ def _decided_where(
 def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relation | None, Relation | None]:
     """Return the outcome, the condition for stability, and the value of a symbol on the boundary of this condition.
 
-    The condition is None if the stability does not depend on one. The value is None unless a higher order decides on
-    the boundary.
+    The condition is None if the stability does not depend on a condition. The value is None unless a higher order
+    decides on the boundary.
     """
     if is_zero(value):
         return _by_higher_order(place, place.energy), None, None

@@ -1,4 +1,4 @@
-"""Find the values of a symbol for which an equilibrium is stable; on the boundary a higher order decides."""
+"""Find the values of a symbol for which an equilibrium is stable; a higher order decides about the boundary."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which an equilibrium is stable: S >= S_0, or S > S_0 if S_0 is not known to be stable.
+    """Condition under which an equilibrium is stable: S > S_0, or S >= S_0 if S = S_0 is known to be stable.
 
     of   a result of `stability` that depends on a condition on the symbols
     Check: above and below the boundary, the condition holds if and only if the second derivative is positive.

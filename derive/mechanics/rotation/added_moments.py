@@ -46,7 +46,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     point   a point on the axis
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
     of the part. The distance between the two axes is d. The result is None if some part has no body axis parallel to
-    `axis`. It is also None if the parallel axis of a composite part has another name.
+    `axis`. The result is also None if the parallel axis of a composite part has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
     Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
@@ -118,7 +118,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
 
 OWN_MOMENT = Rule(
     "rotation.own_moment",
-    source="the same as for `own_moment`",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3",
     outcomes={"none": claims.on_its_axis, "flat": claims.is_flat},
     evidence={"particles": ROUTE, "integration": ROUTE},
     statements=[claims.names_the_axis_of_the_whole],

@@ -104,8 +104,8 @@ class Composite(Body):
     points   names for positions in the whole body, such as a pivot
     Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
     Errors: there is no part; the names of two parts have the same first word; the parts cannot form a body, for example
-    because two of them overlap; the mass of the whole body is not positive; one mass is given for parts of which some
-    are volumes and others areas or lengths, or for particles.
+    because two of them overlap; the mass of the whole body is not positive; one mass is given, but the parts are not
+    all volumes, all areas or all lengths.
     """
 
     id: ClassVar[str] = "body_of_several_parts"

@@ -135,7 +135,7 @@ def characteristic_equation(facts: Judged, equation: Any) -> bool:
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
     """Judge whether the number of distinct moments is `different`.
 
-    If `alone` is given, also judge whether the moment of this axis differs from both other moments, as `alone` states.
+    If `alone` is given, the moment of this axis must differ from both other moments if and only if `alone` is true.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -155,8 +155,8 @@ def moments_compared(wanted: str) -> Predicate:
     """Judge how the moments compare.
 
     With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
-    the symbols: every difference that is not identically zero has a fixed sign, and there is at least one.
-    With any other `wanted`, the result must state the value of a symbol for which all moments are equal.
+    the symbols: every difference that is not identically zero has a fixed sign, and there is at least one such
+    difference. With any other `wanted`, the result must state the value of a symbol for which all moments are equal.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -368,7 +368,7 @@ def part_of_sign(sign: int) -> Predicate:
 
 
 def edges_along_the_axes(facts: Judged, outcome: str) -> bool:
-    """Whether all limits of the Cartesian coordinates are constant; true if the sentence does not mention edges."""
+    """Whether the coordinates are Cartesian with constant limits; true if the sentence does not mention edges."""
     if "edged" not in facts.words:
         return True
     body = facts.subject.body
@@ -442,7 +442,7 @@ def of_their_kinds(facts: Judged, outcome: str) -> bool:
 
 
 def of_their_kinds_by_euler(facts: Judged, outcome: str) -> bool:
-    """Whether these inputs have the kinds that `_KINDS` lists, and the sentence names Euler's equations if and only if
+    """Whether the inputs have the kinds that `_KINDS` lists, and the sentence names Euler's equations if and only if
     the axes are principal axes."""
     along_principal_axes = is_zero(facts.inputs["inertia"] - Matrix.diag(*facts.inputs["inertia"].diagonal()))
     return of_their_kinds(facts, outcome) and along_principal_axes == ("euler" in facts.words)
@@ -474,8 +474,8 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
-    to the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis; it
-    may mention a position map only if a position map defines the body."""
+    to the axis of the part. If the step is not about a part of a whole, the sentence must not name such an axis.
+    The sentence may mention a position map only if a position map defines the body."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles
@@ -486,7 +486,7 @@ def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
 
 
 def component_of_its_letter(facts: Judged, outcome: str) -> bool:
-    """Whether the result is the component of the vector along the axis that the index of the symbol names: v_x."""
+    """Whether the result is the component of the vector along the axis in the index of the symbol, as in v_x."""
     index = facts.symbol.name.rpartition("_")[2]
     return index in AXES and is_zero(explicit(facts.inputs["vector"])[AXES.index(index)] - explicit(facts.result))
 

@@ -232,7 +232,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
-    Check: a cyclic permutation of the axes, which is a rotation, makes the component the first component.
+    Check: a cyclic permutation of the axes, which is a rotation, makes this component the first one.
     Outcomes: generic, zero.
     Errors: `of` is not a vector; there is no such axis.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.
@@ -242,7 +242,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     i = AXES.index(axis)
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
-    only_renames = letter == component_names(of.symbol.name)[i]  # omega_z is another name of the component of omega
+    only_renames = letter == component_names(of.symbol.name)[i]  # the symbol omega_z itself names the component
     return establish(
         VECTOR_COMPONENT,
         letter,

@@ -1,4 +1,4 @@
-"""Check of a derived moment of inertia that defines a body: the mass, the point and the axis must be correct."""
+"""Check a derived moment of inertia that is given for a body: the mass, the point and the axis must be correct."""
 
 from __future__ import annotations
 

@@ -79,8 +79,9 @@ def inertia_tensor(
     point is on this axis, steps derive only the two distinct entries that symmetry leaves. If three mirror planes
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
     parts are added instead.
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, whose centre of
-    mass is that of the body. For a body defined by a position map, the sum is numerical, over the cells of the body.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, which have the
+    same centre of mass as the body. For a body defined by a position map, the sum is numerical, over the cells of the
+    body.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; round
     or round_isotropic, if steps derive only two entries.
     Errors: the body has no such point or no such coordinates.
@@ -230,7 +231,7 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
 
     For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
     each axis, the plane through the point and normal to this axis is a mirror plane of the body. This is tested only
-    for a body with a single region, by its limits.
+    for a body with a single region, by the limits of this region.
     """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
@@ -357,8 +358,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis. Both
-    must be equal. For a product of inertia, return an empty mapping."""
+    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis.
+    These two must be equal. For a product of inertia, return an empty mapping."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)

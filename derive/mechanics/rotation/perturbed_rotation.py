@@ -96,7 +96,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
     whole = Add(*(factor * letter for factor, letter in factors if factor != 0), evaluate=False)
 
     def by_opposite_disturbances() -> Relation:
-        """Products of two small quantities are equal for opposite perturbations, so they cancel in the difference."""
+        """Return half the difference for opposite perturbations: products of two small quantities cancel."""
         exact = explicit(disturbed.by_particles())[k]
         ahead, back = (
             exact.subs(
@@ -376,7 +376,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
     if is_zero(about - across):
         raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))
-    coupling = tidied(-diff(lefts[1], x, z))  # the factor of omega_z omega_x in the equation for omega_y
+    coupling = tidied(-diff(lefts[1], x, z))  # I_z - I_x, as in I_y omega_y_dot - (I_z - I_x) omega_z omega_x = 0
 
     def rate_of_angle() -> Expr:
         torque = explicit(of.by_particles())

@@ -399,7 +399,7 @@ def _null_vector(tensor: Any, moment: Expr) -> Any:
         v = ImmutableDenseMatrix(rows[i, :].cross(rows[j, :]).T.applyfunc(tidied))
         if not is_zero(v):
             return _unit(v)
-    raise AssertionError("a single root leaves two independent rows")
+    raise AssertionError("for a single root I_k, two rows of I - I_k 1 are independent")
 
 
 def _unit(v: Any) -> Any:

@@ -89,8 +89,8 @@ def turned_tensor(
     inertia   tensor I (3, 3), kg m^2
     axis      "x", "y" or "z": the axis about which the axes are rotated
     angle     the angle of this right-handed rotation
-    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with r along the rotated axes; the trace is
-    invariant.
+    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes; the
+    trace is invariant.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
@@ -196,7 +196,7 @@ TENSOR_ENTRY = Rule(
 
 
 def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: str | None = None) -> Quantity:
-    """One entry of a tensor: a moment of inertia such as I_zz, or a product such as I_xy, with its minus sign.
+    """One entry of a tensor: a moment such as I_zz, or a product of inertia such as I_xy = -(integral of x y dm).
 
     inertia   tensor (3, 3), kg m^2
     entry     the indices of the entry, "xx", "xy", ...

@@ -47,8 +47,8 @@ class About:
     steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   values in the steady motion: of the symbol of a cyclic momentum or, if a value of the momentum is given,
-              of a symbol in this value
+    momenta   the symbol of each cyclic momentum with its value in the steady motion; if a value of the momentum is
+              given, a symbol in this given value replaces the symbol of the momentum
     letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
     instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """

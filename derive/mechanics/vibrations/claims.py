@@ -68,7 +68,7 @@ def free_motion(wanted: str) -> Predicate:
     """Judge the kind of a free motion.
 
     If a or c is zero, the other coefficients decide. Otherwise the signs of c/a and of the discriminant decide. If the
-    sign of the discriminant is unknown, the stated condition must be that for a discriminant of the sign of this kind.
+    sign of the discriminant is unknown, the sentence must state that the discriminant has the sign for this kind.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -121,7 +121,7 @@ def is_general_motion(facts: Judged) -> bool:
 
 
 def is_driving_term(changes: bool) -> Naming:
-    """Check that the term is f(t) in the equation of motion, and that it depends on the time, or does not."""
+    """Check that the term is f(t) in the equation of motion. It must depend on the time if and only if `changes`."""
 
     def is_so(facts: Judged, term: Any) -> bool:
         return bool(term == facts.inputs["driven"]) and term != 0 and depends_on_time(term) == changes
@@ -139,7 +139,7 @@ def constants_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _coefficients(facts: Judged) -> tuple[Expr, ...]:
-    """Return the derivatives of the equation of motion by the acceleration, the rate and the coordinate."""
+    """Return the coefficients of the acceleration, the rate and the coordinate in the equation of motion."""
     q, equation = facts.inputs["q"], explicit(facts.inputs["equation"])
     solved_for = facts.quantities["equation"].symbol
     residual = equation.residual if isinstance(equation, Relation) else solved_for - equation
@@ -167,7 +167,7 @@ def is_frequency_with_damping(facts: Judged) -> bool:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """Whether the stated condition holds exactly if the discriminant has the wanted sign.
+    """Whether the stated condition holds if and only if the discriminant has the wanted sign.
 
     At the boundary of the condition the discriminant must vanish. On both sides of the boundary the sign of the
     discriminant is checked numerically.
@@ -182,7 +182,7 @@ def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
 
 
 def _unless_it_grows(word: str, rate: Expr) -> str | None:
-    """Return the word for a motion with a positive decay rate; None if the sign of the rate is unknown."""
+    """Return `word` for a positive decay rate, "runs_away" for a negative one, and None if the sign is unknown."""
     return word if has_sign(rate, 1) else "runs_away" if has_sign(rate, -1) else None
 
 
@@ -479,9 +479,12 @@ def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
 
 
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence is right about the coupling: no equations are coupled, and perhaps all coordinates have this
-    frequency; or some of the equations are coupled. The equations that the sentence names must be those of the
-    coordinates with this frequency."""
+    """Whether the word for the coupling is right.
+
+    Some equations must be coupled for the word "others", and none for any other word. The word must be "all" if and
+    only if all coordinates have this frequency. The sentence must name the equations of the coordinates with this
+    frequency.
+    """
     coupling, own = facts.words["coupling"], list(facts.inputs["own"])
     every = range(Matrix(facts.inputs["mass"]).shape[0])
     if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
@@ -556,11 +559,11 @@ def _displaced(facts: Judged) -> bool:
 
 
 def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate:
-    """Judge three statements separately; each must be true if its argument is true, and false if it is false.
+    """Judge three statements. Each of them must be true if and only if its argument is true.
 
     displaced   whether an equilibrium value of some coordinate is not zero
     lossy       whether there is drag; None if this is not judged
-    driven      the right side of the equation is not zero
+    driven      whether the right side of the equation is not zero
     """
 
     def is_so(facts: Judged) -> bool:
@@ -794,7 +797,7 @@ def positive_where_real(facts: Judged, outcome: str) -> bool:
 
 
 def somewhere_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the second frequency is never smaller than the first, and greater for some values of the symbols."""
+    """Whether the second frequency is greater than the first for some trial numbers, and not known to be smaller."""
     return not_negative(facts, outcome) and 1 in signs_of(explicit(facts.result))
 
 

@@ -1,8 +1,8 @@
 """Small motions with drag: the exponents s of eta = a e^(s t), if the determinant det(M s^2 + C s + K) factors.
 
 A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/2a and the frequency
-sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a; if b/a
-is negative, the displacement grows.
+sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a; if b/a is
+negative, the displacement grows.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def _characteristic(equations: DampedModes) -> Quantity:
 
 DAMPED_FREE = Rule(
     "vibrations.damped_free",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
     evidence={"put_back": CHECK},
 )
 
@@ -101,7 +101,7 @@ DAMPED_FREE = Rule(
 def _free(equations: DampedModes, characteristic: Quantity) -> Quantity:
     """The step for the exponent zero, which belongs to a displacement without a restoring force.
 
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     letter = equations.letter
     return establish(
@@ -123,7 +123,7 @@ def _left(characteristic: Quantity) -> Expr:
 
 DAMPED_RATE = Rule(
     "vibrations.damped_rate",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
     outcomes={kind: claims.gyroscopic_rate(kind) for kind in ("oscillator", "decay", "growth")},
     evidence={"put_back": CHECK},
 )
@@ -133,7 +133,7 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
     """Decay rate.
 
     Outcomes: oscillator, decay, growth.
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     a, _, *rest = root.factor.coefficients
 
@@ -172,7 +172,7 @@ def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square
 
 DAMPED_FREQUENCY = Rule(
     "vibrations.damped_frequency",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
     outcomes={"oscillating": claims.damped(1), "conditional": claims.damped(None), "overdamped": claims.damped(-1)},
     evidence={"motion": CHECK},
     statements=[claims.positive_where_real],
@@ -182,7 +182,7 @@ DAMPED_FREQUENCY = Rule(
 def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
     Outcomes: oscillating, conditional, overdamped (the result is half the difference of the two decay rates).
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     a, b, c = root.factor.coefficients
     turned = -1 if root.sign == -1 else 1
@@ -218,7 +218,7 @@ def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, 
 
 DAMPED_SHAPE = Rule(
     "vibrations.damped_shape",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
     outcomes={
         "in_phase": claims.sign_of_product(1),
         "opposite": claims.sign_of_product(-1),
@@ -234,7 +234,7 @@ def _shape(
     """Amplitudes of one damped motion.
 
     Outcomes: in_phase, opposite, generic.
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     linear = equations.linear
 

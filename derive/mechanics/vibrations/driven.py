@@ -59,12 +59,13 @@ def steady_amplitude(
 ) -> tuple[Quantity, Quantity]:
     """Amplitude of the forced oscillation A cos(omega t - delta), A = F/sqrt((c - a omega^2)^2 + (b omega)^2), and the
     tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
-    if the sign of c - a omega^2 is unknown, it is assumed to be positive.
+    if the sign of c - a omega^2 is unknown, c > a omega^2 is assumed.
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate of the equation of motion
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag: without damping, above resonance, it is pi).
+    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
+    damping).
     Errors: the equation is not linear with constant coefficients, or is not driven by a single force F cos(omega t)
     with positive F; an undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.

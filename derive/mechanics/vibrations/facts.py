@@ -72,8 +72,8 @@ class Linear(LinearSystem, Fact):
         )
 
     def of_all(self, moving: Sequence[Symbol], column: MatrixBase) -> MatrixBase:
-        """Return the amplitudes of all coordinates, if those of the coordinates `moving` are in the column and all
-        others are zero."""
+        """Return the amplitudes of all coordinates: for the coordinates `moving` the entries of the column, for all
+        others zero."""
         known = dict(zip(moving, column, strict=True))
         return ImmutableDenseMatrix([known.get(s, Integer(0)) for s in self.moving])
 

@@ -65,7 +65,7 @@ class LinearCoefficients:
 
 @dataclass(frozen=True)
 class Sought:
-    """A linear equation of second order whose motion is to be found.
+    """A linear equation whose motion is to be found.
 
     sort        the kind of motion, an outcome of `solution`
     condition   the condition for this kind, if the symbols leave it open
@@ -165,8 +165,8 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 
 
 def general_motion(sought: Sought) -> GeneralMotion | None:
-    """Return the general motion, with the steps that lead to it; None if the characteristic equation has a zero root,
-    because such an equation is integrated once."""
+    """Return the general motion, with the steps that lead to this motion; None for an equation of first order or with
+    c = 0, whose motion is found without these steps."""
     if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or sought.linear.c == 0):
         return None
     known = _known(sought, f"{sought.key}_general", HARMONIC_MOTION, GENERAL_MOTION)
@@ -204,7 +204,7 @@ def _free_with(constants: tuple[Symbol, Symbol], linear: LinearCoefficients, sor
 
 
 def _constants_for(equation: Quantity) -> tuple[Symbol, Symbol]:
-    """Return two symbols for the constants of a general motion that the problem does not use."""
+    """Return two symbols that neither the problem nor an earlier result uses, for the constants of a motion."""
     used = {s.name for s in explicit(equation.value).free_symbols}
     pairs = (pair for pair in LETTERS_OF_CONSTANTS if not any(is_taken(name) or name in used for name in pair))
     first, second = next(pairs, LETTERS_OF_CONSTANTS[-1])
@@ -369,7 +369,7 @@ def _of_motion(sought: Sought, constants: tuple[Symbol, Symbol], parents: Sequen
 
 
 def _kinds_of_constants(sought: Sought, constants: tuple[Symbol, Symbol]) -> Mapping[Symbol, str]:
-    """Return the kinds of the constants; in (A + B t) e^(-b t/2a) the second is the kind of a rate."""
+    """Return the kinds of the constants; in (A + B t) e^(-b t/2a) the constant B has the kind of a rate."""
     own = sought.q.kind
     rate = kind_of_dimension(dimension_of_kind(own) / dimension_of_kind("time"))
     return dict(zip(constants, (own, (rate or "") if sought.sort == "critically_damped" else own), strict=True))

@@ -66,7 +66,8 @@ class TurningModes(Equations[Gyroscopic]):
     def found(self) -> tuple[Quantity, ...]:
         """Return the frequencies, then the motion for each frequency for which the amplitudes are found.
 
-        No motion is returned for a zero or repeated frequency, or if an amplitude is neither real nor imaginary.
+        No motion is returned for a zero or repeated frequency, if the sign of omega is unknown, or if an amplitude is
+        neither real nor imaginary.
         """
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
@@ -144,7 +145,7 @@ def _of_cosines_and_sines(equations: TurningModes) -> Expr:
 
 GYROSCOPIC_FREQUENCY = Rule(
     "vibrations.gyroscopic_frequency",
-    source="the same as for `normal_modes`",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23",
     outcomes={
         "oscillating": claims.frequency(1),
         "growing": claims.frequency(-1),
@@ -159,7 +160,7 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
     """Frequency of one mode, or its growth rate.
 
     Outcomes: oscillating, growing, free, conditional.
-    Source: the same as for `normal_modes`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2; Landau, Lifshitz, *Mechanics*, section 23.
     """
     system, letter = equations.system, equations.letter
     root, number = system.roots[n], equations.before + n + 1
@@ -338,7 +339,7 @@ def linear_stability(
     letter_of_frequency = scalar("omega" if "omega" not in {s.name for s in together.letters} else "Omega")
     block = [i for i in range(len(linear)) if not _oscillates_by_itself(together, i)] or range(len(linear))
     part = together.part(block)
-    # `normal_modes` uses the same equation, unless other coordinates are not coupled to each other
+    # `normal_modes` uses the same characteristic equation if all coordinates of `part` are coupled to each other
     is_shared = key == "stability" and not together.is_conservative and len(part.blocks) == 1
     system = part.of_kind(Gyroscopic)
     equations = TurningModes(linear, block, system, letter_of_frequency, "" if is_shared else f"{key}_")
@@ -514,7 +515,7 @@ def _place_among(i: int, number: int) -> str:
 
 
 def _without_squares(value: Expr, square: Symbol) -> Expr:
-    """Return the discriminant of the square-free part of a polynomial; it vanishes where two roots coincide."""
+    """Return the discriminant of the square-free part of a polynomial, which vanishes where two roots coincide."""
     found = Poly(value, square).sqf_part()
     return discriminant(found.as_expr(), square)
 

@@ -29,7 +29,7 @@ class Equations(Generic[Kind]):
 
     every     the equations of the whole system
     block     the indices of the coupled coordinates
-    letter    the symbol of the roots
+    letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
     before    the number of the modes that belong to other coordinates and have lower numbers
     number    the end of the key of the characteristic equation

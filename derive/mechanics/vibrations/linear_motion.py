@@ -134,7 +134,7 @@ def solution(
     values = _constants(basis, particular, first, initial)
     free = _free(basis, values, linear, sort)
     found = _joined(free, particular)
-    found = _by_powers(found) if sort == "uniform" else found  # v t - g t^2/2
+    found = _by_powers(found) if sort == "uniform" else found  # such as v t - g t^2/2
     excluded, proposals = _excluded(linear), []
     if linear.order == 2:
         proposals = list(oscillator_constants(equation, q.symbol, linear.a, linear.b, linear.c))

@@ -265,8 +265,8 @@ def _outcome(linear: Linear, own: int, displaced: bool) -> str:
 
 
 def _loss(linear: Linear) -> dict[str, Expr]:
-    """Return the rate at which small motions lose energy, with the key `loss`; it depends only on the symmetric part
-    of G."""
+    """Return the rate at which small motions lose energy, with the key `loss`. This rate depends only on the symmetric
+    part of G."""
     rates = [s.rate for s in linear.displacements]
     return {"loss": Add(*(linear.turning[i, j] * u * v for i, u in enumerate(rates) for j, v in enumerate(rates)))}
 
@@ -371,11 +371,10 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: equation i and, if there are several, the equation before it, which
-    for the first equation is the last one.
+    """Return the equations that the sentence names: equation i and, if there are several, one other equation.
 
-    For the first of more than two equations, the second equation is also returned, so that the sentence says
-    "(6) to (8)".
+    The other equation is the one before equation i; for the first equation, it is the last one. For the first of more
+    than two equations, the second equation is also returned, so that the sentence says "(6) to (8)".
     """
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}

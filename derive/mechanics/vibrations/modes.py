@@ -60,11 +60,11 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
     linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
     If the order depends on the symbols, it is the order for one set of numbers.
-    A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape; the
-    symbol of the frequency is that of the coordinate, such as omega_x. If no coordinates are coupled and all
+    A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape. The
+    symbol of this frequency is omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are coupled and all
     frequencies are equal, the only step is `frequency_1`, with the symbol omega_0. If only some coordinates are
-    coupled, these have the lower numbers, and each group of coupled coordinates has a determinant: with several groups,
-    characteristic_equation_1, characteristic_equation_2, ...
+    coupled, these have the lower numbers. Each group of coupled coordinates has its own determinant; with several
+    groups, the keys are characteristic_equation_1, characteristic_equation_2, ...
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
     which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
@@ -404,7 +404,7 @@ BEATS = Rule(
 def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
-    slow, fast   the angular frequencies of two modes, 1/s, in any order
+    slow, fast   the angular frequencies of two modes, 1/s; in any order if the symbols determine the greater one
 
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.

@@ -99,7 +99,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
 
 
 def _symbol(name: str) -> Symbol:
-    """Return the symbol with this name; if the problem defines a quantity with this name, its symbol."""
+    """Return the symbol of the quantity that the problem defines with this key, or else the symbol with this name."""
     return next((each.symbol for each in defined_quantities() if each.key == name), scalar(name))
 
 
@@ -160,7 +160,8 @@ def frequency(
 
     squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
     condition   whether the sentence states the condition for an oscillation
-    stands_for  further keys of this step; steps of their own have these keys only if the sign of the square is unknown
+    stands_for  further keys of this step, such as the key of a growth rate. The growth rate has a step of its own only
+                if the sign of the square is unknown
     Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and the result is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.

@@ -42,7 +42,7 @@ class UncoupledModes:
 
     linear   the equations of the whole system
     alone    the indices of these coordinates
-    letter   the letter of a frequency
+    letter   the symbol of a frequency, without its index
     start    the beginning of all keys
     before   the number of the modes of coupled coordinates, which have the lower numbers
     """
