@@ -105,6 +105,13 @@ def test_a_growing_motion_has_one_positive_root() -> None:
     assert is_general(found, A * cosh(w * t) + B * sinh(w * t))
 
 
+def test_a_growing_motion_of_first_order_needs_no_roots() -> None:
+    x = along()
+    found = solution(equation(m * x.rate - b * x.symbol), x, x0)
+    assert not {"exponents", "general_motion"} & behind(found).keys()
+    assert equal(explicit(found.value), x0 * exp(b * t / m))
+
+
 def test_a_driven_motion_is_the_sum_of_a_particular_and_the_free_motion() -> None:
     found = moving(lambda x: m * x.acceleration + k * x.symbol, F * cos(W * t))
     step = behind(found)["harmonic_motion"]

@@ -54,11 +54,12 @@ def signs_counted(
         signs = [(x, s) for x in grid if (s := _sign(curve, x))]
         turns = [(x, y) for (x, one), (y, other) in pairwise(signs) if one != other]
         changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
-        if changes != len(expected) or all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
-            where = tuple((str(s), str(x)) for s, x in point.items())
-            return Verdict(
-                Grade.REFUTED, f"the force has {changes} zeros, and {len(expected)} equilibria are listed", where
-            )
+        where = tuple((str(s), str(x)) for s, x in point.items())
+        if changes != len(expected):
+            message = f"the force has {changes} zeros, and {len(expected)} equilibria are listed"
+            return Verdict(Grade.REFUTED, message, where)
+        if all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
+            return Verdict(Grade.REFUTED, "the equilibrium is not among those that are listed", where)
         if any(not math.isfinite(x) for x in expected):
             return Verdict(Grade.REFUTED, "a value is not finite")
     return Verdict(Grade.SAMPLED, f"zeros counted for {TRIALS} sets of numbers")

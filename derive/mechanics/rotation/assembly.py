@@ -203,10 +203,11 @@ def _told_apart(parts: list[PlacedPart]) -> tuple[PlacedPart, ...]:
         for part in parts
     ]
     names = [part.body.called for part in found if not isinstance(part.body, PointMass)]
-    for taken in (names, [name.partition(" ")[0] for name in names]):
+    first_words = [name.partition(" ")[0] for name in names]
+    for taken, message in ((names, "two parts are both called"), (first_words, "the names of two parts begin with")):
         twice = next((name for name, times in Counter(taken).items() if times > 1), None)
         if twice is not None:
-            message = f"two parts are both called `{twice}`"
+            message += f" `{twice}`"
             help_line = 'give the parts names whose first words differ: Rod(l, m).named("upper rod")'
             raise Rejected(Complaint("parts", message, help=help_line))
     return tuple(found)

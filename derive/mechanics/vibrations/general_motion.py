@@ -167,7 +167,7 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 def general_motion(sought: Sought) -> GeneralMotion | None:
     """Return the general motion, with the steps that lead to this motion; None for an equation of first order or with
     c = 0, whose motion is found without these steps."""
-    if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or sought.linear.c == 0):
+    if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or 0 in (sought.linear.a, sought.linear.c)):
         return None
     known = _known(sought, f"{sought.key}_general", HARMONIC_MOTION, GENERAL_MOTION)
     if known is not None:
