@@ -470,7 +470,6 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
             message = f"`stability`: `{place.potential.key}` does not have a minimum there for all values of the"
-            message += (
-                f" symbols, but forces linear in the rates of {q.name} and {p.name} may stabilise the equilibrium"
-            )
+            message += f" symbols, but forces linear in the rates of {q.name} and {p.name} may stabilise"
+            message += " the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))
