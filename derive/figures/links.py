@@ -91,8 +91,8 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if its position contains coordinates
-    but no angle, otherwise 3. The text of the position decides between starts of the same rank."""
+    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if it moves but its position contains
+    no angle, otherwise 3. The text of the position decides between starts of the same rank."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3

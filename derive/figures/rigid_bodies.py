@@ -1,4 +1,4 @@
-"""Draw a rigid body of which only the principal moments are known, as an ellipsoid with about these moments."""
+"""Draw a rigid body with known principal moments but unknown shape as an ellipsoid with about these moments."""
 
 from __future__ import annotations
 

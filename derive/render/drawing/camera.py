@@ -129,8 +129,8 @@ USUAL = stance_from(25, 18)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the view of a drawing. Of several views in space, it is the one in which vectors are long and far apart
-    and do not end at corners. Without vectors, or with a plane that moves in time, it is the usual view.
+    """Return the view of a drawing. In space, the view is chosen so that vectors are long and far apart and do not end
+    at corners. A drawing without vectors, or with a plane that moves with time, has the usual view.
 
     `reach` is the size of the bodies.
     """

@@ -24,10 +24,10 @@ MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks o
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
-MARGIN = 0.08  # any other margin around a curve or a path, in units of its size
+MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
-USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
+USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
@@ -201,7 +201,7 @@ def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...
 def portrait_panel(
     plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
 ) -> Panel:
-    """Return the panel of a phase portrait, whose axes end with the ranges."""
+    """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
     powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
     return Panel(
