@@ -253,7 +253,7 @@ class HtmlPage:
         return Html("" if drawing.number is None else self._figure(drawing.number, " "))
 
     def _figure(self, number: int, space: str) -> str:
-        """Return the name of a figure; on a page of several problems, the figures are later numbered in a row."""
+        """Return the name of a figure; on a page of several problems, the figures later get consecutive numbers."""
         shown = str(number) if self.standalone else figure_number(number)
         return f"{escape(self.words.labels['figure'])}{space}{shown}"
 

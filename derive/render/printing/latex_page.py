@@ -286,7 +286,7 @@ class _Questions(LatexPage):
 
 
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
-    """Split a part into drawings with sentences before and after; sentences between drawings are split equally."""
+    """Split a part into passages; half of the sentences between two drawings belong to each drawing."""
     passages = [Passage()]
     for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]
