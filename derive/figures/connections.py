@@ -71,7 +71,7 @@ HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
-SMALL = 0.08  # a component of the direction of a plane counts as zero up to this number
+SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
 FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
@@ -230,7 +230,7 @@ class Connections:
 
     @property
     def _farthest(self) -> Rational:
-        """The value, in the drawing, of the coordinate of a body that carries another body, relative to `size`.
+        """The drawn value of the coordinate of a body that carries another body, relative to `size`.
 
         A wedge is drawn to the right of the body on it. The middle of a plank is drawn to the left of the body on it.
         """
@@ -491,7 +491,7 @@ class Connections:
             yield FloorMark(tuple(column_of(corner) for corner in lowest))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
-        """The height of the plane on which a particle stands, if no body carries this plane; None without such a
+        """The height of the plane on which a particle stands, if no body carries this plane; None if there is no such
         plane."""
         for each in self.contacts:
             if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
@@ -746,6 +746,6 @@ def _direction(x: Any, y: Any) -> Any:
 
 
 def _angle_in(direction: Location) -> Expr | None:
-    """A symbol whose sine or cosine the components of a direction contain; None without such a symbol."""
+    """A symbol whose sine or cosine occurs in the components of a direction; None if there is no such symbol."""
     angles = {f.args[0] for c in direction.components for f in c.atoms(sin, cos)}
     return next((angle for angle in angles if angle.is_Symbol), None)

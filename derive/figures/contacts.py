@@ -1,4 +1,4 @@
-"""Fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
+"""Marks of fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class BodyAlone:
     """A body or particle with the forces on it, from which its diagram is drawn.
 
     key       the name of the drawing
-    leads_to  the keys of the laws of this body, before which the drawing is placed
+    leads_to  the keys of the laws of this body; the drawing is placed before these laws
     """
 
     key: str
@@ -101,7 +101,7 @@ def forces_as_named(
 ) -> BodyAlone | None:
     """Return one body or particle with the forces on it, each in the direction in which its symbol is positive.
 
-    leads_to  the keys of the laws of this body, before which the drawing is placed
+    leads_to  the keys of the laws of this body; the drawing is placed before these laws
     found     as for `forces_in_state`; the lengths of the arrows have no meaning in space, or if `found` lacks a force
 
     The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
@@ -403,8 +403,8 @@ def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
 
 
 def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
-    """Return the force of an axle, which balances the other forces, all of them vertical. No equation contains its
-    symbol, so its label is the sum of the other forces."""
+    """Return the force of an axle. It balances the other forces, which are all vertical. No equation contains a symbol
+    for the force of the axle, so its label is the sum of the other forces."""
     up = -downwards(2)
     label = tidied(Add(*(-as_expr(each.label) * each.way[1] for each in others)))
     known = all(each.value is not None for each in others)

@@ -120,7 +120,7 @@ class ShownMode:
     moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at
                 rest; and the sense of its rotation, which is an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
-    siblings    the keys of all modes that are found together, after which their drawings are placed
+    siblings    the keys of all modes that are found together; the drawings of these modes are placed after them
     like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
     """
 
@@ -333,7 +333,7 @@ Recorded: TypeAlias = Drawing | Plot
 def noted(drawing: Recorded) -> Recorded:
     """Record the drawing and return it. An invalid name is rejected, and so is the name of an earlier drawing."""
     if not _DRAWING_NAME.fullmatch(drawing.key):
-        help_line = "use lower-case letters, digits and _"
+        help_line = "use at most 32 lower-case letters, digits and _, beginning with a letter"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
     run = current_run.get()
     if run is not None:

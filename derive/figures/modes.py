@@ -61,7 +61,7 @@ class DisplacementArrow(Mark):
 
     at       the place of the mass
     value    its displacement, up to a factor that all masses have in common
-    others   the displacements of all masses, of which the greatest has the longest arrow
+    others   the displacements of all masses; the greatest displacement has the longest arrow
     side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts there
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
@@ -137,11 +137,11 @@ def draw_modes(
 
     steps   the established steps; the steps of the shapes of modes are drawn
     named   positions of further parts, as for `sketch`
-    like    the name of the sketch of the system, whose numbers are also used here
+    like    the name of the sketch of the system; the numbers of this sketch are also used here
 
     The name of a drawing is the key of the shape. A system that a sketch cannot show, or that a prescribed motion
     drives, has no such drawings. A mode is left out if the direction of a displacement depends on unknown numbers. If
-    only free motions would be left, none is drawn.
+    all modes that are left are free motions, no mode is drawn.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:

@@ -252,8 +252,8 @@ class _Scene:
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def is_thing(self, mark: Mark) -> bool:
-        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or the line from a point to a
-        particle that replaces a rod."""
+        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or a line to a particle that
+        is drawn in place of a rod."""
         if isinstance(mark, Line):
             return mark.pen == "edge"
         if isinstance(mark, ConnectionMark):
@@ -503,7 +503,8 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Return False for a fixed end: for a point that does not move and is not the position of a particle."""
+        """Whether an end of a spring or of a central force moves or is the position of a particle; all other ends are
+        fixed."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
     def _covered(self, end: Location) -> float:
@@ -513,7 +514,7 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its fixed ends, or the source of a central force with the orbit about it."""
+        """Yield a spring with its fixed ends, or the source of a central force with the orbit about this source."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:

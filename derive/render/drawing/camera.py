@@ -23,7 +23,7 @@ from derive.figures.space import Stance, Vector, angle_of, size_of, unit
 
 ANGLE = pi / 5
 APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
-SHARES = (0.8, 0.6, 1.0, 0.7)  # values of length coordinates without a number, in units of the typical length
+SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates other than angles without a number, in units of `typical`
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:

@@ -26,7 +26,7 @@ MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one 
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
 MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
-FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
+FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
 USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
@@ -39,7 +39,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and its names, with and without the kind
-    name     the name of the curve; empty if it is the only one in its panel
+    name     the name of the curve; empty if the panel has no other curve
     """
 
     points: tuple[Spot, ...]
@@ -59,7 +59,7 @@ class Panel:
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
     outlines         the lines of surfaces in the plane of a path
-    shape            height divided by width, if it is not that of the paper
+    shape            height divided by width; None for the usual shape
     """
 
     traces: tuple[Trace, ...]

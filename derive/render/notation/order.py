@@ -74,8 +74,8 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
-    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g. Terms without any
-    accelerations and rates keep their order.
+    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g. If no term has an
+    acceleration or a rate, the order is unchanged.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},

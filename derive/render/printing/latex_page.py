@@ -238,7 +238,8 @@ class LatexPage:
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
     def _numbered(self, number: Number) -> str:
-        """Return the number of an equation, which a page shows once: hints show further lines of an equation."""
+        """Return the number of an equation, which a page shows once, even if later hints show further lines of the
+        equation."""
         self._placed.add(number)
         return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
