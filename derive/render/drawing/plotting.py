@@ -30,7 +30,7 @@ from derive.render.drawing.panels import Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.notation import Notation
 
-PANEL, TALL = 7.5, 5.0  # centimetres
+PANEL, TALL = 7.5, 5.0  # centimetres: the usual width and height of a panel
 WIDEST = 16.5  # centimetres: the greatest width of all panels together, if no width is given
 TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the width of its panel is not given
 CM = 72 / 2.54

@@ -46,7 +46,8 @@ from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
 LISTED = 3  # a page with at least this many parts has a table of contents
-# Characters that fit into a narrow window; a wider formula can be scrolled, also by keyboard.
+# Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
+# by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
 PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
 
