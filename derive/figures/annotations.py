@@ -274,8 +274,8 @@ class Arrow(Mark):
 
 @dataclass(frozen=True)
 class ForceArrow(Arrow):
-    """A force on a body that is drawn alone. `size` is its length relative to FORCE points, so the forces of several
-    drawings have one scale."""
+    """A force on a body that is drawn alone. `size` is the length of the arrow in units of FORCE points, so the forces
+    of several drawings have one scale."""
 
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * FORCE / paper.scale
@@ -285,7 +285,7 @@ class ForceArrow(Arrow):
 class AppliedForce(Arrow):
     """A given force on a part of a system: an arrow of a fixed length that starts outside this part.
 
-    clear   the distance of its start from the point of action, in points
+    clear   the distance of the start of the arrow from the point of action, in points
     """
 
     clear: float = 0.0

@@ -1,4 +1,5 @@
-"""Outlines of bodies, from their boundaries: in axes that begin at a point of the body, or in any position."""
+"""Outlines of bodies from their boundaries: relative to a point and axes of the body, or at any place and
+orientation."""
 
 from __future__ import annotations
 
@@ -242,8 +243,8 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return the lines that show the sizes of a body in any orientation. The body is a rod, a flat body with a curved
-    edge, or a round body, which may be hollow. The list is empty for any other body."""
+    """Return lines that show the sizes of a body in any orientation. The list is empty unless the body is a rod, a flat
+    body with a curved edge, or a round body, which may be hollow."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)

@@ -57,21 +57,21 @@ from derive.mechanics.model.system import Particle, System
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
-# Values of coordinates that no constraint determines, relative to the largest body.
+# Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a body on a table in space, away from the axes
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
-BOWL = 4  # the radius of a bowl, relative to the largest body in it
-AXIS = Rational(4, 5)  # the length of the axes on a table, relative to the radius of the table
-TABLE = 3  # the radius of a table in space, relative to the largest body on it
-BEYOND = Rational(6, 5)  # the radius of a table, relative to the distance of the contacts from its middle
+BOWL = 4  # the radius of a bowl, relative to `Connections.size`
+AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
+TABLE = 3  # the radius of a table in space, relative to `ball_size`
+BEYOND = Rational(6, 5)  # the radius of a table, relative to the greatest distance of a contact from its middle
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
 ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
 EXACT = 1e-6
-SMALL = 0.08  # a component of the direction of a plane counts as zero up to this number
+SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
 FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
@@ -85,7 +85,7 @@ def connections_of(system: System, sort: type[Sort]) -> list[Sort]:
 class Connections:
     """The connections of a system, the numbers that replace their symbols in the drawing, and their marks.
 
-    in_a_plane   whether the system moves in a plane; in space, horizontal planes are the only surfaces that are drawn
+    in_a_plane   whether the system moves in a plane; in space, only some planes are drawn: see `is_drawn`
     """
 
     def __init__(self, system: System):
@@ -230,7 +230,7 @@ class Connections:
 
     @property
     def _farthest(self) -> Rational:
-        """The value, in the drawing, of the coordinate of a body that carries another body, relative to `size`.
+        """The drawn value of the coordinate of a body that carries another body, relative to `size`.
 
         A wedge is drawn to the right of the body on it. The middle of a plank is drawn to the left of the body on it.
         """
@@ -309,14 +309,14 @@ class Connections:
                 yield from self._corner(touch)
 
     def is_drawn(self, surface: Surface) -> bool:
-        """Whether the drawing shows the surface. In space, the drawing shows only fixed horizontal planes with the
-        bodies above them."""
+        """Whether the drawing shows the surface. In space, the drawing shows only horizontal planes through a fixed
+        point, with the bodies above them."""
         is_level = isinstance(surface, Plane) and surface.unit_normal.components == (ZERO, ZERO, ONE)
         return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
 
     def _table(self, plane: Plane) -> Iterable[Mark]:
-        """Yield the marks of a fixed horizontal plane in space: a round table, the axis of a rotating table, and the
-        marks of the bodies on the table."""
+        """Yield the marks of a horizontal plane in space: a round table, the axis about which the table rotates, and
+        the marks of the bodies on the table. Yield nothing if the plane is not drawn."""
         if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
@@ -345,7 +345,7 @@ class Connections:
 
     def _table_radius(self, plane: Plane) -> Expr:
         """The radius of a table. If the contacts keep their distances from the middle of the table, the radius is a
-        little greater than these distances. Otherwise it is a multiple of `ball_size`."""
+        little greater than the greatest of these distances. Otherwise it is a multiple of `ball_size`."""
         ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
         if any(moving_in(self.system, way) for way in ways):
             return TABLE * self.ball_size
@@ -491,7 +491,7 @@ class Connections:
             yield FloorMark(tuple(column_of(corner) for corner in lowest))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
-        """The height of the plane on which a particle stands, if no body carries this plane; None without such a
+        """The height of the plane on which a particle stands, if no body carries this plane; None if there is no such
         plane."""
         for each in self.contacts:
             if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
@@ -588,9 +588,9 @@ class Connections:
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
 
     def _lifts(self, line: Line) -> tuple[float, float]:
-        """The shifts of the two parts of a string away from the surfaces below. On a slope, the base of a block is at
-        the position of its particle, so the part that leads to the block is shifted by half the height of the block.
-        Any other part is not shifted."""
+        """The shifts of the two parts of a string away from the surfaces below. On a slope, or on any other
+        surface for which `carries_only_blocks` is false, the base of a block is at the position of its particle. The
+        part that leads to such a block is shifted by half the height of the block. Any other part is not shifted."""
         stands = [
             any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
             for place in (line.places[0], line.places[-1])
@@ -749,6 +749,6 @@ def _direction(x: Any, y: Any) -> Any:
 
 
 def _angle_in(direction: Location) -> Expr | None:
-    """A symbol whose sine or cosine the components of a direction contain; None without such a symbol."""
+    """A symbol whose sine or cosine occurs in the components of a direction; None if there is no such symbol."""
     angles = {f.args[0] for c in direction.components for f in c.atoms(sin, cos)}
     return next((angle for angle in angles if angle.is_Symbol), None)

@@ -1,4 +1,4 @@
-"""Fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
+"""Marks of fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ ROUND_AT, LONG = Rational(3, 2), Rational(17, 10)
 def contact_marks(system: System) -> Iterable[Mark]:
     """Yield, for each body that rolls on a fixed surface, the marks of this surface and of the point of contact.
 
-    The surface is drawn only if it is a cylinder seen along its axis, or a horizontal plane through a fixed
-    point of the body.
+    There are marks only if the surface is a cylinder seen along its axis, or a horizontal plane through a fixed point
+    of the body.
     """
     for condition in system.conditions:
         rolling = condition.fact(Rolling)
@@ -51,8 +51,8 @@ def contact_marks(system: System) -> Iterable[Mark]:
 def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
     """Yield the marks of a body in space that rolls on a horizontal plane through its fixed point.
 
-    The marks include the circle of the points of contact, the line from the fixed point to the contact, and the spin
-    about the axis of the body.
+    The marks are the circle of the points of contact, the line from the fixed point to the contact, the angle between
+    this line and the axis of the body, and the spin about this axis.
     """
     body = rolling.body
     way = contact - body.at
@@ -102,7 +102,8 @@ def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether, at zero coordinates, the body is farther from the axis of the cylinder than the contact is."""
+    """Whether, at zero coordinates, the centre of the body is farther from the axis of the cylinder than the contact
+    is."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     at_zero = dict.fromkeys(system.coordinates, ZERO)

@@ -99,7 +99,7 @@ def wheel(centre: Any, radius: Any = None, label: Any = None, pointer: Any = Non
     """A disc seen along its axis: a pulley, or a rolling wheel.
 
     centre    the centre of the disc
-    radius    a length; by default that of a small pulley
+    radius    a length; by default the radius of a small pulley
     pointer   a vector that rotates with the disc, drawn as a line from its centre to its rim
     """
     place, keys = vector_of(centre)

@@ -1,7 +1,7 @@
 """The extrema of a curve, from sign changes of its exact derivative.
 
-The direction of the sign change distinguishes minimum and maximum. The second route evaluates the curve on both sides
-of the extremum. The values there must be greater than a minimum, and less than a maximum.
+The direction of the sign change distinguishes minimum and maximum. As a check, the curve is also evaluated on both
+sides of the extremum. The values there must be greater than a minimum, and less than a maximum.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected, Unverified
 
-STEPS = 1009  # odd and prime: then the centre of a symmetric range is inside a step, not at its end
-POLE = 1e4  # a value at an extremum, relative to the greatest value of the grid, above which the curve has a pole
+STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is inside a step, not at its end
+POLE = 1e4  # a value above POLE times the greatest value of the grid is a pole, not an extremum
 MINIMUM, MAXIMUM = "minimum", "maximum"
 NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
 
@@ -96,7 +96,7 @@ def _is_pole(f: Callable[[float], Any], at: float, xs: Sequence[float]) -> bool:
     """Return whether the curve has no finite value at this place, or a value far above all values of the grid."""
     try:
         value = abs(float(f(at)))
-    except ZeroDivisionError:
+    except (ZeroDivisionError, ValueError, OverflowError, TypeError):  # infinite or not real
         return True
     return not isfinite(value) or value > POLE * max(abs(float(f(x))) for x in xs)
 

@@ -51,9 +51,7 @@ LONG = Rational(4, 5)  # about the drawn length of the greatest force on a rod, 
 BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # the drawn length of a small force, relative to the greatest force
 VISIBLE, LONGER = Rational(1, 2), 2  # the desired length of the least force, and the limit of its enlargement
-OFF = Rational(
-    1, 30
-)  # if a force acts along a rod: the distance of its arrow from the rod, relative to the rod's length
+OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 3.5  # the distance of a force along a surface from this surface, on the side of the body, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
@@ -67,7 +65,7 @@ class BodyAlone:
     """A body or particle with the forces on it, from which its diagram is drawn.
 
     key       the name of the drawing
-    leads_to  the keys of the laws of this body, before which the drawing is placed
+    leads_to  the keys of the laws of this body; the drawing is placed before these laws
     """
 
     key: str
@@ -84,10 +82,11 @@ def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Qu
     of      the body or particle, as a part of the system
     found   symbol of a constraint force -> the step that derives the force
 
-    The lengths are to scale in the drawn state, at rest, but small forces are drawn larger. If the value of a force is
-    negative, its arrow is reversed. The result is None in space, or if no connection acts on the body. It is also None
-    if a force is not among `found`, or if other forces act that the diagram would not show. Finally, it is None if the
-    direction of a force is unknown, or if a body that touches a curve is not on the curve in the drawn state.
+    The lengths of the arrows are to scale for the system at rest, but small forces are drawn larger. If the value of a
+    force is negative, its arrow is reversed. The result is None in space, or if no connection acts on the body. It is
+    also None if `found` lacks a constraint force, or if other forces act that the diagram would not show. Finally, it
+    is None if the direction of a force is unknown, or if a body that touches a curve is not on the curve in the drawn
+    state.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -109,8 +108,8 @@ def forces_as_named(
 ) -> BodyAlone | None:
     """Return one body or particle with the forces on it, each in the direction in which its symbol is positive.
 
-    leads_to  the keys of the laws of this body, before which the drawing is placed
-    found     as for `forces_in_state`; the lengths have no meaning if a force is missing in `found`, or in space
+    leads_to  the keys of the laws of this body; the drawing is placed before these laws
+    found     as for `forces_in_state`; the lengths of the arrows have no meaning in space, or if `found` lacks a force
 
     The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
     also None if a body that touches a curve is not on the curve in the drawn state.
@@ -214,7 +213,7 @@ def _there(value: Expr | None, scene: Connections) -> Expr:
 def _sizes(diagrams: Sequence[Sequence[_Drawn]], scene: Connections) -> list[list[float]]:
     """Return the magnitudes of the forces of each diagram, relative to the greatest force of all diagrams.
 
-    If there are no numbers for all diagrams together, the greatest force of each diagram is 1.
+    If no trial numbers fit all diagrams together, the greatest force of each diagram is 1.
     """
     known = [drawn for drawn in diagrams if all(each.value is not None for each in drawn)]
     together = iter(_magnitudes([each for drawn in known for each in drawn], scene) or ())
@@ -252,14 +251,14 @@ def _share(size: float) -> Rational:
 
 
 def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
-    """Return the size of a body, approximately the later `Paper.reach`; 1 for a particle."""
+    """Return the size of a body, which is approximately `Paper.reach` of its drawing; 1 for a particle."""
     arms = [distance_of(each.at, of.centre) for each in drawn] if isinstance(of, PlacedBody) else []
     return max(map(scene.number, arms), default=0.0) or 1.0
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points. An arrow is shifted only if it covers an earlier arrow, to
-    the side away from the other arrows."""
+    """Return the shift of each arrow to its left, in points. An arrow is shifted only if it covers an earlier arrow;
+    the shift is away from the other arrows."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))
@@ -287,7 +286,7 @@ def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> I
 
     drawn   pairs of a force and the length of its arrow
 
-    Each angle is shown once, if possible at a normal force.
+    Each angle is shown once, if possible at the force of a surface.
     """
     if len(system.places[0].components) != 2:
         return
@@ -322,9 +321,10 @@ def _has_others(system: System) -> bool:
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
     """Whether the forces account for the motion of the centre of mass.
 
-    Consider the axes along which coordinates move the centre: the possible displacements of the centre and the normal
-    forces of planes must together span all directions of these axes. Along any other axis, either a normal force of a
-    plane acts, or the forces balance. Otherwise an unknown reaction also acts, such as that of the ice on a plank.
+    The axes along which the centre can move are considered first. The possible displacements of the centre and the
+    normal forces of planes must together span all directions of these axes. Along any other axis, a normal force of a
+    plane must act, or the forces must balance. If this is not so, an unknown reaction also acts, such as the force of
+    the ice on a plank. The force of an axle is the only reaction that is allowed in addition.
     """
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
     moving = list(system.coordinates)
@@ -426,8 +426,8 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
 
 
 def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
-    """Whether only vertical strings act on a body with a fixed centre in a plane. Then it is on an axle, like a pulley,
-    and the force of the axle is vertical."""
+    """Whether only vertical strings or rods act on a body with a fixed centre in a plane. Then the body is on an axle,
+    like a pulley, and the force of the axle is vertical."""
     if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
         return False
     if any(force.direction[0] != 0 for force in acting):
@@ -436,8 +436,8 @@ def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
 
 
 def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
-    """Return the force of an axle, which balances the other forces, all of them vertical. No equation contains its
-    symbol, so its label is the sum of the other forces."""
+    """Return the force of an axle. It balances the other forces, which are all vertical. No equation contains a symbol
+    for the force of the axle, so its label is the sum of the other forces."""
     up = -downwards(2)
     label = tidied(Add(*(-as_expr(each.label) * each.way[1] for each in others)))
     known = all(each.value is not None for each in others)
@@ -446,7 +446,8 @@ def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
 
 
 def _balance(normal: _Drawn, others: Sequence[_Drawn]) -> Expr | None:
-    """Return the normal force of a plane along which a body moves: it balances the components of the other forces.
+    """Return the normal force of a plane along which a body moves: it balances the components of the other forces along
+    the normal.
 
     The result is None if the value of another force is unknown.
     """

@@ -46,7 +46,8 @@ class Ghost(Surface):
 
 
 def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:
-    """Return dashed outlines of the bodies of a system for another value of one coordinate, such as an equilibrium.
+    """Return dashed outlines of the bodies of a system for another value of one coordinate, such as its value at
+    equilibrium.
 
     values   the coordinate and its other value: `{theta: 0}`
     """

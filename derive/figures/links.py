@@ -91,8 +91,8 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if its position contains coordinates
-    but no angle, otherwise 3. The text of the position decides between starts of the same rank."""
+    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if it moves but its position contains
+    no angle, otherwise 3. The text of the position decides between starts of the same rank."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3
@@ -126,7 +126,7 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Return whether the value differs in two numerical samples; a value that does not differ may still vary."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # The samples also differ in differences of angles, because a distance may depend only on such differences.
+    # The samples also have different differences of angles, because a distance may depend only on these.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))

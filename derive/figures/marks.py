@@ -82,7 +82,8 @@ class Mark:
 class Surface(Mark):
     """A mark that determines the size of a drawing; the surfaces of bodies also hide the marks behind them.
 
-    name       the id of the body in the phrases, "cone"; empty if the words for another surface include this one
+    name       the id of the body in the phrases, such as "cone"; empty if the words for another surface include this
+               one
     measures   pairs of an id and a length, such as "base_radius" and R, for the description
     """
 
@@ -113,13 +114,13 @@ class ShownMode:
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
     lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
-                on letters without numbers; "longer" if the arrow of a small displacement is longer than its ratio; or
-                "alone" for a single mass
+                on letters without numbers; "longer" if the arrow of a small displacement is longer than in this ratio;
+                or "alone" for a single mass
     letters     the letters on which the ratio depends
-    moves       the masses in order, each with the directions of its displacement, such as ("right", "up"), which are
-                empty at rest, and with the sense of rotation of a body, an element of SENSES, or "" without a rotation
+    moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at
+                rest; and the sense of its rotation, which is an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
-    siblings    the keys of all modes that are found together, after which their drawings are placed
+    siblings    the keys of all modes that are found together; the drawings of these modes are placed after them
     like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
     """
 
@@ -286,7 +287,7 @@ class Diagram:
 class Plot:
     """A curve: a quantity as a function of one symbol, over a range of this symbol; or the path of two quantities.
 
-    expr, variable   the value of the quantity, and the symbol on the horizontal axis
+    expr, variable   the value of the quantity, and the symbol that varies: on the horizontal axis, or along a path
     lower, upper     the range, used if the problem gives no other range
     kind, of         the kind of the quantity, and the kind of the symbol, for their units
     unit             the SI unit of a quantity without a kind
@@ -340,7 +341,7 @@ class Plot:
 
     @property
     def letters_of_curves(self) -> set[Symbol]:
-        """Return the symbols in everything that is drawn."""
+        """Return the symbols in the curves and outlines, except the two coordinates of the plane of an outline."""
         others = [other.expr for other in self.others]
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
@@ -395,9 +396,9 @@ Recorded: TypeAlias = Drawing | Plot
 
 
 def noted(drawing: Recorded) -> Recorded:
-    """Record the drawing and return it; two drawings with the same name are rejected."""
+    """Record the drawing and return it. An invalid name is rejected, and so is the name of an earlier drawing."""
     if not _DRAWING_NAME.fullmatch(drawing.key):
-        help_line = "use lower-case letters, digits and _"
+        help_line = "use at most 32 lower-case letters, digits and _, beginning with a letter"
         raise Rejected(Complaint("drawing-name", f"`{drawing.key}` cannot name a drawing", help=help_line))
     run = current_run.get()
     if run is not None:

@@ -1,7 +1,8 @@
 """Pictures of normal modes: the displaced system, with an arrow at each mass in the direction of its displacement.
 
-The displacement of a mass is the sum of the derivatives of its place by the coordinates, at equilibrium, times the
-amplitudes of the mode. The lengths of the arrows are in the ratio of the displacements.
+The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
+equilibrium, times the amplitude of the coordinate. The lengths of the arrows are in the ratio of the displacements,
+except that a very short arrow is drawn longer.
 """
 
 from __future__ import annotations
@@ -41,13 +42,13 @@ ANGLE = Rational(2, 5)  # about the greatest angle of displacement, in radians
 MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
 SHORTEST = 14.0  # the length of the shortest arrow
-LONGEST = 42.0, 56.0  # the length of the longest arrow: usually, and if other arrows would be shorter than SHORTEST
+LONGEST = 42.0, 56.0  # the usual length of the longest arrow, and its limit if another arrow would be too short
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
 ROUND = 24.0  # the radius of the arrow of a rotation
 OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ALONG = 0.45  # lines at a mass that make an angle with a smaller sine lie along its arrow
+ALONG = 0.45  # a line at a mass counts as along its arrow if the sine of their angle is smaller
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 FREE_MOTION, TO_SCALE = "free", "to_scale"
@@ -60,8 +61,8 @@ class DisplacementArrow(Mark):
 
     at       the place of the mass
     value    its displacement, up to a factor that all masses have in common
-    others   the displacements of all masses, of which the greatest has the longest arrow
-    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if it starts at the mass
+    others   the displacements of all masses; the greatest displacement has the longest arrow
+    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts there
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses; None for a single mass
@@ -136,11 +137,11 @@ def draw_modes(
 
     steps   the established steps; the steps of the shapes of modes are drawn
     named   positions of further parts, as for `sketch`
-    like    the name of the sketch of the system, whose numbers are also used here
+    like    the name of the sketch of the system; the numbers of this sketch are also used here
 
     The name of a drawing is the key of the shape. A system that a sketch cannot show, or that a prescribed motion
     drives, has no such drawings. A mode is left out if the direction of a displacement depends on unknown numbers. If
-    only free motions would be left, none is drawn.
+    all modes that are left are free motions, no mode is drawn.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -167,7 +168,7 @@ def draw_modes(
 
 
 def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]:
-    """Return the linear equations, each with the shapes of its modes."""
+    """Return each `Linear` fact with the shapes of its modes."""
     found: list[tuple[Linear, list[Quantity]]] = []
     for shape in shapes:
         linear = next(fact for each in shape.parents if (fact := each.fact(Linear)) is not None)
@@ -347,7 +348,8 @@ class _Displaced:
 
     def _beside(self, displacement: MatrixBase, at: Location) -> tuple[Position, Any, float]:
         """Return the side of the mass on which its arrow is drawn, and the distance from the mass, as a length and in
-        points. The side is None if no line at the mass lies along the arrow."""
+        points. The side is None if the arrow starts at the mass: at a mass at rest, or at a mass that is not a block
+        and has no line along the arrow."""
         x, y = (self.number(c) for c in displacement)
         size = hypot(x, y)
         if not size:

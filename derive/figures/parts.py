@@ -162,7 +162,7 @@ class DashpotMark(_Stretched):
 
 @dataclass(frozen=True)
 class RopeMark(_Piecewise):
-    """A taut string through points; at each wheel the bend of the string decides on which side it passes.
+    """A taut string through points; its bend at a wheel decides on which side of the wheel it passes.
 
     along   the points through which the string runs, in order
     radii   the radius of the wheel at each point: zero for no wheel, None for a wheel of the usual size
@@ -197,7 +197,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class HeavyRopeMark(RopeMark):
-    """A rope with mass, with its mass as its label."""
+    """A rope with mass; its label is its mass."""
 
     pen: ClassVar[str] = "rod"
 

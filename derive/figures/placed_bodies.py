@@ -120,7 +120,7 @@ def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
-    """Return the line from the known point of a body to its centre of mass.
+    """Return the line from `placed.at` to the centre of mass of a body.
 
     If this point is the centre of a disc, the line continues to the rim.
     """
@@ -207,8 +207,9 @@ def _is_top(placed: Any) -> bool:
 
 
 def _holder(system: System, placed: Any) -> Iterable[Mark]:
-    """Yield a joint in a plane. In space, yield a hinge at the end of a shaft if the rotation about the vertical is
-    prescribed. For any other motion, yield a support below an upright body, or a ceiling above a hanging body."""
+    """Yield a joint in a plane. In space, yield a hinge if the motion of the body is prescribed; the hinge is at the
+    end of a shaft if the first rotation is about the vertical. For any other motion in space, yield a support below an
+    upright body, or a ceiling above a hanging body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -333,8 +334,8 @@ def _in_pieces(there: Any, centres: list[Any], part: Any) -> list[Mark]:
 
 
 def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark]:
-    """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre with an arrowhead in its
-    positive sense."""
+    """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre with an arrowhead that
+    shows the positive sense."""
     for mark in outline:
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))

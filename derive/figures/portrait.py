@@ -14,8 +14,8 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected
 
-STEPS = 240  # of the grid, in each direction
-EDGE = 0.1  # part of the horizontal axis at either end where a curve has no arrowhead if it also goes elsewhere
+STEPS = 240  # number of steps of the grid in each direction
+EDGE = 0.1  # fraction of the horizontal axis at each end; an arrowhead is there only if the whole curve is there
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class LevelLine:
 
 @dataclass(frozen=True)
 class Portrait:
-    """The range of the vertical axis, the values, each with whether its curves are thick, and the curves of all
-    values."""
+    """A phase portrait: the range of its vertical axis, pairs of a value and whether its curves are thick, and the
+    curves of all values."""
 
     low: float
     high: float
@@ -100,8 +100,8 @@ def lines_of(
 def _along(
     points: Any, rate: tuple[Expr, Expr], plane: tuple[Symbol, Symbol], inner: tuple[float, float], is_thick: bool
 ) -> Iterator[LevelLine]:
-    """Yield the line in the order of the motion, with the place of its arrowhead. A line that is only a point is left
-    out."""
+    """Yield the line in the order of the motion, with the place of its arrowhead. A line of fewer than three points, or
+    of equal points, is left out."""
     flow = _on(rate[0], plane, *points.T), _on(rate[1], plane, *points.T)
     size = np.ptp(points, axis=0)
     if len(points) < 3 or not np.any(size):

@@ -25,7 +25,7 @@ class PulleyRopeMark(RopeMark):
     along itself, the pulley is drawn at its place, between two parallel pieces.
 
     corners   the indices of the places with such a pulley
-    tied      whether each of the two ends is fixed, so that it may be shifted aside
+    tied      whether each of the two ends is fixed; a fixed end may be drawn a little aside
     """
 
     corners: tuple[int, ...] = ()
@@ -60,8 +60,8 @@ class PulleyRopeMark(RopeMark):
 
 
 def _sense(spots: Sequence[Spot], k: int) -> float:
-    """Return the sense in which a string turns at a pulley on which it returns. The piece before the pulley is on the
-    side from which the string comes."""
+    """Return the sense in which a string turns round a pulley where it reverses its direction: 1 to the left, -1 to the
+    right. The piece that leads to the pulley is on the side from which the string comes."""
     along = direction(spots[k - 1], spots[k])
     offs = [_off(spot, spots[k], along) for spot in reversed(spots[: k - 1])]
     before = next((off for off in offs if abs(off) > 1e-6), -1.0)
@@ -104,7 +104,7 @@ def _inside(a: Spot, b: Spot, c: Spot, radius: float) -> Spot:
     far = hypot(x + u, y + v)
     if far < 1e-3:
         return b[0] - radius * abs(y), b[1] - radius * abs(x)
-    sine = sqrt(max((1 - (x * u + y * v)) / 2, 1e-6))  # of half the angle of the corner
+    sine = sqrt(max((1 - (x * u + y * v)) / 2, 1e-6))  # the sine of half the angle of the corner
     return b[0] + radius * (x + u) / (far * sine), b[1] + radius * (y + v) / (far * sine)
 
 

@@ -1,4 +1,4 @@
-"""Draw a rigid body of which only the principal moments are known, as an ellipsoid with about these moments."""
+"""Draw a rigid body with known principal moments but unknown shape as an ellipsoid with approximately these moments."""
 
 from __future__ import annotations
 
@@ -38,7 +38,8 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
 
 
 def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
-    """Return the semi-axes, up to a factor, of a uniform ellipsoid with about these moments: I_x is (M/5)(b^2 + c^2).
+    """Return the semi-axes, up to a factor, of a uniform ellipsoid with approximately these moments; its I_x is
+    (M/5)(b^2 + c^2).
 
     The semi-axes are greater than those of the exact ellipsoid, so that a flat or thin body has a thickness.
     """

@@ -1,7 +1,7 @@
 """The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
 The bodies, springs, strings, rods, wires, surfaces and joints of the description are drawn. A particle that no drawn
-part holds is a small disc, with the lines of its coordinates and the curve on which it moves. No part is guessed.
+part holds is drawn with the lines of its coordinates and the curve on which it moves. No part is guessed.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ class _Scene:
         )
 
     def _bodies_are_seen(self) -> bool:
-        """Whether each body has an outline or, in space, a line from its known point to its centre of mass."""
+        """Whether each body has an outline or, in space, a line from `placed.at` to its centre of mass."""
         return all(
             placed_outline(with_its_shape(placed)) or self.rows == 3 and not same(placed.at, placed.centre)
             for placed in self.system.bodies
@@ -156,8 +156,10 @@ class _Scene:
         )
 
     def _shows_something(self) -> bool:
-        """Whether the drawing shows more than particles and bodies with their angles and positions. Links, springs, a
-        pivot of a body and a constraint stated in the caption also count."""
+        """Whether the drawing shows more than particles and bodies with their angles and positions.
+
+        A constraint that the caption states also counts, and so does the pivot of a body in a plane. Links and springs
+        count if there are no bodies. A body with an outline in space counts if nothing acts on it."""
         outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
         if any(not isinstance(mark, ALONE) and mark not in outlines for mark in self.marks):
             return True
@@ -250,8 +252,8 @@ class _Scene:
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def is_thing(self, mark: Mark) -> bool:
-        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or the line from a point to a
-        particle that replaces a rod."""
+        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or a line to a particle that
+        is drawn in place of a rod."""
         if isinstance(mark, Line):
             return mark.pen == "edge"
         if isinstance(mark, ConnectionMark):
@@ -279,8 +281,8 @@ class _Scene:
             yield from self._cartesian(particle.at) if len(plain) == self.rows else self._ways(particle.at)
 
     def _along_wire(self, link: Link, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield the marks of the link to a bead on a wire: without its path, which is the wire, and with a dimension
-        line for the distance along a straight wire, on the side away from the angle of the wire."""
+        """Yield the marks of the link to a bead on a wire. The path of the bead is left out, because the wire shows it.
+        A dimension line shows the distance along a straight wire, on the side away from the angle of the wire."""
         moving = moving_in(self.system, *link.way.components) - {TIME}
         is_straight = not link.is_constant and not any(diff(c, q, 2) for c in link.way.components for q in moving)
         turned = angle_of_link(self.system, link)
@@ -304,7 +306,8 @@ class _Scene:
 
         If the link starts at the origin, or on the vertical axis at a height that is a coordinate, yield the circle of
         the particle for each angle. If the height is a coordinate, also yield the axis with this coordinate as its
-        label. Yield nothing for a link of constant length or with a prescribed rotation about a fixed point.
+        label. For any other start, yield the marks of `_ways`. Yield nothing for a link of constant length or with a
+        prescribed rotation about a fixed point.
         """
         *across, height = link.start.components
         if (
@@ -345,8 +348,8 @@ class _Scene:
             yield ConnectionMark(column_of(rest), column_of(beside))
 
     def _two_bodies(self) -> Iterable[Mark]:
-        """For two particles in a plane, yield the components of their relative position, and the axes of their centre
-        of mass. Yield nothing unless the components of these two vectors are coordinates of the system."""
+        """For two particles in a plane, yield the components of their relative position, and the axes for the position
+        of their centre of mass. Yield nothing unless the components of both positions are coordinates of the system."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -396,8 +399,8 @@ class _Scene:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
         If a piece of a rope has the length q, the ends are those of the piece. Otherwise q must be the distance that a
-        mass has moved along a fixed line; the ends are its positions at q = 0 and at the drawn value of q. Of several
-        such masses, the one is chosen whose position contains the fewest coordinates.
+        mass has moved along a fixed line; the ends are its positions at q = 0 and at the drawn value of q. If several
+        masses have moved in this way, the result is for the mass whose position contains the fewest coordinates.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
@@ -500,7 +503,8 @@ class _Scene:
             yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
-        """Return False for a fixed end: for a point that does not move and is not the position of a particle."""
+        """Whether an end of a spring or of a central force moves or is the position of a particle; all other ends are
+        fixed."""
         return not is_fixed(self.system, place) or any(same(place, particle.at) for particle in self.system.particles)
 
     def _is_free(self, end: Location) -> bool:
@@ -514,7 +518,7 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its fixed ends, or the source of a central force with the orbit about it."""
+        """Yield a spring with its fixed ends, or the source of a central force with the orbit about this source."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
@@ -536,7 +540,7 @@ class _Scene:
             yield ConnectionMark(a, b)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
-        """Yield an ellipse with the centre of an inverse-square force in one focus; nothing for any other force."""
+        """Yield an ellipse with the centre of an inverse-square force at one focus; nothing for any other force."""
         other = each.end if same(each.start, centre) else each.start
         link = next((link for link in self.links.values() if same(link.end, other) and same(link.start, centre)), None)
         turned = angle_of_link(self.system, link) if link is not None and self.rows == 2 else None
@@ -550,8 +554,8 @@ class _Scene:
 
 
 def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """Return a vector along an axis as a unit vector, in the direction in which its label is positive, so that the
-    description in words has the direction; return any other vector unchanged."""
+    """Return a unit vector for a vector along an axis, in the direction in which its label is positive; return any
+    other vector unchanged. The description in words can state the direction of a unit vector."""
     if sum(c != 0 for c in way) > 1:
         return ImmutableDenseMatrix(way)
     return ImmutableDenseMatrix([0 if c == 0 else -1 if c.could_extract_minus_sign() else 1 for c in way])

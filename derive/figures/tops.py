@@ -25,13 +25,13 @@ from derive.steps.step import is_zero
 
 TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the right in the usual view
 # The precession angle at which the line of nodes points to the viewer and to the left. Then the axis of the body leans
-# to the left and slightly away from the viewer.
+# to the left and away from the viewer.
 NODES_IN_FRONT = -pi / 18
 # Length of a drawn axis, and distance of a rotation arrow from its start, relative to the length of the body's axis.
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
-CLEAR, APART = 14.0, 20.0  # distance from the axis to the first dimension line, and between such lines, in points
+CLEAR, APART = 14.0, 20.0  # extra distance of the first dimension line, and distance between these lines, in points
 CENTRE = "C"
 
 

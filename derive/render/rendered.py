@@ -34,10 +34,10 @@ class Rendered:
     html, title_html        the solution and its title, for a page in a browser
     card_html               the statement and its drawing, for the list of the problems of a set
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
-    counts                  the counts of its checks, see `Checks.counts`
+    counts                  the counts of the checks of the problem, see `Checks.counts`
     steps, compared         the number of steps, and the number of compared statements of the reference and of remarks
-    source_faults           errata of the source and remarks on it: the kind, the line, what is printed,
-                            what is right (of an erratum), and why, as plain text
+    source_faults           errata of the source and remarks on it, each as five texts: the kind, the line, what is
+                            printed, what is right (for an erratum), and the reason
     """
 
     id: str

@@ -25,7 +25,7 @@ ANGLE = pi / 5
 APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
 OPEN = 0.5  # least cosine of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
-SHARES = (0.8, 0.6, 1.0, 0.7)  # values of length coordinates without a number, in units of the typical length
+SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates other than angles without a number, in units of `typical`
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
@@ -133,7 +133,7 @@ USUAL = stance_from(25, 18)
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
     """Return the view of a drawing: the view that the author chooses, if there is one. Otherwise, of several views in
     space, it is the one in which vectors are long and far apart and do not end at corners. Without vectors, or with a
-    plane that moves in time, it is the usual view or, for a flat body, the first view in which the body is open.
+    plane that moves with time, it is the usual view or, for a flat body, the first view in which the body is open.
 
     `reach` is the size of the bodies.
     """

@@ -23,11 +23,8 @@ Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, abo
 CLEAR = 1.5  # distance between a label and a line, in points
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
-BESIDE, TOGETHER = (
-    7.0,
-    5.0,
-)  # the gap in a row, in points, below which two labels look like a product; its cost
-HEAVY_ENOUGH = 20.0
+BESIDE, TOGETHER = 7.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
+HEAVY_ENOUGH = 20.0  # total cost from which the second search is made
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # in points: a wider line is represented by its two edges
 OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line

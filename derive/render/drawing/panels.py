@@ -25,12 +25,12 @@ MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks o
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
-MARGIN = 0.08  # any other margin around a curve or a path, in units of its size
+MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03  # part of the vertical axis of a diagram, at its lower end, without numbers: those below are close
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
-FLATTEST, STEEPEST = 0.25, 1.4  # height divided by width of a path whose axes have the same scale
-USUAL = (-2, 4)  # the powers of ten of numbers that an axis shows without a power of ten
+FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
+USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
@@ -42,7 +42,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and its names, with and without the kind
-    name     the name of the curve; empty if it is the only one in its panel
+    name     the name of the curve; empty if the panel has no other curve
     """
 
     points: tuple[Spot, ...]
@@ -80,7 +80,7 @@ class Panel:
     outlines         the lines of surfaces in the plane of a path
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
-    shape            height divided by width, if it is not that of the paper
+    shape            height divided by width; None for the usual shape
     """
 
     traces: tuple[Trace, ...]
@@ -228,7 +228,7 @@ def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...
 def portrait_panel(
     plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
 ) -> Panel:
-    """Return the panel of a phase portrait, whose axes end with the ranges."""
+    """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
     powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
     return Panel(

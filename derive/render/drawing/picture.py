@@ -16,7 +16,7 @@ POINTS_PER_CM = 72 / 2.54
 TRIES = 12  # iterations to find the scale
 LABEL = 8.0  # in points: approximate width of a letter
 REDUCED = 0.7  # the drawing of a normal mode has small parts: it is drawn larger, and then reduced by this factor
-SMALLEST = 15.0  # in points: the size of the drawing if its parts of fixed size leave no room
+SMALLEST = 15.0  # in points: the least distance from the middle of the bodies to their farthest point
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:

@@ -4,7 +4,7 @@ A path has dots at its start and at its end and an arrowhead in the direction of
 path have the same unit, both axes have the same scale.
 
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
-names are in a legend above the panel.
+names are in a legend in a corner of the panel or, if no corner is free, above the panel.
 
 Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
 """
@@ -30,15 +30,15 @@ from derive.render.drawing.panels import Mark, Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.notation import Notation
 
-PANEL, TALL = 7.5, 5.0  # centimetres
-WIDEST = 16.5  # centimetres: the width of all panels, if it is not given
+PANEL, TALL = 7.5, 5.0  # centimetres: the usual width and height of a panel
+WIDEST = 16.5  # centimetres: the greatest width of all panels together, if no width is given
 TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the width of its panel is not given
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # in points: the distance of the name of an axis from its numbers, and of a name from its dot
 EDGE = 3.0  # in points: the margin around everything
-HEAD = 0.4  # position of the arrowhead of a path; after half of its length, a path may be back at its start
+HEAD = 0.4  # part of the length of a path before its arrowhead; not 0.5, where a path may be back at its start
 DOT = 2.2  # in points: the radius of the dot at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
 ROW = 17.0  # in points: the height of one row of numbers above a panel, and of the margin; more rows make a plot higher
@@ -108,7 +108,7 @@ def plot_sheet(
     alt: str,
     letters: Letters = letters_of,
 ) -> Sheet:
-    """Return the panels side by side; `width` is the width of one panel."""
+    """Return the panels side by side; `width` is the width of one panel in centimetres, or None for the usual width."""
     wide = (width or min(PANEL, WIDEST / len(curves.panels))) * CM
     height = wide * TALL / PANEL - AROUND
     panels = [
@@ -140,7 +140,7 @@ def _room(panels: Sequence[Panel], writing: Writing, width: float) -> Extent:
     names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
     numbers = [sum(high for _, _, high in _title(panel, writing, width)) for panel in panels]
     wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
-    highest = max((h for _, h in up), default=0.0) / 2  # of a number at the upper end of an axis
+    highest = max((h for _, h in up), default=0.0) / 2  # half the height of a number at the upper end of an axis
     return (
         EDGE + max(names[1]) + PAD + wide + TICK,
         EDGE + max(names[0]) + PAD + high + TICK,
@@ -211,7 +211,7 @@ class Names:
 
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     """Return the names in a panel. If there are several curves, extrema are marked only where their values have room.
-    The names of the curves are next to them, else in a legend in the panel, else in a legend above it."""
+    The names of the curves are next to the curves, else in a legend in the panel, else in a legend above the panel."""
     if panel.branches:
         return _names_of_branches(panel, frame, writing)
     if not panel.has_several:
@@ -352,8 +352,8 @@ def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[Named
     """Return the name of each extremum with its position in the panel: x of its middle, and y of its edge next to the
     dot. Also return whether the extremum is a minimum.
 
-    If a name would cover another, all names are without the words. If this does not help, there are no names; the
-    caption has the values of all extrema.
+    If a name would cover another, the names are only the values, without the words "minimum" and "maximum". If this
+    does not help, there are no names; the caption has the values of all extrema.
     """
     for k in (0, 1):
         found = [_beside_dot(*turn[:2], turn[2][k], frame, writing) for turn in panel.turns]

@@ -66,7 +66,7 @@ def moved(contour: Contour, to: Spot, scale: float = 1.0) -> Contour:
 
 
 def turned(contour: Contour) -> Contour:
-    """Rotate a contour by 90 degrees anticlockwise."""
+    """Rotate a contour by 90 degrees counterclockwise."""
     return [(letter, [(-v, u) for u, v in spots]) for letter, spots in contour]
 
 

@@ -50,7 +50,7 @@ from derive.render.notation.layout import (
 )
 from derive.render.notation.text import in_one_line
 
-DEEPEST = 40
+DEEPEST = 40  # greatest depth of nested braces; a deeper formula is printed unchanged
 _TOKEN = re.compile(r"\\text\{[^{}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|.", re.DOTALL)
 _KINDS = {"=": "equals", "<": "less", ">": "greater", "<=": "at_most", ">=": "at_least", "!=": "unequal", "~": "approx"}
 _OPERATORS = {
@@ -137,7 +137,7 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # no product
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # not a factor
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1

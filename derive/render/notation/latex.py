@@ -39,7 +39,7 @@ from derive.render.notation.layout import (
     row,
 )
 
-SHORT_SUM = 3  # the most terms of a sum that is a numerator or denominator in running text: (a + b)/(c + d)
+SHORT_SUM = 3  # greatest number of terms of a numerator or denominator in running text: (a + b)/(c + d)
 TEX_FUNCTIONS = {"sin", "cos", "tan", "arccos", "arcsin", "arctan", "exp", "ln", "sinh", "cosh", "tanh"}
 TEX_OPERATORS = {
     "dot": r"\cdot ",
@@ -110,7 +110,7 @@ def _with_strokes(layout: Layout) -> Layout:
         for i, item in enumerate(items)
     ]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
-        return row(*items)  # if one fraction cannot be written a/b, no fraction is changed
+        return row(*items)  # if one fraction cannot be written a/b, no fraction of the row is changed
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 

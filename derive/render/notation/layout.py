@@ -176,7 +176,7 @@ GREEK_LETTERS = {
 }  # fmt: skip
 SCRIPT_LETTERS = {"calE": "ℰ", "calH": "ℋ", "calL": "ℒ", "calR": "ℛ"}  # for results whose usual symbol is taken
 
-# Signs without a meaning for derive, by their commands: those of relations have spaces around them in text.
+# Signs without a meaning for derive, by their commands; in text, the signs of relations have spaces around them.
 SIGNS = {
     "ll": " ≪ ", "gg": " ≫ ", "propto": " ∝ ", "equiv": " ≡ ", "sim": " ∼ ", "to": " → ", "in": " ∈ ",
     "Rightarrow": " ⇒ ", "perp": " ⊥ ", "parallel": " ∥ ", "mp": " ∓ ", "infty": "∞", "ldots": "…", "cdots": "⋯",

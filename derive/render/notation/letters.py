@@ -26,7 +26,7 @@ _NOTATION = Notation()
 def letter_clashes(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol] = ()
 ) -> list[Complaint]:
-    """Return at most one error for each symbol of the problem: its printed form must not also mean something else.
+    """Return an error for each symbol of the problem whose printed form also means something else.
 
     `coordinates` are the coordinates that the script names. If the script creates a body before it names the
     coordinates, a variable of integration of this body can have the symbol of a coordinate; this is an error.

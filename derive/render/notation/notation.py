@@ -94,7 +94,8 @@ PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "l
 class Notation:
     """The layout of any expression of the engine.
 
-    dimensions   dimensions of symbols, so that masses come first and rates last; symbols without one are between these
+    dimensions   dimensions of symbols, so that masses come first and rates last; symbols without a dimension are
+                 between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     """
 

@@ -18,9 +18,9 @@ from derive.algebra.dimensions import Dimension, power, product
 from derive.algebra.kinds import dimension_of_kind
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
-DISPLACEMENT = "eta"  # from an equilibrium
+DISPLACEMENT = "eta"  # the name of a displacement from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
-COEFFICIENTS = ("mu", "e")  # of friction and of restitution
+COEFFICIENTS = ("mu", "e")  # the names of coefficients of friction and of restitution
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
@@ -38,8 +38,9 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    A term with both signs comes last: -beta +- i omega. Plain terms come before fractions, roots and functions; a
-    number precedes a term with the time, and a coefficient: 1 + omega_0 t, 1 + e.
+    A term with both signs comes last: -beta +- i omega. So does a displacement from an equilibrium: r_0 + eta. Plain
+    terms come before fractions, roots and functions. A number comes before a term with the time, as in 1 + omega_0 t,
+    and before a coefficient, as in 1 + e.
     """
 
     is_timed = any(term.has(ex.TIME) for term in terms)
@@ -73,7 +74,8 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
-    Of the other terms, those with a coordinate come before constants: m y_ddot + k y - m g.
+    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g. If no term has an
+    acceleration or a rate, the order is unchanged.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},

@@ -84,7 +84,7 @@ def rounded_number(text: str) -> Layout:
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
-    """Split a number below 10^-4, or a round number from 10^7, into a power of ten and a factor from 1 to 10.
+    """Split a number below 10^-4, or a round number from 10^7 on, into a power of ten and a factor from 1 to 10.
 
     For any other number the power is 0, and the factor is the number. A number is round if it has at most four digits
     before its zeros, or fewer digits before its zeros than zeros.
@@ -195,8 +195,8 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if this has more digits, or as many
-    digits and a fraction before the root."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if this form has more digits, or the
+    same number of digits and a fraction before the root."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []

@@ -6,7 +6,7 @@ These are the rules for reading a line; `tests/printed/from_text.py` reads every
     1/2 M a²/b   from left to right: half of M a², divided by b; a product after the stroke is in brackets
     a·3b         a product with a later factor that begins with a number
     a⃗·b⃗, a⃗ × b⃗  a product of vectors: it extends on either side up to the next sign
-    -a b         minus the whole product; a sign appears only where a sum begins, so never after `·` or another sign
+    -a b         minus the whole product; this sign appears only where a sum begins, never after `·` or another sign
     sin θ        a function of one letter; a longer argument is in brackets, `sin(2θ)`; sin² θ is the square of sin θ
     √a           the root of one letter or number; any other root is √(...)
     a⃗, I⃡        a vector under an arrow, a tensor under a double one; `I` is a scalar, `1⃡` the unit tensor; a zero is 0

@@ -141,8 +141,8 @@ def _symbol(step: Step, notation: Notation) -> str:
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return a number as data, for a relation the number on its right side. The result is None if the number contains
-    symbols, and for a relation whose left side is not a symbol."""
+    """Return a number as data; for a relation, return the number on its right side. The result is None if the number
+    contains symbols, and for a relation whose left side is not a symbol."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers

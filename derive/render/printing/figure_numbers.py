@@ -1,7 +1,7 @@
-"""Figures on a page of several problems: they are numbered in a row through the page.
+"""Figures on a page of several problems: they have consecutive numbers on the whole page.
 
-The problems of a page are printed separately, and each numbers its own figures from 1. Their numbers are marked, and
-each is later increased by the number of figures of the earlier problems.
+The problems of a page are printed separately, and each numbers its own figures from 1. These numbers are marked. Later
+each number is increased by the number of figures of the earlier problems.
 """
 
 from __future__ import annotations

@@ -46,7 +46,8 @@ from derive.render.printing.told_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
 LISTED = 3  # a page with at least this many parts has a table of contents
-# Characters that fit into a narrow window; a wider formula can be scrolled, also by keyboard.
+# Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
+# by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
 PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
 
@@ -253,7 +254,7 @@ class HtmlPage:
         return Html("" if drawing.number is None else self._figure(drawing.number, " "))
 
     def _figure(self, number: int, space: str) -> str:
-        """Return the name of a figure; on a page of several problems, the figures are later numbered in a row."""
+        """Return the name of a figure; on a page of several problems, the figures later get consecutive numbers."""
         shown = str(number) if self.standalone else figure_number(number)
         return f"{escape(self.words.labels['figure'])}{space}{shown}"
 

@@ -238,7 +238,8 @@ class LatexPage:
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
 
     def _numbered(self, number: Number) -> str:
-        """Return the number of an equation, which a page shows once: hints show further lines of an equation."""
+        """Return the number of an equation, which a page shows once, even if later hints show further lines of the
+        equation."""
         self._placed.add(number)
         return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
 
@@ -286,7 +287,7 @@ class _Questions(LatexPage):
 
 
 def passages_of(blocks: Sequence[Block]) -> list[Passage]:
-    """Split a part into drawings with sentences before and after; sentences between drawings are split equally."""
+    """Split a part into passages; half of the sentences between two drawings belong to each drawing."""
     passages = [Passage()]
     for sentence in sentences(blocks):
         first, last = sentence[0], passages[-1]

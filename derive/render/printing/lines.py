@@ -21,8 +21,8 @@ LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on pap
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
-FRAMED_WIDTH = 36.0  # width of the longest line of several sides that is framed as a whole
-MOST_SIDES = 4  # the most sides on one line of a chain
+FRAMED_WIDTH = 36.0  # greatest width of a line that is framed with its left side; an inequality may be wider
+MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
 
 @dataclass(frozen=True)
