@@ -15,7 +15,8 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two bounds of a symbol; omit the condition that a sine or cosine is not zero if the bounds imply it."""
+    """Join the two numerical bounds of a symbol. If the bounds imply that a sine or cosine is not zero, omit this
+    condition."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number

@@ -37,7 +37,8 @@ class ChainLine:
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, with the number at the last line; the last `framed` lines are framed as an answer."""
+    """The lines of one step, with its number, which is printed at the last line; the last `framed` lines are framed as
+    an answer."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -52,7 +53,7 @@ class Equations:
 
     @property
     def frames_bare_value(self) -> bool:
-        """Return whether the frame contains only a number such as 0 or a letter, which has no meaning without the left
+        """Return whether the frame contains only a letter or a number such as 0, which means nothing without the left
         side."""
         last = self.lines[-1]
         return self.framed == 1 and last.left is None and _is_bare(last.right)
@@ -164,8 +165,8 @@ class ChainWriter:
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key of a step; for a vector or tensor that is not shown, the keys of the entries that `of`
-        uses."""
+        """Return the key itself. But if it is the key of a vector or tensor that the page does not show, return the
+        keys of those entries that the step `of` uses."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -187,7 +188,8 @@ def conditions_of(step: Step) -> tuple[ChainLine, ...]:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """Return the symbols of limits and series that other steps or numerical answers use and the page must introduce."""
+    """Return the symbols of limits and series that the page must introduce, because other steps or numerical answers
+    use them."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():

@@ -149,7 +149,7 @@ def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inli
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:
-    """Return the symbols in a drawing, which its caption may mention by name like inputs: `<<C>>` prints C."""
+    """Return the symbols that label the marks of a drawing. The caption may mention them by name: `<<C>>` prints C."""
     labels = (getattr(mark, "label", None) for mark in getattr(drawing, "marks", ()))
     return {label.name: (Math(label),) for label in labels if isinstance(label, Symbol)}
 
@@ -250,8 +250,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
 
 
 def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If the
-    case gives a number to a letter that these steps have replaced, its value is such a condition: b = 2 sqrt(k m)."""
+    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If
+    these steps replace a letter by a value, such as b by 2 sqrt(k m), and the case gives a number to this letter, then
+    b = 2 sqrt(k m) is also a condition."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -307,7 +308,7 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each `range`, `cases` and `panels` of a drawing that is not a plot."""
+    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)

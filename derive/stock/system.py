@@ -439,7 +439,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def reduced(self) -> Quantity:
-        """Return the Routhian if some but not all coordinates are cyclic and `at` gives no cyclic coordinate.
+        """Return the Routhian if some but not all coordinates are cyclic and `at` has no value for a cyclic coordinate.
 
         Otherwise return the Lagrangian.
         """
@@ -471,9 +471,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         If the problem describes bodies:
 
         - the effective potential energy, if there are no constraint forces, and if some but not all momenta are
-          constant or the only coordinate is driven;
-        - otherwise the Lagrangian, if a coordinate is driven or forces are given;
+          constant or a driven system has only one coordinate;
+        - otherwise the Lagrangian, if the system is driven or forces are given;
         - otherwise the potential energy.
+
+        A system is driven if it has kinetic energy while all rates are zero, such as a bead on a rotating hoop.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian

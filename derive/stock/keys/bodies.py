@@ -90,7 +90,9 @@ class ShapeKeys(Record):
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
     sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
     semi_axes: tuple[Tree, ...] = key("the semi-axes of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
-    corners: tuple[tuple[Tree, ...], ...] = key("the positions of the corners of a triangle or a tetrahedron", CORNERS)
+    corners: tuple[tuple[Tree, ...], ...] = key(
+        "the positions of the corners of a triangle, a tetrahedron or the triangular face of a wedge", CORNERS
+    )
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
     foot: Tree | None = key(
         "the x of the apex of a triangle, measured from the left end of its base; by default half the base", SCALAR
