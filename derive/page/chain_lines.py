@@ -87,8 +87,8 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step, with its decimals; in the mode `result` or `hidden`, only the last line and the
-        decimals. A list of results has one line for each distinct value."""
+        """Return the lines of a step, with its decimals. If `mode` is `result` or `hidden`, only the last line and the
+        decimals are returned. A list of results has one line for each distinct value."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]

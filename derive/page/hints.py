@@ -82,7 +82,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _in_order(self, groups: Sequence[Equations]) -> list[Block]:
-        """Return a sentence that says what to find: the symbols in their order, each new letter with its meaning."""
+        """Return a sentence that says what to find: the symbols in their order, with the names of their quantities."""
         formulas = [group for group in groups if not any(f.because in NUMBERS for f in self.by_key[group.key].chain)]
         items: list[tuple[str, list[Any]]] = []
         for group in formulas or groups:
