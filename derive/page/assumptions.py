@@ -36,7 +36,8 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:
-    """Return a condition in which each numerical bound of a symbol has the unit of this symbol: -1 m/s < v < 1 m/s."""
+    """Return a condition in which each rational bound of a symbol, except zero, has the unit of this symbol:
+    -1 m/s < v < 1 m/s."""
     left, right = condition.left, condition.right
     letter = left.right if isinstance(left, Relation) else left
     unit = units.get(letter, "") if isinstance(letter, Symbol) else ""

@@ -331,7 +331,7 @@ def curve_letters(curves: Curves) -> list[str]:
 
 
 def told_value(up: Axis, extremum: Extremum) -> str:
-    """Return the value at an extremum with its unit, to four figures, for the plot, its description and its caption."""
+    """Return the value at an extremum with its unit, to four figures, for the plot and for its description in words."""
     value = extremum.value * up.per_unit
     shown = f"{value:#.4g}".rstrip(".") if value else "0"
     return _signed(f"{shown}{_gap(up.unit)}{up.unit}")

@@ -88,7 +88,7 @@ class ShapeKeys(Record):
     height: Tree | None = key("its height", SCALAR)
     length: Tree | None = key("its length", SCALAR)
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
-    sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
+    sides: tuple[Tree, ...] = key("its edges along x, y and, for a block, z", list_of(SCALAR, SEVERAL))
     semi_axes: tuple[Tree, ...] = key("the semi-axes of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
     corners: tuple[tuple[Tree, ...], ...] = key(
         "the positions of the corners of a triangle, a tetrahedron or the triangular face of a wedge", CORNERS
