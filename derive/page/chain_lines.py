@@ -32,7 +32,7 @@ class ChainLine:
     presented: bool = False
     numeric: bool = False
     beside: bool = False  # whether this line may share the row of the line before
-    because: str = ""  # the `because` of the form in this line; empty if there is no form, as in a list of results
+    because: str = ""  # the `because` of this line in the step's chain; empty for a line of a list of results
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
-CURVE = "way"  # the phrase for a dashed curve
+CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
 ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
@@ -321,8 +321,8 @@ def keys_of_plots(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Comp
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that it shows.
-    The drawings of normal modes follow the last mode, so that they are side by side."""
+    """Return the keys of the steps that a drawing shows. The drawing is placed after those of these steps that are in
+    its part. The drawings of normal modes follow the last mode, so that they are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 

@@ -149,11 +149,12 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body.
+        """Draw the forces on each particle and each body.
 
-        If steps derive Newton's laws of the body or, in space, equations of motion with constraint forces, the drawing
-        precedes these steps and shows each force in the direction in which its symbol is positive. Otherwise the forces
-        are drawn only in a plane, and only if they are derived. All drawings have one scale.
+        The drawing precedes the steps that derive Newton's laws for this particle or body or, in space, the equations
+        of motion with constraint forces. It then shows each force in the direction in which its symbol is positive. If
+        there are no such steps, the forces are drawn only in a plane, and only if they are derived. All drawings have
+        the same scale.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()

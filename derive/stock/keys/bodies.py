@@ -156,7 +156,7 @@ class DescribedBody:
     """A body of a description.
 
     parts    one body, or several bodies in their positions
-    mass     the mass of the whole body, if it is given; it is then divided among the parts
+    mass     the mass of a body with parts, if it is given for the whole body; it is then divided among the parts
     points   name of a point of the body -> its position
     is_integrated   whether a standard moment of inertia is integrated in place of quoting it
     """
