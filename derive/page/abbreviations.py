@@ -1,4 +1,4 @@
-"""Formulas under a square root: after a step has named a formula by a symbol, the page shows this symbol instead."""
+"""Square roots that a step has named, such as a distance r: later steps show the symbol in place of the root."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return a function of a step and an expression; under square roots, this function replaces formulas by symbols of
-    earlier steps."""
+    """Return a function of a step and an expression. It replaces each square root that an earlier step has named by the
+    symbol of that step."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
@@ -24,7 +24,7 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Replace each named formula under a square root by its symbol, even if the formula is written in another form."""
+    """Replace each named square root by its symbol, even if the formula under the root is written in another form."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

@@ -15,7 +15,8 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two bounds of a symbol; omit the condition that a sine or cosine is not zero if the bounds imply it."""
+    """Join the two numerical bounds of a symbol. If the bounds imply that a sine or cosine is not zero, omit this
+    condition."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
@@ -35,7 +36,8 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:
-    """Return a condition in which each numerical bound of a symbol has the unit of this symbol: -1 m/s < v < 1 m/s."""
+    """Return a condition in which each rational bound of a symbol, except zero, has the unit of this symbol:
+    -1 m/s < v < 1 m/s."""
     left, right = condition.left, condition.right
     letter = left.right if isinstance(left, Relation) else left
     unit = units.get(letter, "") if isinstance(letter, Symbol) else ""

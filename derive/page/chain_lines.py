@@ -32,12 +32,13 @@ class ChainLine:
     presented: bool = False
     numeric: bool = False
     beside: bool = False  # whether this line may share the row of the line before
-    because: str = ""  # the `because` of the form in this line; empty if there is no form, as in a list of results
+    because: str = ""  # the `because` of this line in the step's chain; empty for a line of a list of results
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, with the number at the last line; the last `framed` lines are framed as an answer."""
+    """The lines of one step, with its number, which is printed at the last line; the last `framed` lines are framed as
+    an answer."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -52,7 +53,7 @@ class Equations:
 
     @property
     def frames_bare_value(self) -> bool:
-        """Return whether the frame contains only a number such as 0 or a letter, which has no meaning without the left
+        """Return whether the frame contains only a letter or a number such as 0, which means nothing without the left
         side."""
         last = self.lines[-1]
         return self.framed == 1 and last.left is None and _is_bare(last.right)
@@ -86,8 +87,8 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step, with its decimals; in the mode `result` or `hidden`, only the last line and the
-        decimals. A list of results has one line for each distinct value."""
+        """Return the lines of a step, with its decimals. If `mode` is `result` or `hidden`, only the last line and the
+        decimals are returned. A list of results has one line for each distinct value."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -165,8 +166,8 @@ class ChainWriter:
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key of a step; for a vector or tensor that is not shown, the keys of the entries that `of`
-        uses."""
+        """Return the key itself. But if it is the key of a vector or tensor that the page does not show, return the
+        keys of those entries that the step `of` uses."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -188,7 +189,8 @@ def conditions_of(step: Step) -> tuple[ChainLine, ...]:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """Return the symbols of limits and series that other steps or numerical answers use and the page must introduce."""
+    """Return the symbols of limits and series that the page must introduce, because other steps or numerical answers
+    use them."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():

@@ -139,8 +139,8 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """Return the words for the checks of a step or for its second routes, as `sort` requires. The words for the routes
-    end with the motion if the witness simulated it."""
+    """Return the words for the checks of a step or for its second routes, as `sort` requires. If the witness simulated
+    the motion, the words for the routes end with a phrase about this simulation."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found

@@ -47,8 +47,8 @@ class Clauses:
             self.waiting.append(step)
 
     def define_at_use(self, step: Step) -> None:
-        """Define the symbol of a step without words of its own where the page first uses the symbol. A long result is
-        left out: `where J is the inertia tensor`."""
+        """Store a step that has no words of its own: a clause will define its symbol where the page first uses it. The
+        clause leaves out a long result: `where J is the inertia tensor`."""
         self.waiting.append(step)
         self.by_name |= set() if is_short(step) else {step.key}
 

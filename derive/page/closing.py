@@ -98,7 +98,7 @@ def _result(step: Step) -> Nodes:
         return (Math(last.expr),)
     what = dict(step.roles).get(
         "bound", name_before(step)
-    )  # the left side; a step for the least value of a symbol has a `bound` that the page shows
+    )  # the left side: the `bound` of a step for the least value of a symbol, otherwise the symbol of the step
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)

@@ -16,7 +16,7 @@ class References:
 
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
-    away     the equations without a number of parts that the page leaves out, by the keys of their steps
+    away     the equations of the parts that the page leaves out, by the keys of their steps; they have no numbers
     faults   the object that collects the errors
     """
 
@@ -58,7 +58,7 @@ class References:
         """Reject references by number in the title, because lists, bookmarks and page headers also show the title."""
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
-                message = "a title cannot refer to an equation or to a problem"
+                message = "a title cannot refer to an equation, a figure or a problem"
                 self.faults.append(Complaint("mention", message, mention.place, help="refer to it in the statement"))
 
     def _problem(self, mention: Mention) -> Inline | None:

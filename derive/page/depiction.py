@@ -36,7 +36,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
-CURVE = "way"  # the phrase for a dashed curve
+CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
 ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
@@ -152,7 +152,7 @@ def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inli
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:
-    """Return the symbols in a drawing, which its caption may mention by name like inputs: `<<C>>` prints C."""
+    """Return the symbols that label the marks of a drawing. The caption may mention them by name: `<<C>>` prints C."""
     labels = (getattr(mark, "label", None) for mark in getattr(drawing, "marks", ()))
     return {label.name: (Math(label),) for label in labels if isinstance(label, Symbol)}
 
@@ -253,8 +253,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
 
 
 def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If the
-    case gives a number to a letter that these steps have replaced, its value is such a condition: b = 2 sqrt(k m)."""
+    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If
+    these steps replace a letter by a value, such as b by 2 sqrt(k m), and the case gives a number to this letter, then
+    b = 2 sqrt(k m) is also a condition."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -310,7 +311,7 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each `range`, `cases` and `panels` of a drawing that is not a plot, and for each `view` of a
+    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot, and for each `view` of a
     drawing that is not in space."""
     found = []
     for placement in problem.drawings:
@@ -334,8 +335,8 @@ def _is_in_space(drawing: m.Recorded) -> bool:
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that it shows.
-    The drawings of normal modes follow the last mode, so that they are side by side."""
+    """Return the keys of the steps that a drawing shows. The drawing is placed after those of these steps that are in
+    its part. The drawings of normal modes follow the last mode, so that they are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 

@@ -74,7 +74,7 @@ from derive.steps.homogeneity import dimension_table
 from derive.steps.step import NUMBERS, Level, Step
 
 HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
-CASES = "cases"  # in a question, the numbers of the cases of its plots
+CASES = "cases"  # `<<cases>>` in a question prints the numbers of the cases of the plots in this part
 HOMOGENEITY = "look in the script for a law with a wrong quantity"
 
 
@@ -152,7 +152,7 @@ class _Writer:
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
     def _away(self) -> dict[str, Inline]:
-        """Return the equation of each step that only parts contain which this level leaves out."""
+        """Return, by key, the equation of each step that is in a part, but in no part that this level shows."""
         here = [self.level.shows(part.detail) for part in self.problem.parts]
         shown = {key for keys, is_here in zip(self.derivation.parts, here, strict=True) if is_here for key in keys}
         steps = [self.derivation.step(key) for keys in self.derivation.parts for key in keys if key not in shown]
@@ -356,9 +356,9 @@ class _Writer:
     def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
         """Return the keys of the steps of a part that are framed.
 
-        These are the answers, except a formula whose number is framed instead, and a formula that is only the reason
-        for a verdict in words. If the sentence of an answer points to earlier lines, the steps of these lines are
-        returned instead.
+        These are the answers, except a formula whose numerical value is framed instead, and a formula that is only the
+        reason for a verdict in words. If the sentence of an answer points to earlier lines, the steps of these lines
+        are returned instead.
         """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
@@ -425,8 +425,8 @@ class _Writer:
         return (*told, Text(" ")) if told else ()
 
     def _share_a_row(self, step: Step, own: Equations, above: Equations) -> bool:
-        """Return whether a step and the step before may share a row and its number. Both need a symbol and have no
-        reason. If they are answers, both must be vectors, which share a frame."""
+        """Return whether a step and the step before may share a row and its number. Both steps need a symbol, and none
+        of their lines may have a reason next to it. If they are answers, both must be vectors, which share a frame."""
         steps = (self.before, step)
         if self.level is Level.FULL or any(each is None or each.symbol is None for each in steps):
             return False

@@ -30,8 +30,8 @@ class Need:
 class Explanation:
     """The explanation of a step in `part`; `own_words` is the place where the problem rewords the `sentence`.
 
-    A rewording may mention `names`. The names are empty if no part shows the step. The number of an answer, for
-    example, cannot be reworded.
+    A rewording may mention `names`. `names` is empty if no part shows the step, as for the numerical value of an
+    answer: such a step cannot be reworded.
     """
 
     step: Step

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
-FORCES = ("force", "torque")  # kinds of unknowns that vary in time as coordinates do, but have values in the equations
-TRIALS, DIGITS = 3, 30  # numbers of trial points and digits with which roots of sums are compared
+FORCES = ("force", "torque")  # kinds of unknowns that vary in time like coordinates, but for which the page has values
+TRIALS, DIGITS = 3, 30  # number of trial points, and number of digits, for the comparison of roots of sums
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
@@ -207,8 +207,9 @@ class Formulas:
         self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
 
     def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
-        """Yield a value for each combination of values of the results in it: their symbols are replaced by these
-        values. Symbols of results in these values are replaced in the same way, up to `depth` times in all."""
+        """Yield an expression for each combination of values of the results in `value`: the symbols of the results are
+        replaced by these values. If the values contain symbols of results, these are replaced in the same way, up to
+        `depth` times in all."""
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
         if not symbols or not depth:
             yield explicit(value)
@@ -245,7 +246,7 @@ class Formulas:
 
 
 def _results(steps: Iterable[Step], varying: set[Any]) -> dict[Any, list[Any]]:
-    """Return symbol -> every value that the steps derive for it; coordinates and rates vary, so they are left out."""
+    """Return every value that the steps derive for each symbol; coordinates and rates vary, so they are left out."""
     found: dict[Any, list[Any]] = {}
     for step in steps:
         symbol, value = step.symbol, explicit(step.result)
@@ -290,7 +291,7 @@ def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[st
 
 
 def _by_name(known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
-    """Return the scalars and vectors by name. A name of both means the scalar."""
+    """Return the scalars and vectors by name. If a scalar and a vector have the same name, the scalar is returned."""
     vectors = [symbol for symbol in known if isinstance(symbol, MatrixSymbol)]
     found = {each.name: _derived(Symbol(each.name, real=True), known[each]) for each in vectors}
     return {**found, **{each.name: _derived(each, known[each]) for each in known if isinstance(each, Symbol)}}
@@ -301,7 +302,8 @@ def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:
 
 
 def _seems_zero(value: Any) -> bool:
-    """Whether a value is zero or, with roots of sums that no normal form decides, vanishes at trial numbers."""
+    """Whether a value is zero. Roots of sums have no normal form, so a value that contains them is also tested at trial
+    numbers."""
     if is_zero(value):
         return True
     roots = any(not power.exp.is_integer and power.base.has(Pow, Add) for power in value.atoms(Pow))

@@ -51,7 +51,7 @@ class _Hints:
     answers         results that the parts ask for
     shown           the results on the page, and the components of vectors and tensors among them
     introduced      symbols that the statement or a hint has explained
-    worded_answers  answers in the author's own words, which may contain the answer: "no, unless"
+    worded_answers  keys of the answers that the author words; these words may give the answer away: "no, unless"
     """
 
     steps: Sequence[Step]
@@ -82,7 +82,7 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _in_order(self, groups: Sequence[Equations]) -> list[Block]:
-        """Return a sentence that says what to find: the symbols in their order, each new letter with its meaning."""
+        """Return a sentence that says what to find: the symbols in their order, with the names of their quantities."""
         formulas = [group for group in groups if not any(f.because in NUMBERS for f in self.by_key[group.key].chain)]
         items: list[tuple[str, list[Any]]] = []
         for group in formulas or groups:

@@ -1,4 +1,4 @@
-"""The numbers of a problem that its prose does not mention: the sheet states them, because the answers need them."""
+"""The numbers of a problem that its prose does not mention: the page adds them, because the answers need them."""
 
 from __future__ import annotations
 

@@ -36,8 +36,8 @@ DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
 STEPS = 240  # number of steps of a curve
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
-MOST_TOGETHER = 4  # the curves that different lines can distinguish in one panel
-FLATTEST = 1 / 6  # least size of a curve, divided by the size of all curves, that is readable in their panel
+MOST_TOGETHER = 4  # greatest number of curves in one panel that differ in the style of their lines
+FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class Curves:
 
     @property
     def labels_differ(self) -> bool:
-        """Whether the curves are those of quantities with different names."""
+        """Whether the curves show quantities with different names."""
         return len({curve.label for curve in self.curves}) > 1
 
 
@@ -177,8 +177,11 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel: as the problem states, else the curves of several quantities, and the
-    cases of one quantity that have the same range, if none of them is much smaller than all of them."""
+    """Return whether the curves are in one panel. The problem may state this.
+
+    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if they have the
+    same range and no curve is much smaller than all curves together. A phase portrait always has its own panel.
+    """
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False
@@ -213,7 +216,8 @@ def _axis(unit: str) -> Axis:
 
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
-    """Return the ends of the range; the engine has read the range of a plot that the problem requests."""
+    """Return the ends of the range; if the engine draws the plot, the ends in `plot` already are those that the problem
+    states."""
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
@@ -360,7 +364,7 @@ def curve_letters(curves: Curves) -> list[str]:
 
 
 def told_value(up: Axis, extremum: Extremum) -> str:
-    """Return the value at an extremum with its unit, to four figures, for the plot, its description and its caption."""
+    """Return the value at an extremum with its unit, to four figures, for the plot and for its description in words."""
     value = extremum.value * up.per_unit
     shown = f"{value:#.4g}".rstrip(".") if value else "0"
     return _signed(f"{shown}{_gap(up.unit)}{up.unit}")

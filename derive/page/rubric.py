@@ -97,7 +97,8 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Give each number half a point if every step can have half a point, and divide the rest among the other steps."""
+    """Give each numerical value half a point if every step can have half a point; divide the rest among the other
+    steps."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)

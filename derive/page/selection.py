@@ -33,7 +33,7 @@ LESS = {
     LEFT_OUT: OWN,
     POINTED_OUT: OWN,
     OWN: OWN,
-}  # the next manner to try for a step whose symbol the page needs
+}  # manner of a step -> the manner to try next if the page needs the symbol of the step
 
 LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a clause
 

@@ -59,7 +59,7 @@ class Illustration:
     alt        the alternative text
     number     the figure number, if the drawing has a caption
     at         the label of its part, or `statement`
-    rests_on   the keys of the steps that the drawing uses
+    rests_on   the keys of the steps after which the drawing is placed
     leads_to   the keys of the steps before which the drawing is placed
     """
 

@@ -91,7 +91,7 @@ class Chain:
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
-SAME = "same"  # in place of this outcome, if the sentence of the step just before has the same words
+SAME = "same"  # in place of the outcome after AFTER: the step just before has the same rule, outcome and words
 
 JOINED = "<<chain>>"  # the phrase of a step without words; its lines follow the lines of the step before
 VALUE = "value_"  # prefix of the roles that give values of symbols
@@ -201,7 +201,7 @@ class Phrases:
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """Return the text for a code word of a step or input: `diagonal` is "the long diagonal"."""
+        """Return the text for a code word of a step or input: `diagonal` is "a long diagonal"."""
         return filled(self.terms.get(word, word), AXIS_NAMES)
 
     def body(self, id: str) -> str:
@@ -408,7 +408,7 @@ def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, 
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
-    """Return an input as the statement shows it: `a, 2a and 3a`, `M = 1.5 kg`, `the long diagonal`."""
+    """Return an input as the statement shows it: `a, 2a and 3a`, `M = 1.5 kg`, `a long diagonal`."""
     if given.word is not None:
         return words.term(given.word)
     if given.written is not None:
@@ -492,7 +492,7 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
     """Return errors for keys of `wording:` and `show:` that are not steps, and for outcomes unknown to their rule."""
     here = {step.key: step for step in derivation.steps}
     in_another_case = {key for step in derivation.steps for key in step.stands_for}
-    known = {*here, *in_another_case, *derivation.unshown}  # `unshown`: steps of a part that was left out
+    known = {*here, *in_another_case, *derivation.unshown}  # no answer depends on `unshown`: a part may be left out
     faults = []
     for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
         if key not in known:

@@ -58,9 +58,9 @@ class Questions(Record):
     """Keys that specify the points and axes of the answers about a body."""
 
     about: Word | None = key(
-        "the point about which its inertia tensor and its moments are taken: `apex`, `corner`, `pivot`", TEXT
+        "the point about which the inertia tensor and the moments of inertia are taken: `apex`, `corner`, `pivot`", TEXT
     )
-    origin: Word | None = key("the point from which its centre of mass is measured", TEXT)
+    origin: Word | None = key("the point from which the centre of mass is measured", TEXT)
     direction: Tree | None = key("the axis of `moment_about`: `diagonal`, `x` or components", DIRECTION)
     turned: Mapping[Word, Tree] = key(
         "the angles by which the axes of `turned_tensor` are rotated: `{z: alpha}`", mapping_of(SCALAR)

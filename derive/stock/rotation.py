@@ -155,7 +155,7 @@ def _check_together(written: RotationKeys, faults: Faults) -> None:
     for steady in ("rates", "along"):
         if written.torque and steady in there:
             message = f"`torque` has no effect with `{steady}`: the torque that maintains a given rotation is derived"
-            faults.error("unused-key", message, written.places["torque"], help=f"leave it or `{steady}` out")
+            faults.error("unused-key", message, written.places["torque"], help=f"leave `torque` or `{steady}` out")
     if not {"body", "moments"} & there:
         faults.error("missing-key", "`given` needs `body` or `moments`", written.places[""])
     if written.along is not None and written.rate is None:
@@ -296,7 +296,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     def euler_equations(self) -> tuple[Quantity, Quantity, Quantity]:
         if not self.inertia_tensor.value.is_diagonal():
             message = "Euler's equations need principal axes, but the axes of this body are not principal"
-            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
+            rejected("not-principal", message, None, "give `about: centre_of_mass`, or principal moments as `moments`")
         if self.described.along or self.described.rates:
             message = "Euler's equations describe an unknown rotation, but the rotation of this body is given"
             rejected("is-steady", message, None, "leave out `along` and `rates`")

@@ -149,11 +149,12 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(of[part.named["force"]], self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each body.
+        """Draw the forces on each particle and each body.
 
-        If steps derive Newton's laws of the body or, in space, equations of motion with constraint forces, the drawing
-        precedes these steps and shows each force in the direction in which its symbol is positive. Otherwise the forces
-        are drawn only in a plane, and only if they are derived. All drawings have one scale.
+        The drawing precedes the steps that derive Newton's laws for this particle or body or, in space, the equations
+        of motion with constraint forces. It then shows each force in the direction in which its symbol is positive. If
+        there are no such steps, the forces are drawn only in a plane, and only if they are derived. All drawings have
+        the same scale.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()
@@ -439,7 +440,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def reduced(self) -> Quantity:
-        """Return the Routhian if some but not all coordinates are cyclic and `at` gives no cyclic coordinate.
+        """Return the Routhian if some but not all coordinates are cyclic and `at` has no value for a cyclic coordinate.
 
         Otherwise return the Lagrangian.
         """
@@ -471,9 +472,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         If the problem describes bodies:
 
         - the effective potential energy, if there are no constraint forces, and if some but not all momenta are
-          constant or the only coordinate is driven;
-        - otherwise the Lagrangian, if a coordinate is driven or forces are given;
+          constant or a driven system has only one coordinate;
+        - otherwise the Lagrangian, if the system is driven or forces are given;
         - otherwise the potential energy.
+
+        A system is driven if it has kinetic energy while all rates are zero, such as a bead on a rotating hoop.
         """
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian

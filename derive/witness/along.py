@@ -25,7 +25,7 @@ OF_MOTION = frozenset(
         "hamilton.rate_by_momenta",
     ]
 )
-PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # their results hold at each instant if their inputs do
+PASSED_ON = frozenset([PUT_IN, "answers.solved_for"])  # rules whose results hold at each instant if their inputs do
 CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 

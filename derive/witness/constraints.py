@@ -14,7 +14,7 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Trial
 
 TRIALS, STATES = 2, 3
-NO_GRADIENT = 1e-4  # a smaller gradient counts as zero; where it vanishes, a state is found with an error of 1e-5
+NO_GRADIENT = 1e-4  # a smaller gradient counts as zero: a state where the gradient vanishes is found to within 1e-5
 
 
 def without_gradient(of: Description) -> list[int]:

@@ -98,7 +98,7 @@ class Blueprint:
 
 
 def _weights(description: Description) -> list[Expr]:
-    """All constants of matter and of fields, in the order in which `Dynamics` reads them."""
+    """All constants of masses, gravity, drag and charges, in the order in which `Dynamics` reads them."""
     found: list[Expr] = [particle.mass for particle in description.particles]
     for body in description.bodies:
         found += [body.mass, *body.arm, *(entry for row in body.spread for entry in row)]

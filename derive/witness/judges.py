@@ -1,4 +1,4 @@
-"""The rules whose steps the witness tests on a motion, each with its test; `impact` tests impacts."""
+"""The rules whose steps the witness tests on a motion, each with its test; the module `impact` tests impacts."""
 
 from __future__ import annotations
 

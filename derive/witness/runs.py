@@ -41,8 +41,11 @@ class TooLong(Exception):
 
 
 class Run:
-    """One motion of the described system: its states, and the state at the event that ended it; None without such an
-    event."""
+    """One motion of the described system.
+
+    states   the states of the motion, in the order of time
+    end      the state at the event that ended the motion; None if the event did not occur
+    """
 
     def __init__(self, dynamics: Dynamics, start: State, length: float, event: Event | None, step: float):
         from scipy.integrate import solve_ivp
@@ -252,8 +255,8 @@ FLOWN = 1e-4  # accuracy to which a simulated flight, which begins at a simulate
 
 
 def flight(claim: Claim) -> Verdict | None:
-    """Test a component of a free flight: the motion is simulated until the constraint force vanishes, then without
-    constraints."""
+    """Test a component of the position in a free flight: the motion is simulated until the constraint force vanishes,
+    then without constraints."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
     for trial, start, free in _begun(claim, fact):

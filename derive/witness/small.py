@@ -66,8 +66,8 @@ class Neighbourhood:
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
         """The state with the displacements u along the basis and the rates w of these displacements.
 
-        If the system has constraints, the result is the nearest state that satisfies the constraints. Otherwise the
-        cyclic coordinates get the rates that follow from their momenta.
+        If the system has constraints, the result is a nearby state that satisfies the constraints. Otherwise the cyclic
+        coordinates get the rates that follow from their momenta.
         """
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
@@ -140,7 +140,7 @@ def rest(claim: Claim) -> Verdict | None:
         try:
             response = near.trial.dynamics.response(near.state)
         except Singular:
-            if near.momenta:  # a cyclic coordinate may be singular here, as an angle at r = 0 is: no test
+            if near.momenta:  # a cyclic coordinate may be singular here, like an angle at r = 0, so there is no test
                 continue
             if _is_balanced(near):  # the acceleration of a massless part is undefined, but the part stays at rest
                 count += 1
@@ -165,9 +165,9 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """Test the stability that the step states: small displacements stay small if the equilibrium is stable, and some
-    small displacement grows if it is unstable. If the step states a condition for stability, the equilibrium must be
-    stable for numbers that satisfy the condition, and unstable for numbers that violate it."""
+    """Test the stability that the step states: no small displacement may grow at a stable equilibrium, and some small
+    displacement must grow at an unstable equilibrium. If the step states a condition for stability, the equilibrium
+    must be stable for numbers that satisfy the condition, and unstable for numbers that violate the condition."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -204,11 +204,14 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """Return the refutation of the stated stability; otherwise the number of equilibria (0 or 1) that were tested."""
+    """Return the refutation of the stated stability; otherwise the number of equilibria (0 or 1) that were tested.
+
+    The linear motion does not refute instability if one of its eigenvalues is zero.
+    """
     try:
         growth = near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
-        if near.momenta:  # a cyclic coordinate may be singular here, as an angle at r = 0 is: no test
+        if near.momenta:  # a cyclic coordinate may be singular here, like an angle at r = 0, so there is no test
             return 0
         return claim.refuted("the accelerations near this equilibrium are not determined", near.trial, near.state)
     size = max(float(np.max(np.abs(growth), initial=0.0)), 1e-3)
@@ -270,7 +273,7 @@ def damped(claim: Claim) -> Verdict | None:
         if growth is None or not np.isfinite(stated):
             continue
         size = DOUBLE * max(float(np.max(np.abs(growth))), 1e-3)
-        if claim.outcome == PAIR:  # minus the stated value is the mean of two s, both real or complex conjugate
+        if claim.outcome == PAIR:  # the mean of two eigenvalues s is minus the stated value
             found = (growth[:, None] + growth[None, :])[~np.eye(len(growth), dtype=bool)] / 2
             wanted = -stated
         else:

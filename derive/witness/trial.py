@@ -57,7 +57,7 @@ class Given:
 
 
 class Drawn(Mapping[Symbol, float]):
-    """A number for each symbol: the number in `fixed`, or else the random number of `drawn`."""
+    """A number for each symbol: the number in `fixed`, or else the random number that `drawn` returns."""
 
     def __init__(self, trial: int, salt: int = 0, fixed: Mapping[Symbol, float] | None = None):
         self.trial, self.salt, self.fixed = trial, salt, dict(fixed or {})

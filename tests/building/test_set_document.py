@@ -362,7 +362,7 @@ def test_a_reference_to_what_is_not_there_is_told(tmp_path: Path, edit: str, mes
 
 
 def test_a_title_refers_to_no_equation(tmp_path: Path) -> None:
-    with pytest.raises(Rejected, match="a title cannot refer to an equation or to a problem"):
+    with pytest.raises(Rejected, match="a title cannot refer to an equation, a figure or a problem"):
         rendered_once(course_in(tmp_path, {"title: A block": "title: By <<eq torque>> a block"}), "hw9/block")
 
 

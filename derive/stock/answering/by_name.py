@@ -115,8 +115,8 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive the answer of a name with the current record. After an error, try again with a record without steps,
-        in which no result has a symbol yet."""
+        """Derive the answer of a name within the current record of steps. After an error, try again with an empty
+        record, in which no result has a symbol yet."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -235,7 +235,8 @@ class ByName:
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """Return the step with this key, or else all steps whose keys are this name and a number.
+    """Return the step with this key, or else all steps whose keys are this name with a number, such as `rest_2`. The
+    name may be in the singular or in the plural.
 
     `rest_1` also denotes the step `rest` if there is no `rest_2`.
     """

@@ -36,7 +36,7 @@ MEANINGS: Mapping[str, str] = {
     "acceleration_*": "the acceleration of {}",
     # impacts
     "jumps": "the jump of the momentum of each coordinate",
-    "meetings": "the conditions on the rates just after a collision",
+    "meetings": "the conditions on the rates just after the impact",
     "rates_after": "all rates just after the impact",
     "kinetic_energy_after": "the kinetic energy just after the impact",
     "work_of_impulses": "the change of the kinetic energy in the impact",

@@ -17,7 +17,7 @@ from derive.steps.step import Quantity
 
 
 def by_newton(system: System, q: Coordinate, key: str, about: str = "", at_rest: bool = False) -> Quantity:
-    """Newton's second law along a coordinate, or the sum of the torques if the coordinate rotates its body."""
+    """Return Newton's second law along a coordinate, or the torque law if the coordinate rotates its body."""
     if body_of(system, q.symbol).turn(q.symbol) != 0:
         return torque_law(system, q, key, about, at_rest)
     return second_law(system, q, key, at_rest)
@@ -74,7 +74,7 @@ def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
 
 
 def check_one_law_for_each_key(found: Mapping[str, object], methods: Sequence[Word]) -> None:
-    """Reject methods of parts that derive one step in two ways."""
+    """Reject parts whose methods derive one step in two ways."""
     steps: dict[str, Quantity] = {}
     for answer in found.values():
         for each in with_ancestors(returned_quantities(answer)).values():

@@ -90,9 +90,9 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @cached_property
     def after(self) -> tuple[Quantity, ...]:
-        """Return all rates just after the impact, and the impulses of its collisions.
+        """Return all rates just after the impact, and all unknown impulses of collisions and constraints.
 
-        If the laws of momentum without unknown impulses, together with the conditions of the collisions, determine the
+        If the laws of momentum without unknown impulses, together with the conditions on the rates, determine the
         rates, only the rates are returned.
         """
         letters = {meeting.letter for meeting in self.impact.meetings}

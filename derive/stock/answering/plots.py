@@ -49,7 +49,7 @@ class Plotted:
 
     named         a function that returns the steps that a name denotes
     coordinates   the coordinates of the system, by name
-    surfaces      returns the surfaces, by name
+    surfaces      a function that returns the surfaces, by name
     shown         the keys of the steps that parts ask for
     """
 
@@ -79,7 +79,7 @@ class Plotted:
             plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
-        """Draw the curves of several answers in one panel, so all answers have the same unit."""
+        """Draw the curves of several answers, which must have the same unit because they share the vertical axis."""
         quantities = [self._one(answer) for answer in answers]
         for i, (answer, quantity) in enumerate(zip(answers, quantities, strict=True)):
             if answer in answers[:i]:
@@ -103,7 +103,7 @@ class Plotted:
         return unit_of_dimension(dimension_of_answer(quantity, self._letters))
 
     def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
-        """Return the letters of an answer, and the error if the letter that varies is not one of them."""
+        """Return the letters of an answer, and the message of the error if `against` is not one of them."""
         expr = explicit(quantity.value)
         message = f"`{answer}` does not depend on `{against}`, so there is no curve"
         return expr.free_symbols if isinstance(expr, Expr) else set(), message
@@ -140,7 +140,7 @@ class Plotted:
         return [replace(each, label=scalar(name)) if name else each for name, each in zip(names, shown, strict=True)]
 
     def _outline(self, name: Word, shown: tuple[Shown, Shown]) -> Outline:
-        """Return a surface in the plane of a path, which must be at rest."""
+        """Return the outline of a surface; it must be at rest and in the plane of the path."""
         known = self.surfaces()
         if name not in known:
             rejected("undefined-name", f"no surface is called `{name}`", name.place, did_you_mean(name, known))

@@ -88,9 +88,11 @@ class ShapeKeys(Record):
     height: Tree | None = key("its height", SCALAR)
     length: Tree | None = key("its length", SCALAR)
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
-    sides: tuple[Tree, ...] = key("its edges, along x, y and z", list_of(SCALAR, SEVERAL))
+    sides: tuple[Tree, ...] = key("its edges along x, y and, for a block, z", list_of(SCALAR, SEVERAL))
     semi_axes: tuple[Tree, ...] = key("the semi-axes of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
-    corners: tuple[tuple[Tree, ...], ...] = key("the positions of the corners of a triangle or a tetrahedron", CORNERS)
+    corners: tuple[tuple[Tree, ...], ...] = key(
+        "the positions of the corners of a triangle, a tetrahedron or the triangular face of a wedge", CORNERS
+    )
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
     foot: Tree | None = key(
         "the x of the apex of a triangle, measured from the left end of its base; by default half the base", SCALAR
@@ -154,7 +156,7 @@ class DescribedBody:
     """A body of a description.
 
     parts    one body, or several bodies in their positions
-    mass     the mass of the whole body, if it is given; it is then divided among the parts
+    mass     the mass of a body with parts, if it is given for the whole body; it is then divided among the parts
     points   name of a point of the body -> its position
     is_integrated   whether a standard moment of inertia is integrated in place of quoting it
     """

@@ -88,7 +88,7 @@ class SurfaceKeys(Record):
     )
     side: str | None = key(
         "the side on which the bodies are: `outside` or `inside` of a circle or a sphere, `above` or `below` a curve; "
-        "`both` for a rail or a wire, which holds them",
+        "`both` for a rail or a wire, which the bodies cannot leave",
         one_of(("outside", "inside", "above", "below", "both")),
     )
     of: Word | None = key("the body or particle that carries the surface", TEXT)
@@ -213,8 +213,8 @@ class ContactKeys(Record):
     """The keys of one entry of `contacts:`, a body that touches a surface."""
 
     of: WrittenPlace = key(
-        "a particle, a round body, or a point of a body such as `ladder.end`; or a fixed corner, as a place, that "
-        "touches a surface of a body",
+        "the particle, round body or point of a body, such as `ladder.end`, that touches the surface; or the place of "
+        "a fixed corner that touches a surface of a body",
         PLACE,
         required=True,
     )
@@ -249,7 +249,8 @@ class ContactKeys(Record):
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return the symbols that the components of the friction of rolling may have in space; none in a plane."""
+        """Return the symbols that the components of the friction without slipping may have in space; none in a
+        plane."""
         rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
         if rolling is None or not known.places.turns:  # only a body that moves in space has axes
             return []

@@ -149,7 +149,7 @@ def _as_stated(
     stated, value = _read(given.stated, letters), explicit(case.value)
     value = value.right if isinstance(value, Relation) else value
     if isinstance(value, MatrixBase):
-        message = f"`{case.key}` is not a number; compare a vector or a tensor with a step, `known`"
+        message = f"`{case.key}` is not a scalar; compare a vector or a tensor with another step, under `known`"
         rejected("wrong-type", message, given.stated.place)
     if equal(value, stated):
         return []

@@ -64,7 +64,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         list_of(SCALAR, "components", length=3),
     )
     rim: RimKeys | None = key(
-        "with `moments`, in a plane: the circle that bounds the body, with which it touches surfaces",
+        "with `moments`, in a plane: the circular boundary with which the body touches surfaces",
         record_of(RimKeys, "rim", "a mapping with `centre` and `radius`"),
     )
     turned: Tree | None = key(

@@ -55,7 +55,7 @@ class WayKeys(Record):
     """The keys of a place that is specified by a displacement from another place."""
 
     start: Word | None = key("the place where the displacement starts; by default the origin", TEXT, called="from")
-    by: tuple[Tree, ...] = key("its components", COMPONENTS, required=True)
+    by: tuple[Tree, ...] = key("the components of the displacement", COMPONENTS, required=True)
     axes: Word | None = key("the rotating axes of these components, by their name under `axes`", TEXT, called="in")
 
 
@@ -68,7 +68,7 @@ class WrittenPlace:
     place: Place = field(repr=False, compare=False)
 
 
-_PLACE_IS = "its components, `{from: A, by: [x, y]}`, or the name of a place"
+_PLACE_IS = "a list of components, `{from: A, by: [x, y]}`, or the name of a place"
 
 
 def _place(node: Tree, name: str, faults: Faults) -> WrittenPlace | None:

@@ -290,7 +290,7 @@ ALIKE = {  # keys that mean the same for every verb
     "order": "the highest order",
     "start": "the value at the start",
     "case": "`underdamped`, `critically_damped` or `overdamped`, if the symbols do not decide the case",
-    "gained": "the function whose rate the Lagrangian gains; by default none",
+    "gained": "the function F, if the shift of the coordinates adds epsilon dF/dt to the Lagrangian; by default zero",
 }
 
 

@@ -422,7 +422,8 @@ def _check_different(brought: Sequence[Word]) -> None:
 
 
 def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
-    """Return the symbols for the rates of steady motions, one for each coordinate without a value in the motion."""
+    """Return the symbols for the rates of steady motions: one for each coordinate to which the result gives no
+    value."""
     found = {}
     for result in written.results.values():
         held = written_in(result)

@@ -39,7 +39,7 @@ def test_places_along_axes_that_turn(tmp_path: Path) -> None:
         ("{A: [l, theta*l], B: [l, 0, 0]}", "`B` has 3 components, but `A` has 2"),
         ("{A: {in: hoop, by: [l, 0, 0]}}", "`hoop` is not the name of axes"),
         ("{A: {by: [l, 0], form: B}}", "a place has no key `form`"),
-        ("{A: }", "`A` must be its components, `{from: A, by: [x, y]}`, or the name of a place, but it is empty"),
+        ("{A: }", "`A` must be a list of components, `{from: A, by: [x, y]}`, or the name of a place, but it is empty"),
         ("{A: [l, m]}", "`a component of A` must be a length, but `m` is a mass"),
         ("{A: [l, 2 kg]}", "`a component of A` must be a length, but `2 kg` is a mass"),
     ],
