@@ -311,8 +311,8 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot, and for each `view` of a
-    drawing that is not in space."""
+    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot, and for each `view`
+    of a drawing that is not in space."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)

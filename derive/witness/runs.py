@@ -178,13 +178,17 @@ def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Exp
     if run is None:
         return 0
     if stays:
-        return 1 if run.end is None else claim.refuted("in the described motion the force vanishes", trial, run.end)
+        return 1 if run.end is None else claim.refuted(f"in the described motion {_ending(claim)}", trial, run.end)
     if run.end is None:
         return claim.refuted("the described motion from this start does not reach this position", trial, state)
     found = float(watched.at(run.end)[0])
     if abs(found - last) > 10 * FOLLOWED + NUDGE * abs(last - first):
-        return claim.refuted(f"in the described motion the force vanishes at {found:.4g} instead", trial, state)
+        return claim.refuted(f"in the described motion {_ending(claim)} at {found:.4g} instead", trial, state)
     return 1
+
+
+def _ending(claim: Claim) -> str:
+    return "the body begins to slip" if "friction" in claim.judged.quantities else "the force vanishes"
 
 
 def _margin(claim: Claim) -> Expr | None:

@@ -151,11 +151,6 @@ class Trial:
 
     # --- states -----------------------------------------------------------------------------------------------------
 
-    def states(self, count: int, given: Sequence[Given] = (), still: bool = False) -> Iterator[State]:
-        """States that satisfy the conditions and the given values; raises `Contradiction` if none is found."""
-        for i in range(count):
-            yield self.state(given, i, still)
-
     def state(self, given: Sequence[Given] = (), which: int = 0, still: bool = False) -> State:
         last = Contradiction(of_rates=False)
         for attempt in range(ATTEMPTS):

@@ -319,7 +319,7 @@ def test_the_witness_refutes_another_place(tmp_path: Path, monkeypatch: pytest.M
     """The simulated motion slips where |F| reaches mu_s N, here replaced by (mu_s - 1/5) N."""
     margin = runs._margin
     monkeypatch.setattr(runs, "_margin", lambda claim: margin(claim) - claim.judged.quantities["normal"].symbol / 5)
-    assert "in the described motion the force vanishes at" in refused(tmp_path, library("rod_over_edge"))
+    assert "in the described motion the body begins to slip at" in refused(tmp_path, library("rod_over_edge"))
 
 
 # --- what the page states, and mistakes ---
