@@ -145,6 +145,18 @@ class ShownMode:
 
 
 @dataclass(frozen=True)
+class ShownPolhodes:
+    """The curves on which the tip of the angular momentum of a free body stays.
+
+    momentum   the symbol of the angular momentum
+    ratios     the three moments of inertia, divided by the first one
+    """
+
+    momentum: Any
+    ratios: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
 class Drawing:
     """A drawing.
 
@@ -156,6 +168,7 @@ class Drawing:
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     mode          the normal mode that the drawing shows; None in any other drawing
+    polhodes      the curves of a free rotation that the drawing shows; None in any other drawing
     """
 
     key: str
@@ -167,6 +180,7 @@ class Drawing:
     leads_to: tuple[str, ...] = ()
     forces_on: Any = None
     mode: ShownMode | None = None
+    polhodes: ShownPolhodes | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -31,7 +31,15 @@ from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
 from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
 from derive.page.cross_references import References, found_before
-from derive.page.depiction import caption_numbers, depictions, keys_of_plots, leads_to, letters_not_drawn, placed_after
+from derive.page.depiction import (
+    caption_numbers,
+    depictions,
+    keys_of_plots,
+    leads_to,
+    letters_not_drawn,
+    not_drawn,
+    placed_after,
+)
 from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
@@ -194,6 +202,7 @@ class _Writer:
                 *laws_without_steps(problem, self.derivation, self.words),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_of_plots(problem, self.drawings),
+                *not_drawn(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),
             ),
             evidence=evidence,
