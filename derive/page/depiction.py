@@ -104,6 +104,7 @@ def depictions(
             try:
                 alt = alternative(problem, drawing, placement, words)
                 if isinstance(drawing, m.Drawing) and drawing.polhodes is not None:
+                    caption = caption or _polhodes("polhodes", problem, drawing, placement, words)
                     caption += (Text(" "), *_ratio(problem, drawing, placement, words))
                 if caption and isinstance(drawing, m.Plot):
                     if drawing.diagram is not None:
@@ -136,8 +137,6 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
         return ()
     if drawing.forces_on is not None:
         return filled(words.drawings["forces"], {"mass": (Math(drawing.forces_on),)})
-    if drawing.polhodes is not None:
-        return filled(words.drawings["polhodes"], {"momentum": _named(drawing.polhodes.momentum)})
     if (mode := drawing.mode) is None:
         return ()
     letters = joined([(Math(each),) for each in mode.letters], words.labels["and"])
@@ -446,7 +445,7 @@ def alternative(
     if drawing.mode is not None:
         return _moves(drawing.mode, words)
     if drawing.polhodes is not None:
-        return _polhodes(problem, drawing, placement, words)
+        return _polhodes("drawn_polhodes", problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
     for phrase in dict.fromkeys(mark.together for mark in drawing.marks if mark.together and mark.label is not None):
         names = [_named(mark.label) for mark in drawing.marks if mark.together == phrase and mark.label is not None]
@@ -482,8 +481,11 @@ def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) 
     return ratios, any(letter not in given or letter in chosen for letter in letters)
 
 
-def _polhodes(problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return words for the curves on the sphere, and for the axes that they surround."""
+def _polhodes(
+    phrase: str, problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases
+) -> tuple[Inline, ...]:
+    """Return the caption of polhodes, or words for them: they name the curves and the axes that the curves surround."""
+    assert drawing.polhodes is not None
     ratios, _ = _moments(problem, drawing, placement)
     if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
         message = f"the drawing `{drawing.key}` needs a number for {', '.join(f'`{name}`' for name in missing)}"
@@ -492,7 +494,7 @@ def _polhodes(problem: Problem, drawing: m.Drawing, placement: Placement | None,
     order = order_of([float(ratio) for ratio in ratios])
     assert order is not None
     axes = dict(zip(("least", "middle", "greatest"), (_named(scalar(AXES[i])) for i in order), strict=True))
-    return filled(words.drawings["drawn_polhodes"], axes)
+    return filled(words.drawings[phrase], {**axes, "momentum": _named(drawing.polhodes.momentum)})
 
 
 def _ratio(problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
