@@ -12,7 +12,7 @@ for a unit vector n with the sum of n_i^2/I_i equal to e, so that the projection
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from math import cos, pi, radians, sin, sqrt
 from typing import Any, ClassVar
@@ -23,7 +23,7 @@ from derive.algebra.expressions import AXES, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis
 from derive.figures.bodies import UNIT
-from derive.figures.marks import BESIDE, Mark, Surface
+from derive.figures.marks import Mark, Surface
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import NOUGHT, Vector, cross, dot, plus, rim, unit
 
@@ -117,7 +117,7 @@ class PolhodesMark(Surface):
     """A sphere with the curves of constant energy, for a body with these moments. Only the front of the sphere has
     curves; the separatrix is dashed on its back."""
 
-    moments: tuple[Any, Any, Any] = field(metadata=BESIDE)
+    moments: tuple[Any, Any, Any]
     layer: ClassVar[int] = 0
 
     def places(self, numbers: InNumbers) -> list[Vector]:

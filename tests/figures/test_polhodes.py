@@ -8,6 +8,7 @@ import pytest
 from sympy import Rational, Symbol
 
 from derive.building.cache import Cache
+from derive.building.drawn import numbers_of
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
@@ -153,6 +154,18 @@ def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], sai
     with pytest.raises(DeriveError) as refused:
         rendered(course_with(tmp_path, edited(FREE, *edits)), "trial/one", only=("text",))
     assert any(said in each.message for each in refused.value.complaints), refused.value
+
+
+def test_the_values_of_the_drawing_are_used(tmp_path: Path) -> None:
+    text = edited(FREE, ("{width: 5 cm}", "{values: {I_y: 5*I_x, I_z: 4.5*I_x}}"))
+    assert not rendered(course_with(tmp_path, text), "trial/one", only=("text",)).warnings
+    run = Run()
+    problem = loaded(tmp_path, text)
+    run_solve(problem, run)
+    drawing = next(each for each in run.drawings if each.key == "polhodes")
+    found = {letter.name: number for letter, number in numbers_of(problem, problem.drawings[0], drawing).items()}
+    assert found["I_y"] / found["I_x"] == 5, "the curves have the ratio of the caption"
+    assert found["I_z"] / found["I_x"] == 4.5
 
 
 def test_a_symmetric_body_has_no_polhodes_and_a_warning(tmp_path: Path) -> None:
