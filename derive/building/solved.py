@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.building.cache import digest, engine_digest
+from derive.course.placement import POLHODES
 from derive.course.problem import Problem
 from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
@@ -79,7 +80,7 @@ def steps_key(problem: Problem) -> str:
     plots = [
         (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.levels, d.over)
         for d in problem.drawings
-        if d.is_of_engine
+        if d.is_of_engine or d.key == POLHODES
     ]
     read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

@@ -18,6 +18,7 @@ from derive.figures.marks import (
     Plot,
     Recorded,
     ShownMode,
+    ShownPolhodes,
 )
 
 
@@ -42,4 +43,5 @@ def _classes() -> dict[str, Any]:
         "Outline": Outline,
         "Plot": Plot,
         "ShownMode": ShownMode,
+        "ShownPolhodes": ShownPolhodes,
     }

@@ -146,6 +146,18 @@ class ShownMode:
 
 
 @dataclass(frozen=True)
+class ShownPolhodes:
+    """The curves on which the tip of the angular momentum of a free body stays.
+
+    momentum   the symbol of the angular momentum
+    ratios     the three moments of inertia, divided by the first one
+    """
+
+    momentum: Any
+    ratios: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
 class Drawing:
     """A drawing.
 
@@ -159,6 +171,7 @@ class Drawing:
     mode          the normal mode that the drawing shows; None in any other drawing
     seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
     body_size     the size of the body in a force diagram, in points; None if the drawing fits its width
+    polhodes      the curves of a free rotation that the drawing shows; None in any other drawing
     """
 
     key: str
@@ -172,6 +185,7 @@ class Drawing:
     mode: ShownMode | None = None
     body_size: float | None = None
     seen_from: tuple[float, float] | None = None
+    polhodes: ShownPolhodes | None = None
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -11,17 +11,20 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import gcd
 from typing import Any
 
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, lcm
 
-from derive.algebra.expressions import Amount, Relation, bound, explicit
+from derive.algebra.expressions import AXES, Amount, Relation, bound, explicit, scalar
+from derive.algebra.tidy import tidied
 from derive.course.given import Measured
 from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
 from derive.figures.branches import BranchLine
+from derive.figures.polhodes import order_of
 from derive.page.plots import (
     Curve,
     Curves,
@@ -36,6 +39,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
+LARGEST = 99  # the greatest whole number in the ratio of moments in a caption
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
 ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
@@ -99,6 +103,9 @@ def depictions(
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
                 alt = alternative(problem, drawing, placement, words)
+                if isinstance(drawing, m.Drawing) and drawing.polhodes is not None:
+                    caption = caption or _polhodes("polhodes", problem, drawing, placement, words)
+                    caption += (Text(" "), *_ratio(problem, drawing, placement, words))
                 if caption and isinstance(drawing, m.Plot):
                     if drawing.diagram is not None:
                         caption += (Text(" "), *filled(words.drawings["solid_and_dashed"], {}))
@@ -116,7 +123,9 @@ def _left_out(drawing: m.Recorded) -> Sequence[Any]:
 
 
 def _has_standard_caption(drawing: m.Recorded) -> bool:
-    return isinstance(drawing, m.Drawing) and (drawing.forces_on is not None or drawing.mode is not None)
+    if not isinstance(drawing, m.Drawing):
+        return False
+    return any(each is not None for each in (drawing.forces_on, drawing.mode, drawing.polhodes))
 
 
 def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
@@ -334,6 +343,26 @@ def _is_in_space(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.view == m.SPACE
 
 
+def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Return a warning for polhodes that are not drawn because two moments of inertia are equal."""
+    found = []
+    for drawing in drawings:
+        placement = placement_of(problem, drawing.key)
+        if placement is not None and _has_equal_moments(problem, drawing, placement):
+            message = f"two moments of inertia are equal, so `{drawing.key}` is not drawn"
+            help_line = "leave the drawing out, or change the moments"
+            found.append(Complaint("drawing", message, placement.place, help=help_line, severity="warning"))
+    return found
+
+
+def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placement | None) -> bool:
+    """Whether a drawing would show polhodes of a body with two equal moments, which are circles."""
+    if not isinstance(drawing, m.Drawing) or drawing.polhodes is None:
+        return False
+    ratios, _ = _moments(problem, drawing, placement)
+    return all(ratio.is_number for ratio in ratios) and order_of([float(ratio) for ratio in ratios]) is None
+
+
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
     """Return the keys of the steps that a drawing shows. The drawing is placed after those of these steps that are in
     its part. The drawings of normal modes follow the last mode, so that they are side by side."""
@@ -366,6 +395,8 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
     """Return the index of the part with the drawing, or -1 for the statement; None if the drawing is hidden, or if no
     part can show it."""
     placement = placement_of(problem, drawing.key)
+    if _has_equal_moments(problem, drawing, placement):
+        return None
     if placement is None or placement.at is None:
         return _earliest(drawing, derivation)
     if placement.at == HIDDEN:
@@ -425,6 +456,8 @@ def alternative(
         return _curves(problem, drawing, placement, words)
     if drawing.mode is not None:
         return _moves(drawing.mode, words)
+    if drawing.polhodes is not None:
+        return _polhodes("drawn_polhodes", problem, drawing, placement, words)
     told = [nodes for nodes in (_mark(mark, words) for mark in _told_once(drawing.marks)) if nodes]
     for phrase in dict.fromkeys(mark.together for mark in drawing.marks if mark.together and mark.label is not None):
         names = [_named(mark.label) for mark in drawing.marks if mark.together == phrase and mark.label is not None]
@@ -443,6 +476,57 @@ def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
         turned = (Text(words.drawings[sense]),) if sense else ()
         told.append(filled(words.drawings["moves"], {"mass": _named(mass), "ways": named, "turned": turned}))
     return filled(words.drawings["drawn_mode"], {"order": mode.order, "moves": joined(told, last)})
+
+
+def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) -> tuple[list[Expr], bool]:
+    """Return the ratios of the moments of inertia for which polhodes are drawn, and whether they are an example: not
+    all numbers on which they depend are numbers of the problem."""
+    assert drawing.polhodes is not None
+    given = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
+    chosen = dict(placement.values) if placement else {}
+    known = {**dict(drawing.values), **given, **chosen}
+    ratios = list(drawing.polhodes.ratios)
+    letters: set[Any] = set()
+    while free := {s for ratio in ratios for s in ratio.free_symbols if s in known}:
+        letters |= free
+        ratios = [tidied(ratio.xreplace({s: known[s] for s in free})) for ratio in ratios]
+    return ratios, any(letter not in given or letter in chosen for letter in letters)
+
+
+def _polhodes(
+    phrase: str, problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases
+) -> tuple[Inline, ...]:
+    """Return the caption of polhodes, or words for them: they name the curves and the axes that the curves surround."""
+    assert drawing.polhodes is not None
+    ratios, _ = _moments(problem, drawing, placement)
+    if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
+        message = f"the drawing `{drawing.key}` needs a number for {', '.join(f'`{name}`' for name in missing)}"
+        help_line = "the values of a drawing of polhodes contain only letters of the moments of inertia"
+        raise Rejected(Complaint("drawing", message, placement.place if placement else None, help=help_line))
+    order = order_of([float(ratio) for ratio in ratios])
+    assert order is not None
+    axes = dict(zip(("least", "middle", "greatest"), (_named(scalar(AXES[i])) for i in order), strict=True))
+    return filled(words.drawings[phrase], {**axes, "momentum": _named(drawing.polhodes.momentum)})
+
+
+def _ratio(problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
+    """Return the sentence with the ratio of the moments for which polhodes are drawn, to follow the caption."""
+    ratios, is_example = _moments(problem, drawing, placement)
+    names: dict[str, Any] = {"ratio": " : ".join(_in_small_numbers(ratios)), "example": is_example}
+    names["axes"] = joined([_named(scalar(axis)) for axis in AXES], words.labels["and"])
+    return filled(words.drawings["ratio_of_moments"], names)
+
+
+def _in_small_numbers(ratios: Sequence[Expr]) -> list[str]:
+    """Return numbers in the same ratio: whole numbers if they are small, else multiples of the least one."""
+    if all(ratio.is_Rational for ratio in ratios):
+        whole = lcm([ratio.q for ratio in ratios])
+        found = [int(ratio * whole) for ratio in ratios]
+        common = gcd(*found)
+        if max(found) // common <= LARGEST:
+            return [str(each // common) for each in found]
+    least = min(float(ratio) for ratio in ratios)
+    return [f"{float(ratio) / least:.3g}" for ratio in ratios]
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:

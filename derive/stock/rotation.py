@@ -13,7 +13,7 @@ from derive.algebra.expressions import column, component_names
 from derive.algebra.kinds import Asked
 from derive.course.expression import Declared
 from derive.course.given import Given
-from derive.course.placement import Placement
+from derive.course.placement import POLHODES, Placement
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
 from derive.course.yaml_tree import Tree, Word
@@ -50,7 +50,7 @@ from derive.steps.step import Quantity
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
-from derive.stock.keys.outlines import drawn_free, drawn_turning
+from derive.stock.keys.outlines import drawn_free, drawn_polhodes, drawn_turning
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
@@ -213,7 +213,24 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         elif described.about in ("centre", CENTRE_OF_MASS):
             turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both answers have been derived
             drawn_free(self, turns and not (described.rate or described.start or described.torque))
+        for drawing in (drawing for drawing in drawings if drawing.key == POLHODES):
+            with told_at(drawing.place):
+                self._draw_polhodes(asked)
         return found
+
+    def _draw_polhodes(self, asked: Sequence[Word]) -> None:
+        """Draw the curves on which the tip of the angular momentum of a free body stays; the drawing follows the
+        answers about the stability of a rotation and about the conserved quantities."""
+        if self.described.torque or self.is_given:
+            message = "the polhodes are those of a body that rotates freely"
+            rejected("wrong-argument", message, None, "leave out `torque`, `along`, `rates` and `start`")
+        if not self.inertia_tensor.value.is_diagonal():
+            message = "the polhodes need principal axes, but the axes of this body are not principal"
+            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
+        led_by = ("stability_", "wobble_", "energy_rate", "squared_momentum_rate")
+        named = [name for name in asked if name.startswith(led_by)]
+        keys = [q.key for name in named for q in self.by_name.named(name)] or [self.angular_momentum.key]
+        drawn_polhodes(self.inertia_tensor, self.angular_momentum.symbol, keys)
 
     @property
     def about(self) -> str:

@@ -257,16 +257,16 @@ def claimed(quantity: Quantity, steps: dict[str, Quantity]) -> Claim:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
+        ("through: [0, 0]}", "through: [0]}", "needs the two components of a place"),
         ("'angle in (pi/2, pi)'", "'angle in (0, pi/2)'", "outside the range of theta_1"),
         ("at: theta_1}", "at: theta}", "must be a symbol for the value of theta"),
         ("{flight: slack, at", "{flight: speed, at", "`speed` is not one"),
         ("{lands: flight}", "{lands: slack}", "need both components of a flight"),
-        ("{lands: flight}", "{lands: flight, on: floor}", "`floor` is not a surface of this system"),
         ("{lands: flight}", "{lands: flight, at: l}", "`at` has no effect on `lands`"),
-        ("through: [0, 0]}", "through: [0]}", "needs the two components of a place"),
         ("through: [0, 0]}", "through: [2*l, 0]}", "whether the place is inside the circle"),
         ("through: [0, 0]}", "through: [l/2, 0]}", "not known that the place is ahead of the particle"),
         ("start_rate: v_0/l", "start_rate: -v_0/l", "whether theta increases"),
+        ("{lands: flight}", "{lands: flight, on: floor}", "`floor` is not a surface of this system"),
         ("start_rate: v_0/l", "start_rate: sqrt(g/l)", "states that contact is never lost"),
     ],
 )

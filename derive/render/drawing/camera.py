@@ -19,6 +19,7 @@ from derive.algebra.expressions import TIME, explicit
 from derive.errors import Complaint, Rejected
 from derive.figures.extrema import values_along
 from derive.figures.marks import PLANE, Drawing, Surface
+from derive.figures.polhodes import order_of
 from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, size_of, unit
 
 ANGLE = pi / 5
@@ -128,6 +129,8 @@ def stance_from(azimuth: float, elevation: float) -> Stance:
 
 FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 USUAL = stance_from(25, 18)
+# All three axes point to the viewer, that of the intermediate moment most of all: x, y or z.
+FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
@@ -141,6 +144,8 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
         return FLAT
     if drawing.seen_from is not None:
         return stance_from(*drawing.seen_from)
+    if drawing.polhodes is not None and (order := order_of([numbers.of(each) for each in drawing.polhodes.ratios])):
+        return FROM_A_CORNER[order[1]]
     if TIME in dict(drawing.values):  # a moving plane is already rotated so that its front is visible
         return USUAL
     shown = [[unit(numbers.vector(each)) for each in mark.directions] for mark in drawing.marks]

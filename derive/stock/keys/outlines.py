@@ -7,15 +7,17 @@ from typing import Any
 
 from sympy import Expr, Rational, cos
 
-from derive.algebra.expressions import column, vector
+from derive.algebra.expressions import column, explicit, vector
 from derive.algebra.tidy import tidied
+from derive.course.placement import POLHODES
 from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
 from derive.figures.bodies import is_in_plane, seen_outline, widest_of
-from derive.figures.marks import PLANE, SPACE, Mark
+from derive.figures.marks import PLANE, SPACE, Drawing, Mark, ShownPolhodes, noted
+from derive.figures.polhodes import example_values, polhode_marks, ratios_of
 from derive.figures.surroundings import FixedEnd
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.boundary import Faces, Hollowed, Round, Toroidal
-from derive.steps.step import is_zero
+from derive.steps.step import Quantity, is_zero
 
 
 def drawn(body: Body, about: str = "", is_named: bool = False) -> None:
@@ -96,3 +98,14 @@ def drawn_free(answers: Any, turns: bool) -> None:
     """Draw a body with known principal moments; if `turns` is true, also its angular velocity and angular momentum."""
     vectors = (answers.changing, answers.angular_momentum) if turns else ()
     drawing("body", principal_outline(answers.described.moments, *vectors))
+
+
+def drawn_polhodes(inertia: Quantity, momentum: Any, keys: Sequence[str]) -> None:
+    """Draw the sphere of constant angular momentum with the curves of constant energy.
+
+    keys   the keys of the steps after which the drawing is placed
+    """
+    moments = [explicit(inertia.value[i, i]) for i in range(3)]
+    values = tuple(example_values(moments).items())
+    shown = ShownPolhodes(momentum, ratios_of(moments))
+    noted(Drawing(POLHODES, tuple(polhode_marks(moments, keys)), SPACE, values=values, polhodes=shown))
