@@ -153,7 +153,7 @@ def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
     command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
     told = command.add_mutually_exclusive_group()
     told.add_argument("-v", "--verbose", action="store_true", help="show each finished job, with its time")
-    told.add_argument("-q", "--quiet", action="store_true", help="show only errors")
+    told.add_argument("-q", "--quiet", action="store_true", help="show only errors and warnings")
 
 
 _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {

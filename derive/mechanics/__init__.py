@@ -1,4 +1,4 @@
-"""The verbs and nouns of mechanics that the script of a problem imports.
+"""The verbs (laws) and nouns (bodies, systems) of mechanics that the script of a problem imports.
 
 The `__all__` of each module lists its verbs and nouns.
 """

@@ -1,1 +1,1 @@
-"""Shows the page of a problem in a browser while you write it; the server answers this machine only."""
+"""Shows the page of a problem in a browser while you write it; it accepts requests from this machine only."""

@@ -1,1 +1,1 @@
-"""Solve for a symbol, find roots, solve linear systems, write results as in a textbook; no physics."""
+"""Solves for a symbol, finds roots, solves linear systems, writes results as in a textbook; no physics."""

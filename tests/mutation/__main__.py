@@ -20,7 +20,7 @@ from tests.mutation.trial import Trials, Verdict
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -P -m tests.mutation", description=__doc__)
     parser.add_argument(
-        "--module", action="append", choices=MODULES, help="only this module, such as mechanics.rolling"
+        "--module", action="append", choices=MODULES, help="only this module, such as mechanics.rest.stability"
     )
     parser.add_argument("--run", action="append", choices=RUNS, help="only on this run")
     parser.add_argument("--sample", type=int, help="a sample of so many")

@@ -168,7 +168,7 @@ def with_values(general: Quantity, *values: Quantity, key: str | None = None) ->
 
 MAGNITUDE = Rule(
     "answers.magnitude",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={"generic": lasts, "zero": vanishes},
     evidence={"turned": CHECK},
 )
@@ -181,7 +181,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
 
     Check: turn the vector until it lies along one axis and read off the component along this axis.
     Outcomes: zero, generic.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     size, rest = size_and_rest(of.value)
     squares = [entry**2 for entry in rest if entry != 0]
@@ -201,7 +201,7 @@ def magnitude(of: Quantity, key: str = "magnitude") -> Quantity:
 
 SQUARED_MAGNITUDE = Rule(
     "answers.squared_magnitude",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={"generic": lasts, "zero": vanishes},
     evidence={"turned": CHECK},
 )
@@ -214,7 +214,7 @@ def squared_magnitude(of: Quantity, key: str = "squared_magnitude") -> Quantity:
 
     Check: turn the vector until it lies along one axis and square the component along this axis.
     Outcomes: zero, generic.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     v = of.value
     return establish(

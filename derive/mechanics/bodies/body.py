@@ -414,7 +414,7 @@ def axis_vector(
 
 DENSITY = Rule(
     "bodies.density",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     outcomes={
         "along_edges": claims.has_edges,
         "volume": claims.density_volume,
@@ -434,7 +434,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
     part    the name of the body, if the page has several bodies
     Check: the integral of the density over the body gives M back.
     Outcomes: along_edges (a cuboid); volume, area, length (what the mass fills); derived (a step derives the size).
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     extent = body.extent
     usual, kind = DENSITIES[body.filling]

@@ -352,7 +352,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
 
 MASS_BY_INTEGRATION = Rule(
     "bodies.mass_by_integration",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     evidence={"quadrature": CHECK},
 )
 
@@ -362,7 +362,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
 
     body   a body defined by its position map and its density
     Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     region = body.region(ORIGIN)
     front = body.front
@@ -387,7 +387,7 @@ def _without_last(forms: list[Form]) -> list[Form]:
 
 NORMALISED_DENSITY = Rule(
     "bodies.normalised_density",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     evidence={"mass_given_back": CHECK},
     named={"profile": claims.proportional_to},
 )
@@ -398,7 +398,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
 
     body   a body defined by its position map, its mass and the function p
     Check: a numerical sum of the density times the size of each cell gives the mass back.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     region, p = body.region(ORIGIN), body.profile
     return establish(

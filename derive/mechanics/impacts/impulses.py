@@ -103,7 +103,7 @@ def _jump(found: Relation, impact: Impact) -> Relation:
 
 MEETING_CONDITION = Rule(
     "impacts.meeting_condition",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6",
     outcomes={
         "together": claims.restitution(0),
         "kept": claims.restitution(0),
@@ -123,7 +123,7 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
     number   the index of the condition, from 0; the conditions of constraints come last
     Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
     Outcomes: together (equal velocities), elastic, rebound (0 < e < 1), kept (a constraint).
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.5 and 4.14.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6.
     """
     meeting = impact.meetings[number]
     speed = meeting.speed(impact.moving)

@@ -113,7 +113,7 @@ class Balance:
 
 MOMENTUM_LAW = Rule(
     "impacts.momentum_law",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.8",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     outcomes={"struck": claims.has_impulse(True), "kept": claims.has_impulse(False)},
     evidence={"lagrange": ROUTE},
     statements=[claims.momentum_of_the_body],
@@ -131,7 +131,7 @@ def momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quant
     Outcomes: struck (impulses along the direction change the momentum), kept (no impulse changes it).
     Errors: the coordinates do not let one body move with q while all others stay at rest; it is unknown on which body
     an impulse acts.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.8.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     body = body_of(impact.system, q.symbol)
     way = tuple(tidied(impact.there(c)) for c in unit_along(body.shift(q.symbol)))
@@ -159,7 +159,7 @@ def momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quant
 
 ANGULAR_MOMENTUM_LAW = Rule(
     "impacts.angular_momentum_law",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.3 and 7.7",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7",
     outcomes={
         "kept": claims.about_a_fixed_axis(struck=False),
         "struck": claims.about_a_fixed_axis(struck=True),
@@ -183,7 +183,7 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
     Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis),
     about_centre.
     Errors: the coordinates do not allow the rotation; it is unknown on which body an impulse acts.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.3 and 7.7.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
     body = body_of(impact.system, q.symbol)
     bodies, about, changes = _rotation(impact, body)

@@ -143,8 +143,8 @@ def contact(
     its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre must be
     one radius from the curve, along the normal at the point of contact. The horizontal distance of this point from the
     origin of the curve must be a coordinate.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.2 and 7.6; for a disc in space, Landau,
-    Lifshitz, *Mechanics*, section 38.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7; for a disc in
+    space, Landau, Lifshitz, *Mechanics*, section 38.
     """
     touch = _contact(of, on)
     _check_carried(touch, bool(rolling) or sliding is not None or static is not None)

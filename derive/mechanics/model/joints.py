@@ -45,7 +45,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. A component does
              not appear if the coordinates alone keep the two points together along its axis
     The opposite force acts on `to`.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
     for each in (of, to):
         if not is_end(each):
@@ -75,7 +75,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
     force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
     The angle keeps the value that it has where all coordinates are zero.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 2.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
     bodies = [end_of(each)[1] if is_end(each) else None for each in (of, to)]
     turned: list[Any] = [each.turned for each in bodies if isinstance(each, PlacedBody) and each.is_plane]
@@ -169,7 +169,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
 
     constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 11.3.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """
     if not all(map(is_end, (start, end))):
         raise Rejected(Complaint("wrong-argument", "`dashpot` must end at particles, points of bodies, or places"))

@@ -181,7 +181,7 @@ def string(
                  height of the particle must be constant; gravity acts on each piece of the rope
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     found = _of_length("string", (start, *over, end), length, tension)
     if mass_of is None:
@@ -226,7 +226,7 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
     length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     return _of_length("massless_rod", (start, end), length, force)
 
@@ -365,7 +365,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
              height of the axis, or straight above or below the axis
     tension  the symbol of the tension of this piece, N; positive if the string pulls
     Along the string, the rim at the point of contact and the string have the same velocity.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 6.7.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
     if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
         message = "`wound_string` must go from a particle, a point of a body or a place to a round body in a plane"

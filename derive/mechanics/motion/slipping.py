@@ -45,7 +45,7 @@ __all__ = ["slips"]
 
 SLIPS = Rule(
     "motion.slips",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.4",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3",
     outcomes={
         "needs_none": claims.needs_no_friction,
         "sticks": claims.sticks_where(None),
@@ -84,7 +84,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
     Errors: no coefficient of static friction; the surface does not push; no solution in closed form; the place depends
     on the values of the symbols.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 3.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     contact, unknown = friction_of(friction, normal), unknown_of("slips", letter)
     if is_zero(contact.F):

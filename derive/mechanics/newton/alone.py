@@ -5,7 +5,7 @@ second law for this body along this direction contains only forces that the desc
 coordinates replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they
 have no component along the direction.
 
-Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 3.1 and 7.6.
+Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7.
 """
 
 from __future__ import annotations

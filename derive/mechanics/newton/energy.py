@@ -27,7 +27,7 @@ ZERO = Integer(0)
 
 TOTAL_ENERGY = Rule(
     "newton.total_energy",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.1 and 5.4",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 5",
     outcomes={"free": claims.no_constraint_force, "constrained": claims.constraint_forces_do_no_work},
     evidence={"motion": ROUTE},
 )
@@ -41,7 +41,7 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
     a potential energy. This power vanishes for all velocities that the constraints allow.
     Outcomes: free (no constraint force has a symbol), constrained (constraint forces with symbols act, but do no work).
     Errors: a force without a potential energy does work, or the positions or the potential energy depend on the time.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.1 and 5.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 5.
     """
     matter, moving = system.matter, list(system.coordinates)
     kinetic, potential = kinetic_energy_of(system), potential_energy_of(system)
@@ -83,7 +83,7 @@ def power_of_constraints(system: System) -> Expr:
 
 ENERGY_EQUATION = Rule(
     "newton.energy_equation",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.4 and 11.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 5 and 11",
     evidence={"lagrange": ROUTE, "rate": CHECK},
     statements=[claims.rate_of_the_energy],
 )
@@ -97,7 +97,7 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
     q        the only coordinate of the system
     Second route: Lagrange's equation. Check: q_dot times the left side is the rate of change of E.
     Errors: the system has several coordinates, or a constraint force has a symbol.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 5.4 and 11.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 5 and 11.
     """
     moving = list(system.coordinates)
     if moving != [q.symbol] or system.constraints:

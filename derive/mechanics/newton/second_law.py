@@ -28,7 +28,7 @@ OUTCOMES: Mapping[str, Predicate] = {  # the outcomes of `second_law` and `torqu
 }
 SECOND_LAW = Rule(
     "newton.second_law",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 2.4 and 3.1",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 2 and 3",
     outcomes=OUTCOMES,
     evidence={"lagrange": ROUTE},
     statements=[claims.mass_times_acceleration, claims.direction],
@@ -52,7 +52,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
     (another body has the same mass); for bodies at rest, alone_at_rest, of_several_at_rest, alike_at_rest.
     Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q
     rotates the body.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 2.4 and 3.1.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 2 and 3.
     """
     body = body_of(system, q.symbol)
     if body.turn(q.symbol) != 0:

@@ -56,7 +56,7 @@ class About:
 
 TORQUE_LAW = Rule(
     "newton.torque_law",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7",
     outcomes=OUTCOMES,
     evidence={"lagrange": ROUTE},
     statements=[claims.rate_of_angular_momentum, claims.point_of_the_torques],
@@ -84,7 +84,7 @@ def torque_law(
     Outcomes: as `second_law`.
     Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q does
     not rotate this body; a force without a symbol has a torque.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 7.5 to 7.7.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
     body = body_of(system, q.symbol)
     turn = body.turn(q.symbol)

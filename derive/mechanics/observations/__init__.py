@@ -1,1 +1,1 @@
-"""Observations: true statements about answers from which a student can learn, such as an equivalent pendulum."""
+"""Observations: facts about answers from which a student can learn, such as the length of an equivalent pendulum."""

@@ -122,7 +122,7 @@ def _case(q: Quantity) -> Any:
 
 FAMILIAR = Rule(
     "observations.familiar",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7",
     outcomes={"fall": claims.free_fall, "incline": claims.slides_freely},
     evidence={"product": CHECK},
     named={"letter": claims.is_free_of},

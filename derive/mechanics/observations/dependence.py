@@ -446,7 +446,7 @@ def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:
 
 BALANCED = Rule(
     "observations.balanced",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 8",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 8",
     outcomes={"generic": claims.balances},
     evidence={"put_in": CHECK, TRIALS: CHECK},
     named={"place": claims.is_an_angle},
@@ -520,7 +520,7 @@ def _below(of: Quantity, letter: Symbol, apart: Expr) -> Quantity:
 
 FLAT = Rule(
     "observations.flat",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7",
     outcomes={"generic": claims.is_sum_of_the_others},
     evidence={"sum": CHECK},
     named={"sum": claims.adds_the_moments},

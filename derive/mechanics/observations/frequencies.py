@@ -34,7 +34,7 @@ ROOTS, STEADY = "answers.roots", "motion.steady_motion"
 
 PENDULUM = Rule(
     "observations.pendulum",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, chapter 7 (the physical pendulum)",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7 (the physical pendulum)",
     outcomes={
         "length": claims.swings_like_a_pendulum,
         "named": claims.swings_like_a_pendulum,

@@ -28,7 +28,7 @@ OF_PARTS = ("body", "point", "mass", "axis")
 
 MOMENT_OF_PARTS = Rule(
     "rotation.moment_of_parts",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes)",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3 (parallel axes)",
     outcomes={
         "moved": claims.beside_the_axis,
         "on_axis": claims.moment_of_parts_on_axis,
@@ -51,7 +51,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     from the axis over the whole body.
     Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
     has a nonzero moment), on_axis (all centres are on the axis, and no part or several parts have a nonzero moment).
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3 (parallel axes).
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3 (parallel axes).
     """
     k = AXES.index(axis)
     solid = {f"part_{i}": part for i, part in enumerate(body.parts) if not _is_particle(part)}
@@ -102,7 +102,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
              the whole body has no parallel axis
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
     Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     called = {own: whole for whole, own in _parallel_to(turn).items()}.get(axis, "axial")
     symbol, key = f"{letter}_{called}", f"moment_{called}"

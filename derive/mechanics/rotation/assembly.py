@@ -234,7 +234,7 @@ def _shared(body: Composite, mass: Expr) -> tuple[tuple[Quantity, ...], tuple[Pl
 
 SHARE_OF_MASS = Rule(
     "rotation.share_of_mass",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     outcomes={"part": claims.part_of_sign(1), "hole": claims.part_of_sign(-1)},
     evidence={"integration": ROUTE},
 )
@@ -248,7 +248,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     mass   the mass M of the whole body
     Second route: the density of the whole body integrated over the part.
     Outcomes: part, hole.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     sizes = [other.sign * other.body.size for other in body.parts]
 
@@ -277,7 +277,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
 
 TOTAL_MASS = Rule(
     "rotation.total_mass",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     evidence={"integration": ROUTE},
     shown=Shown(brief=Manner.TOLD, standard=Manner.TOLD),
 )
@@ -288,7 +288,7 @@ def _total_mass(body: Composite) -> Quantity:
 
     body   the composite body with its parts
     Second route: the integral of dm over all parts.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     masses = [part.mass for part in body.parts]
     taken = {s.name for mass in masses for s in mass.free_symbols}
@@ -307,7 +307,7 @@ def _total_mass(body: Composite) -> Quantity:
 
 CENTRE_OF_PARTS = Rule(
     "rotation.centre_of_parts",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     outcomes={"generic": claims.all_is_added, "cut_out": claims.centre_of_parts_cut_out},
     evidence={"integration": ROUTE, "particles": ROUTE},
 )
@@ -320,7 +320,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
     start   the point from which the centre of mass is measured
     Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
     Outcomes: generic, cut_out (some part is a cavity).
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     terms = [scaled(part.mass, start.seen(part.centre)) for part in body.parts]
     whole = terms[0] if len(terms) == 1 else MatAdd(*terms)

@@ -47,7 +47,7 @@ _TABLE: Mapping[str, tuple[str, str, Callable[..., Expr]]] = {
 def is_standard_moment(facts: Judged) -> bool:
     """Whether the result is the moment that tables give for this body and axis.
 
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     body, words = facts.subject.body, facts.words.get("standard", "")
     if words not in _TABLE or not words.startswith(f"{body.id}_about_"):

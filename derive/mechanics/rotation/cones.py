@@ -102,7 +102,7 @@ def axis_number(inertia: Quantity) -> int:
 
 TANGENT_BETWEEN = Rule(
     "rotation.tangent_between",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={"generic": lasts, "parallel": vanishes},
     evidence={"parts": ROUTE},
 )
@@ -117,7 +117,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     lengths are found by rotating the vectors onto an axis.
     Outcomes: generic, parallel (the tangent vanishes).
     Errors: a or b vanishes; a and b are perpendicular, or belong to different bodies.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, sections 1.2 and 1.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     for v in (a, b):
         if is_zero(v.value):
@@ -220,7 +220,7 @@ def precession_rate(
 
 VECTOR_COMPONENT = Rule(
     "rotation.vector_component",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={"generic": lasts, "zero": vanishes},
     evidence={"turned": CHECK},
     statements=[claims.component_of_its_letter],
@@ -235,7 +235,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     Check: a cyclic permutation of the axes, which is a rotation, makes this component the first one.
     Outcomes: generic, zero.
     Errors: `of` is not a vector; there is no such axis.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.4.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     if getattr(of.value, "shape", None) != (3, 1) or axis not in AXES:
         raise Rejected(Complaint("wrong-argument", f"`{of.key}` has no component along `{axis}`"))

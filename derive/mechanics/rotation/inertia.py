@@ -141,7 +141,7 @@ def moment_of_inertia(
     over its cells.
     The moment of a composite body is derived from its parts.
     Errors: there is no such axis; the body has no such point.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     if axis not in AXES:
         message = f'a moment of inertia is about "x", "y" or "z", not about "{axis}"'
@@ -151,7 +151,7 @@ def moment_of_inertia(
 
 MOMENT_OF_INERTIA = Rule(
     "rotation.moment_of_inertia",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3",
     outcomes={"generic": anything, "quoted": claims.is_standard_moment},
     evidence={"particles": ROUTE, "quadrature": CHECK},
     statements=[claims.names_the_axis_of_the_whole],

@@ -94,7 +94,7 @@ def _letter(quantity: Quantity) -> Expr:
 
 CENTRE_DISTANCE = Rule(
     "rotation.centre_distance",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4",
     evidence={"balance": ROUTE},
     shown=Shown(brief=Manner.TOLD),
 )
@@ -108,7 +108,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
     mass    the step of the mass of the whole body, if there is one
     Second route: the sum of m (z - l) is zero, with z measured from the point. The sum is over particles that have the
     mass, the centre of mass and the second moments of the body.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 4.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
     parts = [(part.mass, point.seen(part.centre)[2]) for part in getattr(body, "parts", ())]
     held = [Factors(m, z) for m, z in parts if z != 0]

@@ -301,8 +301,8 @@ def _shorter(entry: Expr) -> Expr:
 PERPENDICULAR_AXES = Rule(
     "rotation.perpendicular_axes",
     source=(
-        "Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical "
-        "Mechanics*, section 8.2"
+        "Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3; Morin, *Introduction to "
+        "Classical Mechanics*, section 8.2"
     ),
     evidence={"particles": ROUTE, "quadrature": CHECK},
 )
@@ -316,8 +316,8 @@ def perpendicular_axes(
     first, second   moments of inertia about two perpendicular axes through one point in the plane of the body, kg m^2
     Second route: the sum of m d^2 over equimomental particles, with the distance d from the normal axis.
     Errors: the body is not flat, or one of the two axes is not in its plane.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3; Morin, *Introduction to Classical
-    Mechanics*, section 8.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3; Morin, *Introduction to
+    Classical Mechanics*, section 8.2.
     """
     body, point = first.subject.body, first.subject.point
     axes = {first.subject.axis, second.subject.axis}

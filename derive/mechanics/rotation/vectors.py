@@ -363,7 +363,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
 
 COSINE_BETWEEN = Rule(
     "rotation.cosine_between",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={
         "parallel": claims.cosine_is(1),
         "opposite": claims.cosine_is(-1),
@@ -382,7 +382,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
     Check: the law of cosines in a triangle with sides along a and b.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: a or b vanishes; a and b belong to different bodies.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     lengths = [tidied(Norm(v.value)) for v in (a, b)]
     for v, length in zip((a, b), lengths, strict=True):
@@ -451,7 +451,7 @@ def _relation_of_directions(cosine: Expr) -> str:
 
 ANGLE_BETWEEN = Rule(
     "rotation.angle_between",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1",
     outcomes={
         "parallel": claims.cosine_is(1, claims.rotation_cos),
         "opposite": claims.cosine_is(-1, claims.rotation_cos),
@@ -470,7 +470,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     to pi.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: a or b vanishes; a and b belong to different bodies.
-    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, section 1.2.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 1.
     """
     cosine = cosine_between(a, b, "cosine" if key == "angle_between" else f"{key}_cosine", symbol)
     across = tidied(Norm(Cross(a.value, b.value)))

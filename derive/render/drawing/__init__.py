@@ -1,1 +1,1 @@
-"""The drawings of a script: projected onto paper, labelled, and laid out on a sheet."""
+"""Makes the drawings: projects the marks onto the paper, places the labels, and writes PDF and SVG."""

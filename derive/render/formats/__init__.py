@@ -1,9 +1,9 @@
 """The formats of a single page: each module of this package defines one format, and is imported only here.
 
 A module defines `FORMAT = Format(...)`. With this definition, `--format` accepts the name of the format, and
-`Rendered.texts` can contain the page in this format. If the format is `built`, each build also writes each problem in
-this format. Listing the formats, even in `--help`, imports all these modules. So a module imports the code that renders
-a page only when it renders a page.
+`Rendered.texts` can contain a page in this format. If the format is `built`, each build writes a file in this format
+for each problem. A list of the formats, even in the help of a command, imports all these modules. Each module therefore
+imports the code that renders a page only when it renders a page.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The keys of a description, and how their values are read in its symbols."""
+"""The keys of a description, and the functions that read their values in the declared symbols."""
