@@ -35,8 +35,11 @@ if TYPE_CHECKING:
     from derive.render.drawing.sheets import Sheet
 
 SUFFIXES = ("pdf", "svg")
+POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
+# A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if it has at
+# least MANY labels, and more than DENSE on a square centimetre; but not if a label then costs more by SLIGHT.
 # The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
 OF_MODES, FEW = (3.6, 4.7), 4
 
@@ -125,12 +128,23 @@ def _drawn(
         what = replace(what, body_size=None)
     if what.mode is not None and not width and len(what.mode.moves) <= FEW:
         sizes = OF_MODES
+    made = []
     for wide in sizes:
         pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
-        sheet = sheet_of(pieces, notation, alt, on_paper)
-        if sheet.height > LOW * sheet.width:
+        made.append((sheet_of(pieces, notation, alt, on_paper), pieces))
+        if made[-1][0].height > LOW * made[-1][0].width:
             break
+    sheet, pieces = made[-1]
+    if not width and len(made) == 1 and what.mode is None and _is_crowded(sheet):
+        pieces = picture(what, Numbers(seen), WIDE, WIDE * HEIGHT / WIDTH)
+        larger = sheet_of(pieces, notation, alt, on_paper)
+        sheet, pieces = (larger, pieces) if larger.crowding <= sheet.crowding + SLIGHT else made[0]
     return sheet, sheet_of(pieces, notation, alt, on_screen)
+
+
+def _is_crowded(sheet: Sheet) -> bool:
+    area = sheet.width * sheet.height / POINTS_PER_CM**2
+    return sheet.crowding > CROWDED or sheet.labels >= MANY and sheet.labels / area > DENSE
 
 
 def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Lettered]:

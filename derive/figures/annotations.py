@@ -77,7 +77,9 @@ class Line(_Between):
     def pieces(self, paper: Paper) -> list[Piece]:
         spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
         along = direction(*spots)
-        return [Stroke(spots, self.pen), Tag(self.label, midway(*spots), (along[1], -along[0]))]
+        (x, y), (u, v) = spots
+        half = (u - x) / 2, (v - y) / 2
+        return [Stroke(spots, self.pen), Tag(self.label, midway(*spots), (along[1], -along[0]), way=half)]
 
 
 @dataclass(frozen=True)

@@ -166,6 +166,7 @@ class Drawing:
     coordinates   the coordinates in the marks, with their kinds
     values        values of symbols in terms of other symbols, used if the problem gives no numbers
     left_out      conditions of the system that the drawing does not show
+    undrawn       the given forces that the drawing does not show, each with its kind: "force", "torque" or "drag"
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     mode          the normal mode that the drawing shows; None in any other drawing
@@ -186,6 +187,7 @@ class Drawing:
     body_size: float | None = None
     seen_from: tuple[float, float] | None = None
     polhodes: ShownPolhodes | None = None
+    undrawn: tuple[tuple[str, Any], ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:

@@ -51,6 +51,7 @@ def drawing(
     forces_on: Any = None,
     mode: ShownMode | None = None,
     body_size: float | None = None,
+    undrawn: Sequence[tuple[str, Any]] = (),
 ) -> Drawing:
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
@@ -66,6 +67,7 @@ def drawing(
     forces_on  the mass of the body whose forces the drawing shows; the caption names this mass
     mode       the normal mode that the drawing shows; the caption names its frequency
     body_size  the size of the body in a force diagram, in points; by default the drawing fits its width
+    undrawn    the given forces that the drawing does not show, each with its kind; a caption states them
     """
     if view not in (SPACE, PLANE, None):
         help_line = f'use "{SPACE}" or "{PLANE}"'
@@ -77,7 +79,8 @@ def drawing(
     moving = {q: kind for q, kind in named.items() if q in letters_in(shown)}
     chosen = {**drawn_at(moving), **{name_of(None, letter): as_expr(v) for letter, v in (values or {}).items()}}
     placed = tuple(left_out), tuple(leads_to), forces_on, mode, body_size
-    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), *placed)
+    forces = tuple(undrawn)
+    found = Drawing(key, shown, seen, tuple(moving.items()), tuple(chosen.items()), *placed, undrawn=forces)
     noted(found)
     return found
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, cos, diff, pi, sin, sqrt
 
-from derive.algebra.expressions import TIME, Relation, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, as_expr, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, Line, PointMark, Weight
 from derive.figures.connections import Connections
@@ -31,6 +31,8 @@ from derive.figures.turning import downwards, link_marks, moving_end
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.forces import GivenForce
+from derive.mechanics.model.joints import DragAlong
 from derive.mechanics.model.no_slip import Rolling
 from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.system import Central, Particle, System
@@ -73,7 +75,8 @@ def sketch(
     scene = _Scene(system, named, weights, start, impact)
     if not more and not scene.is_whole:
         return None
-    return drawing(key, scene.marks, *more, values={**scene.values, **(values or {})}, left_out=scene.left_out)
+    values = {**scene.values, **(values or {})}
+    return drawing(key, scene.marks, *more, values=values, left_out=scene.left_out, undrawn=scene.undrawn)
 
 
 def things_of(system: System, named: Sequence[Location] = ()) -> tuple[list[Mark], Mapping[Symbol, Any]] | None:
@@ -480,19 +483,50 @@ class _Scene:
                     beside += 1
 
     def _applied(self) -> Iterable[Mark]:
-        """Yield the arrows of given forces at a place. Friction is left out, and so are forces whose magnitude contains
-        a root or a coordinate, because then the sign of the label could be wrong in the drawn state. A force that
-        varies with the time is drawn at t = 0 or, if it vanishes then, just after t = 0."""
-        unknown = {each.force for each in self.system.constraints}
+        """Yield the arrows of given forces at a place."""
         for each in self.system.given_forces:
-            if len(each.at) != self.rows or unknown & ImmutableDenseMatrix(each.components).free_symbols:
-                continue
-            at_start = [[diff(c, TIME, n).subs(TIME, 0) for c in each.components] for n in (0, 1)]
-            drawn = next((_along_axis(way) for way in at_start if any(way)), None)
-            size = _magnitude(each.components)
-            if drawn is not None and size is not None and not moving_in(self.system, size) - {TIME}:
+            if (found := self._drawn_force(each)) is not None:
+                way, size = found
                 place = Location(tuple(each.place))
-                yield AppliedForce(column_of(place), drawn, 1, False, label=size, clear=self._covered(place) or BOB)
+                yield AppliedForce(column_of(place), way, 1, False, label=size, clear=self._covered(place) or BOB)
+
+    def _drawn_force(self, each: GivenForce) -> tuple[ImmutableDenseMatrix, Expr] | None:
+        """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
+
+        Friction is left out, and so are forces whose magnitude contains a root or a coordinate, because then the sign
+        of the label could be wrong in the drawn state. A force that varies with the time is drawn at t = 0 or, if it
+        vanishes then, just after t = 0.
+        """
+        if len(each.at) != self.rows or self._is_friction(each):
+            return None
+        at_start = [[diff(c, TIME, n).subs(TIME, 0) for c in each.components] for n in (0, 1)]
+        drawn = next((_along_axis(way) for way in at_start if any(way)), None)
+        size = _magnitude(each.components)
+        if drawn is None or size is None or moving_in(self.system, size) - {TIME}:
+            return None
+        return drawn, size
+
+    def _is_friction(self, each: GivenForce) -> bool:
+        unknown = {constraint.force for constraint in self.system.constraints}
+        return bool(unknown & ImmutableDenseMatrix(each.components).free_symbols)
+
+    @property
+    def undrawn(self) -> list[tuple[str, Any]]:
+        """Return the given forces, torques and drags that the drawing does not show: their kinds, and their values or
+        constants. The caption of the drawing states them. The opposite of a force between two bodies is left out."""
+        found: list[tuple[str, Any]] = []
+        opposites = {each.opposite for each in self.system.given_forces if each.opposite is not None}
+        for each in self.system.given_forces if self.impact is None else ():
+            if self._is_friction(each) or self._drawn_force(each) is not None or each in opposites:
+                continue
+            if not any(as_expr(c) != 0 for c in each.components):
+                continue
+            (at, *more) = each.at
+            sort = "force" if more or self.system.coordinates.get(at) != "angle" else "torque"
+            values = tuple(each.components)
+            found.append((sort, values[0] if len(values) == 1 else values))
+        drags = [each for each in self.system.dampers if not isinstance(each, DragAlong)]
+        return [*found, *(("drag", each.constant) for each in drags)]
 
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity

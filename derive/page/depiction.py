@@ -66,8 +66,8 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions has a caption, which states these conditions. A force diagram and the drawing
-    of a normal mode also have captions.
+    A drawing that leaves out conditions or given forces has a caption, which states them. A force diagram and the
+    drawing of a normal mode also have captions.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
@@ -118,8 +118,8 @@ def depictions(
 
 
 def _left_out(drawing: m.Recorded) -> Sequence[Any]:
-    """Return the conditions that a drawing does not show."""
-    return drawing.left_out if isinstance(drawing, m.Drawing) else ()
+    """Return the conditions, and the given forces with their kinds, that a drawing does not show."""
+    return (*drawing.left_out, *drawing.undrawn) if isinstance(drawing, m.Drawing) else ()
 
 
 def _has_standard_caption(drawing: m.Recorded) -> bool:
@@ -152,12 +152,20 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
-    """Return the sentence with the conditions that a drawing does not show, to follow the caption."""
-    if not (conditions := _left_out(drawing)):
+    """Return the sentences with the conditions and the given forces that a drawing does not show, to follow the
+    caption."""
+    if not isinstance(drawing, m.Drawing) or not _left_out(drawing):
         return ()
-    told = joined([(Math(each),) for each in conditions], words.labels["and"])
-    names = {"conditions": told, "count": len(conditions)}
-    return (*((Text(" "),) if follows else ()), *filled(words.drawings["left_out"], names))
+    last, told = words.labels["and"], []
+    if drawing.left_out:
+        conditions = joined([(Math(each),) for each in drawing.left_out], last)
+        told.append(filled(words.drawings["left_out"], {"conditions": conditions, "count": len(drawing.left_out)}))
+    if drawing.undrawn:
+        forces = [
+            filled(words.drawings[f"undrawn_{sort}"], {"value": _named(value)}) for sort, value in drawing.undrawn
+        ]
+        told.append(filled(words.drawings["undrawn"], {"forces": joined(forces, last)}))
+    return (*((Text(" "),) if follows else ()), *_spaced(told))
 
 
 def _lettered(drawing: m.Recorded) -> dict[str, Any]:

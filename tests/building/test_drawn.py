@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from math import isqrt
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,7 +18,7 @@ from derive.algebra.dimensions import dimension
 from derive.algebra.expressions import column
 from derive.building import drawn
 from derive.building.cache import NO_CACHE, Cache
-from derive.building.drawn import drawing_files, numbers_of
+from derive.building.drawn import POINTS_PER_CM, WIDE, WIDTH, drawing_files, numbers_of
 from derive.building.set_document import problem_document
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered
@@ -26,6 +27,7 @@ from derive.course.placement import Placement
 from derive.course.problem import Problem, load_problem
 from derive.course.problem_set import problem_set
 from derive.errors import Complaint, Place, Rejected
+from derive.figures import drawing, point_mark
 from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing
 from derive.page.wording import Text, phrases
@@ -270,3 +272,26 @@ def test_a_view_of_its_own_changes_only_that_drawing(tmp_path: Path, block: Rend
     found = rendered_once(course_in(tmp_path, edits), "hw9/block", draws=True)
     same = {name for name, content in block.files if dict(found.files)[name] == content}
     assert same == {"block-axes.pdf", "block-axes.svg"} and not found.warnings
+
+
+def many_labels(count: int, **more: Any) -> Drawing:
+    """Points next to one another: the more there are, the less room each label has."""
+    side = isqrt(count)
+    marks = [point_mark(column(5 * (i % side), 4 * (i // side), 0), label=Symbol(f"p_{i}")) for i in range(count)]
+    return replace(drawing("points", marks, view="plane"), **more)
+
+
+@pytest.mark.parametrize(("count", "width", "cm"), [(4, None, WIDTH), (36, None, WIDE), (36, WIDTH, WIDTH)])
+def test_a_drawing_with_many_labels_is_larger_unless_its_author_chooses_the_width(
+    count: int, width: float | None, cm: float
+) -> None:
+    sheet, _ = drawn._drawn(many_labels(count, values=()), {}, Notation(), None, width, "", NO_CACHE)
+    assert sheet.labels == count
+    assert sheet.width / POINTS_PER_CM == pytest.approx(cm, abs=1.2)
+
+
+def test_the_author_chooses_the_width_of_a_force_diagram() -> None:
+    alone = replace(many_labels(4), body_size=20.0)
+    small, _ = drawn._drawn(alone, {}, Notation(), None, None, "", NO_CACHE)
+    wide, _ = drawn._drawn(alone, {}, Notation(), None, 9.0, "", NO_CACHE)
+    assert small.width < 3 * POINTS_PER_CM < 8 * POINTS_PER_CM < wide.width

@@ -11,7 +11,7 @@ from sympy import symbols as symbols_of
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import Arrow, LengthMark, Line
+from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import (
     BarMark,
@@ -532,3 +532,41 @@ def test_the_driven_ends_of_springs_and_rods_are_drawn_with_their_displacements(
         (end,) = of_class(found, MovingEnd)
         assert end.joint is joint and not of_class(found, FixedEnd)
         assert letter in [str(mark.label) for mark in of_class(found, DistanceMark)]
+
+
+BESET = """\
+title: A pendulum with given forces
+solve: system
+symbols: {m: mass, F: force, b: damping constant, tau: torque, l: length}
+given:
+  coordinates: {theta: angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  massless_rods: {from: [0, 0], to: bob}
+  forces: [{components: [F, 0], at: bob}, {components: [F*sin(theta), F], at: bob}, {torque: tau, on: theta}]
+  damping: {constant: b, at: bob}
+statement: A bob on a rod.
+parts:
+  - {ask: Find the equation of motion., answer: motion_theta}
+"""
+
+
+def test_a_given_force_that_the_figure_does_not_show_is_named_in_the_caption(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, BESET)["system"]
+    assert len(of_class(drawn, AppliedForce)) == 1
+    assert [sort for sort, _ in drawn.undrawn] == ["force", "torque", "drag"]
+    page = rendered(course_with(tmp_path / "page", BESET), "trial/one", only={"text"}).texts["text"]
+    caption = (
+        "Figure 1. The figure does not show the force (F sin θ, F), the torque τ and the drag with the constant b."
+    )
+    assert caption in " ".join(page.split())
+
+
+def test_friction_and_dashpots_are_not_named_as_forces_that_are_left_out(tmp_path: Path) -> None:
+    for name in ("block_on_plank", "carts_with_dashpot", "driven_arm"):
+        assert drawings(tmp_path / name, library(name))["system"].undrawn == ()
+
+
+def test_a_view_of_a_plane_drawing_has_no_effect(tmp_path: Path) -> None:
+    viewed = edited(BESET, ("statement:", "drawings: {system: {view: top}}\nstatement:"))
+    found = rendered(course_with(tmp_path, viewed), "trial/one", only={"text"}).warnings
+    assert [each.message for each in found] == ["`view` has no effect on `system`, which is not a drawing in space"]

@@ -10,7 +10,7 @@ import pytest
 
 from derive.figures.marks import Drawing
 from derive.figures.pieces import Bullet, Patch, Stroke, Tag
-from derive.render.drawing.labels import Placed, placed
+from derive.render.drawing.labels import STACKED, Placed, placed
 from tests.figures.scenery import SCENES, pieces_of
 
 WIDTH, HEIGHT = 12.0, 8.0
@@ -162,3 +162,18 @@ def test_a_label_that_has_no_room_on_its_block_is_above_the_block() -> None:
     edges = [Stroke(((-11.0, y), (11.0, y)), "edge") for y in (-2.0, 2.0)]
     (label,) = labels(*edges, Tag("M", (0.0, 0.0), (6.0, 0.0), on=True, outside=5.0))
     assert label.extent[1] > 2.0
+
+
+def test_labels_above_one_another_do_not_look_like_a_fraction() -> None:
+    """The lower label moves away, although its preferred position is free."""
+    tags = [Tag("a", (0.0, 0.0), (0.0, 1.0)), Tag("b", (0.0, 20.0), (0.0, -1.0))]
+    one, other = (each.extent for each in placed(tags, lambda _: (6.0, 6.0)))
+    is_apart = max(one[1], other[1]) - min(one[3], other[3]) >= STACKED
+    assert is_apart or min(one[2], other[2]) - max(one[0], other[0]) <= 3.0
+
+
+def test_the_cost_of_a_label_on_a_line_is_greater_than_that_of_a_free_label() -> None:
+    (free,) = placed([Tag("a", (0.0, 0.0), (0.0, 1.0))], lambda _: (6.0, 6.0))
+    fence = [Stroke(((x, -40.0), (x, 40.0)), "edge") for x in range(-40, 41, 4)]
+    (fenced,) = placed([*fence, Tag("a", (0.0, 0.0), (0.0, 1.0))], lambda _: (6.0, 6.0))
+    assert free.cost == 0 and fenced.cost > 10

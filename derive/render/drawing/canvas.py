@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, sin
 from typing import Any
 
@@ -79,7 +79,8 @@ def sheet_of(pieces: Sequence[Piece], notation: Notation, alt: str, letters: Let
     shapes = shapes_of(pieces) + [shape for each in stand for shape in labels[each.label].shapes_at(each.corner)]
     spots = [spot for piece in pieces if not isinstance(piece, Tag) for spot in _reached(piece)]
     spots += [spot for each in stand for spot in (each.extent[:2], each.extent[2:])]
-    return sheet_of_shapes(shapes, with_margin(extent_of(spots)), alt)
+    crowding = max((each.cost for each in stand), default=0.0)
+    return replace(sheet_of_shapes(shapes, with_margin(extent_of(spots)), alt), crowding=crowding, labels=len(stand))
 
 
 def labels_of(pieces: Sequence[Piece], notation: Notation, letters: Letters = letters_of) -> list[Placed]:

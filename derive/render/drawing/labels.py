@@ -23,7 +23,8 @@ Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, abo
 CLEAR = 1.5  # distance between a label and a line, in points
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
-BESIDE, TOGETHER = 7.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
+BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
+STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
 HEAVY_ENOUGH = 20.0  # total cost from which the second search is made
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0  # distance near a line; cost of each near point, and largest total
 WIDE = 1.0  # in points: a wider line is represented by its two edges
@@ -33,11 +34,13 @@ ROUNDS = 3
 
 @dataclass(frozen=True)
 class Placed:
-    """A label with the lower left corner of its box, and the box."""
+    """A label with the lower left corner of its box, the box, and its cost: what the box covers, and how far it is from
+    the preferred position."""
 
     label: Any
     corner: Spot
     extent: Extent
+    cost: float = 0.0
 
 
 def placed(
@@ -53,18 +56,21 @@ def placed(
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
-    cost, found = _one_by_one(order, tried, drawn)
-    if cost >= HEAVY_ENOUGH:  # labels cover something: search again, fewest positions first
+    costs, found = _one_by_one(order, tried, drawn)
+    if sum(costs.values()) >= HEAVY_ENOUGH:  # labels cover something: search again, fewest positions first
         other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
-        cost, found = min((cost, found), _one_by_one(other, tried, drawn), key=lambda each: each[0])
-    return [Placed(tags[i].label, found[i][:2], found[i]) for i in order]
+        again = _one_by_one(other, tried, drawn)
+        costs, found = min((costs, found), again, key=lambda each: sum(each[0].values()))
+    return [Placed(tags[i].label, found[i][:2], found[i], costs[i]) for i in order]
 
 
 Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # numbered boxes with costs, cheapest first
 
 
-def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]) -> tuple[float, dict[int, Extent]]:
-    """Choose a box for each label in this order, in at most `ROUNDS` rounds; return the total cost and the boxes."""
+def _one_by_one(
+    order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]
+) -> tuple[dict[int, float], dict[int, Extent]]:
+    """Choose a box for each label in this order, in at most `ROUNDS` rounds; return the costs and the boxes."""
     found: dict[int, Extent] = {}
     costs: dict[int, float] = {}
     for _ in range(ROUNDS):
@@ -73,7 +79,7 @@ def _one_by_one(order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Sp
             costs[i], found[i] = _best(tried[i], drawn, [box for j, box in found.items() if j != i])
         if found == before:
             break
-    return sum(costs.values()), found
+    return costs, found
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
@@ -165,7 +171,8 @@ def _covered(box: Extent, drawn: Sequence[Spot], others: Sequence[Extent]) -> fl
     left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
     lines = sum(left < x < right and below < y < above for x, y in drawn)
     labels = sum(left < o[2] and o[0] < right and below < o[3] and o[1] < above for o in others)
-    return lines * LINE + labels * HEAVY + TOGETHER * sum(_reads_as_product(box, other) for other in others)
+    together = sum(_reads_as_product(box, other) or _reads_as_fraction(box, other) for other in others)
+    return lines * LINE + labels * HEAVY + TOGETHER * together
 
 
 def _reads_as_product(one: Extent, other: Extent) -> bool:
@@ -173,6 +180,13 @@ def _reads_as_product(one: Extent, other: Extent) -> bool:
     common = min(one[3], other[3]) - max(one[1], other[1])
     in_a_row = common > 0.5 * min(one[3] - one[1], other[3] - other[1])
     return in_a_row and max(one[0], other[0]) - min(one[2], other[2]) < BESIDE
+
+
+def _reads_as_fraction(one: Extent, other: Extent) -> bool:
+    """Return whether two labels are so close above one another that they read as a fraction."""
+    common = min(one[2], other[2]) - max(one[0], other[0])
+    in_a_column = common > 0.5 * min(one[2] - one[0], other[2] - other[0])
+    return in_a_column and max(one[1], other[1]) - min(one[3], other[3]) < STACKED
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:

@@ -34,12 +34,18 @@ class Shape:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A finished figure as PDF and as SVG, and its size in points."""
+    """A finished figure as PDF and as SVG, and its size in points.
+
+    crowding   the greatest cost of the position of a label: see `derive.render.drawing.labels`
+    labels     the number of labels
+    """
 
     pdf: bytes
     svg: bytes
     width: float
     height: float
+    crowding: float = 0.0
+    labels: int = 0
 
 
 def contour_through(spots: Sequence[Spot], closed: bool = False) -> Contour:
