@@ -40,6 +40,7 @@ WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
 # A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if it has at
 # least MANY labels, and more than DENSE on a square centimetre; but not if a label then costs more by SLIGHT.
+CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
 # The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
 OF_MODES, FEW = (3.6, 4.7), 4
 

@@ -404,7 +404,7 @@ class _Writer:
         before, after = around_chain(nodes)
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
-        if not before and blocks and isinstance(blocks[-1], Display):
+        if blocks and isinstance(blocks[-1], Display) and (not before or self._is_only_and(before)):
             beside = self._share_a_row(step, equations, blocks[-1].groups[-1])
             blocks[-1] = blocks[-1].with_more(display, beside)
             if beside:
@@ -417,6 +417,10 @@ class _Writer:
             blocks.append(display)
         if after:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
+
+    def _is_only_and(self, before: Sequence[Inline]) -> bool:
+        """Return whether the words before lines are only "and": such lines join the lines before them, as in a list."""
+        return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
 
     def _clause(self, blocks: Sequence[Block], following: Sequence[Inline] = ()) -> tuple[Inline, ...]:
         """Return a clause that defines the symbols in the lines just shown; it ends with a comma if the words that
@@ -478,6 +482,10 @@ class _Writer:
         used = {node for form in step.chain for node in preorder_traversal(form.expr) if isinstance(node, Amount)}
         new, self.converted = used - self.converted, self.converted | used
         return joined(conversions(self.problem, new), self.words.labels["and"])
+
+
+def _text_of(nodes: Sequence[Inline]) -> str:
+    return "".join(node.text for node in nodes if isinstance(node, Text))
 
 
 def _without_cases(place: Place, label: str, plots: Sequence[Illustration]) -> Complaint:

@@ -277,7 +277,24 @@ def test_a_sheet_has_each_question_once_wherever_its_drawing_has_no_room(tmp_pat
         text = squeezed(target)
         assert [text.count(question) for question in asked] == [1] * len(asked), height
         places.add(text.index("Figure1") < text.index(asked[0]))
-    assert places == {True, False}, "the drawing is beside the questions, and above them"
+    assert places == {False}, "the drawing is beside the questions, or below them"
+
+
+def test_on_a_sheet_a_problem_begins_where_its_drawing_has_room(tmp_path: Path) -> None:
+    root = course_in(tmp_path, {"drawings:\n": "drawings:\n  axes: {caption: The axes.}\n"})
+    solution = rendered_once(root, "hw9/block", draws=True)
+    tex = sheet_document(root, problem_set(root, "hw9"), [solution])
+    drawings = [each for each in solution.files if each[0].endswith(".pdf")]
+    target = tmp_path / "sheet.pdf"
+    head = r"\headwithroom{block"
+    first = {}
+    for height in (2, 18):
+        lower = Tex(tex.replace(head, rf"\noindent\rule{{1pt}}{{{height}cm}}\par {head}"))
+        typeset(lower, target, chosen_engine(None), included=drawings)
+        pages = [page.extract_text() for page in PdfReader(target).pages]
+        first[height] = next(i for i, page in enumerate(pages) if "A block turning" in page)
+        assert "Figure 1" in pages[first[height]]
+    assert first == {2: 0, 18: 1}
 
 
 def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:

@@ -163,3 +163,14 @@ def test_a_display_is_as_sure_as_its_least_sure_step_and_ends_with_its_sentence(
     assert (both.grade, sampled.with_more(proved).grade, proved.grade) == (Grade.SAMPLED, Grade.SAMPLED, Grade.PROVED)
     assert both.routes == ("by halves",)
     assert (both.stops, sampled.stops) == ((",", "."), (",",))
+
+
+@pytest.mark.parametrize(("words", "is_joined"), [("and", True), ("and of the size", False)])
+def test_lines_after_a_mere_and_join_the_lines_before_them(
+    block: Block, tmp_path: Path, words: str, is_joined: bool
+) -> None:
+    added = f"wording: {{torque: Hold <<chain>>, magnitude: {words} <<chain>>}}"
+    document = page(in_other_words(block, tmp_path, added))
+    displays = [each for part in document.parts for each in part.blocks if isinstance(each, Display)]
+    keys = [[group.key for group in display.groups] for display in displays]
+    assert (keys[-1][-2:] == ["torque", "magnitude"]) is is_joined

@@ -34,8 +34,9 @@ def boxed(tex: str) -> list[str]:
 
 
 def framed(tex: str) -> list[str]:
-    """In a document of ours: rows that are framed as a whole, and frames within rows."""
+    """In a document of ours: rows that are framed as a whole, rows of a frame, and frames within rows."""
     rows = [(end, next(braced(tex[end:], ""))[0]) for _, end in braced(tex, r"\framedrow")]
+    rows += [(end, f"{left} {next(braced(tex[end:], ''))[0]}") for left, end in braced(tex, r"\listrow")]
     return [inside for _, inside in sorted([*rows, *((end, inside) for inside, end in braced(tex, r"\inframe"))])]
 
 

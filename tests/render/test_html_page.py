@@ -13,8 +13,11 @@ from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
+from derive.page.chain_lines import ChainLine, Equations
+from derive.render.printing.html_page import HtmlPage
 from derive.render.rendered import Rendered
 from tests.courses import course_in, kept, rendered_once
+from tests.render.pages import NOTATION, WORDS, M, T, a, display, page
 
 VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input", "wbr"}
 
@@ -90,6 +93,14 @@ def test_an_answer_stands_in_a_frame_and_the_others_do_not(tmp_path: Path) -> No
     rows = re.findall(r'<div class="row".*?</div>', page)
     framed = [row for row in rows if 'class="answer"' in row]
     assert framed and len(framed) < len(rows)
+
+
+def test_answers_one_after_the_other_share_a_frame() -> None:
+    steps = [Equations(key, (ChainLine(T, "equals", M * a),), n, n != 4) for n, key in enumerate("abcdef", 1)]
+    shown = replace(display("mass"), groups=tuple(steps))
+    rows = "".join(HtmlPage(page(shown), WORDS, NOTATION).steps(shown))
+    joined = re.findall(r'<div class="row([^"]*)"', rows)
+    assert joined == [" leads", " follows leads", " follows", "", " leads", " follows"]
 
 
 def test_each_display_says_what_it_is_in_latex(tmp_path: Path) -> None:

@@ -177,6 +177,20 @@ def test_a_short_result_is_framed_with_its_left_side_and_a_long_one_by_itself() 
     assert row.startswith(r"\row{T}{= b_{0}") and r"\inframe{Ma}}{.}" in row
 
 
+def listed(*steps: Equations) -> str:
+    return "\n".join(chain(solution(page(replace(display("mass"), groups=steps)))))
+
+
+def test_answers_one_after_the_other_are_in_one_frame_and_have_a_number_each() -> None:
+    T_is_a, M_is_a = (ChainLine(left, "equals", a) for left in (T, M))
+    first, second = Equations("one", (T_is_a,), 1, framed=1), Equations("two", (M_is_a,), 2, framed=1)
+    tex = listed(first, second)
+    assert tex.startswith("\\framedlist{") and tex.endswith("}{.}")
+    assert [tex.count(each) for each in ("framedrow", r"\listrow", r"\nextlistrow", r"\eqnumber")] == [0, 2, 1, 2]
+    assert r"\listrow{T}{= a}{}{" in tex and r"\listrow{M}{= a}{}{" in tex
+    assert listed(first, replace(second, framed=0)).count("list") == 0
+
+
 def test_a_long_result_is_in_one_frame_of_several_lines() -> None:
     terms = sum(symbols("b_:40", positive=True))
     (alone,) = framed(ChainLine(T, "equals", terms))

@@ -12,7 +12,7 @@ from derive.algebra.expressions import Relation
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.wording import Text
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import printed_lines
+from derive.render.printing.lines import answers_together, printed_lines
 
 LETTERS = symbols("a b c d e f g h k l m n p q r s", positive=True)
 theta = Symbol("theta", real=True)
@@ -131,3 +131,13 @@ def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
         assert line.frames_all == whole
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0
+
+
+def test_answers_of_one_row_that_follow_each_other_share_a_frame() -> None:
+    T, (a, b, c) = Symbol("T"), LETTERS[:3]
+    answer = printed_lines(Equations("one", (ChainLine(T, "equals", a),), 1, 1), NOTATION)
+    plain = printed_lines(Equations("two", (ChainLine(T, "equals", b),), 2), NOTATION)
+    long = printed_lines(
+        Equations("three", (ChainLine(T, "equals", LONG), ChainLine(None, "equals", c)), 3, 1), NOTATION
+    )
+    assert answers_together([answer, answer, plain, answer, long, answer, answer]) == [[0, 1], [2], [3], [4], [5, 6]]

@@ -39,7 +39,7 @@ from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
 from derive.render.printing.figure_numbers import figure_number
-from derive.render.printing.lines import PAGE_WIDTH, Printed, printed_lines
+from derive.render.printing.lines import PAGE_WIDTH, Printed, answers_together, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import inline_text
 from derive.render.printing.told_once import theorem, told_in
@@ -201,11 +201,15 @@ class HtmlPage:
 
     def steps(self, display: Display) -> Sequence[Html]:
         """Return the rows of each step of a display."""
-        return [
-            Html("\n".join(self._row(line, "" if line is not printed[-1] else stop) for line in printed))
-            for group, stop in zip(display.groups, display.stops, strict=True)
-            for printed in [printed_lines(group, self.notation, PAGE_WIDTH)]
-        ]
+        printed = [printed_lines(group, self.notation, PAGE_WIDTH) for group in display.groups]
+        found = []
+        for together in answers_together(printed):
+            for i in together:
+                stop = display.stops[i] if i == together[-1] else ""
+                follows, leads = i != together[0], i != together[-1]
+                rows = (self._row(l, stop if l is printed[i][-1] else "", follows, leads) for l in printed[i])
+                found.append(Html("\n".join(rows)))
+        return found
 
     def numbers(self, folded: Folded) -> str:
         """Return the numbers of the folded equations."""
@@ -216,8 +220,11 @@ class HtmlPage:
         """Return the display as LaTeX that the reader can copy."""
         return display_latex(display, self.notation)
 
-    def _row(self, line: Printed, stop: str) -> str:
-        """Return a row; it shows the number of the equation only if no earlier row shows this number."""
+    def _row(self, line: Printed, stop: str, follows: bool = False, leads: bool = False) -> str:
+        """Return a row; it shows the number of the equation only if no earlier row shows this number.
+
+        follows, leads     whether the row shares its frame with the row above, and with the row below
+        """
         left = "" if line.left is None else _side("start", line.left)
         cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
         if line.frames_all:
@@ -227,7 +234,8 @@ class HtmlPage:
         number = f'<span class="number">({line.number})</span>' if is_new else ""
         beside = f'<span class="beside">{why}{number}</span>' if why or number else ""
         anchor = f' id="{self._anchor(line.number)}"' if line.number is not None and is_new else ""
-        return f'<div class="row"{anchor}>{"".join(cells)}{beside}</div>'
+        joined = "".join([" follows" * follows, " leads" * leads])
+        return f'<div class="row{joined}"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
         """Return whether a number appears for the first time; only in this case does the row show it."""

@@ -34,7 +34,7 @@ from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import equation_latex
-from derive.render.printing.lines import Printed, framed_together, printed_lines
+from derive.render.printing.lines import Printed, answers_together, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import inline_text, second_ways
@@ -204,12 +204,24 @@ class LatexPage:
         A page does not end within a few equations of one row each, such as Euler's equations. The last row of a step,
         which has its result and its number, is never alone at the top of a page.
         """
+        printed = [printed_lines(group, self.notation) for group in display.groups]
+        between = r"\samestep" if all(map(_is_low, printed)) and len(printed) <= FEW_ROWS else r"\nextstep"
         steps: list[str] = []
-        are_low = all(_is_low(printed_lines(group, self.notation)) for group in display.groups)
-        between = r"\samestep" if are_low and len(display.groups) <= FEW_ROWS else r"\nextstep"
-        for group, stop in zip(display.groups, display.stops, strict=True):
-            steps.append(self._step(printed_lines(group, self.notation), stop))
+        for steps_together in answers_together(printed):
+            stop = display.stops[steps_together[-1]]
+            lines = [printed[i] for i in steps_together]
+            steps.append(self._list(lines, stop) if len(lines) > 1 else self._step(lines[0], stop))
         return Tex(f"\n{between}\n".join(steps))
+
+    def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
+        """Return answers in one frame; the steps of a list have a row, a reason and a number each."""
+        rows = [
+            rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
+            rf"{{{self._number_of(line)}}}"
+            for (line,) in steps
+        ]
+        listed = "\n\\nextlistrow\n".join(rows)
+        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -232,10 +244,15 @@ class LatexPage:
             command, body = "row", f"{TEX_OPERATORS[relation]} {_framed(stacked)}"
         else:
             command, body = "row", _sides(first)
-        reason = rf"\why{{{self.inline(last.reason)}}}" if last.reason else ""
-        is_new = last.number is not None and last.number not in self._placed
-        number = self._numbered(last.number) if last.number is not None and is_new else ""
-        return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{reason}}}{{{number}}}"
+        return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{self._reason(last)}}}{{{self._number_of(last)}}}"
+
+    def _reason(self, line: Printed) -> str:
+        return rf"\why{{{self.inline(line.reason)}}}" if line.reason else ""
+
+    def _number_of(self, line: Printed) -> str:
+        """Return the number of a line, if no earlier line shows it."""
+        is_new = line.number is not None and line.number not in self._placed
+        return self._numbered(line.number) if line.number is not None and is_new else ""
 
     def _numbered(self, number: Number) -> str:
         """Return the number of an equation, which a page shows once, even if later hints show further lines of the
@@ -246,11 +263,14 @@ class LatexPage:
     def in_statement(self) -> Sequence[Illustration]:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
+    def file(self, drawing: Illustration) -> str:
+        return f"{drawing.stem}.pdf"
+
     def drawing(self, drawing: Illustration) -> Tex:
         """Return the file of a drawing, the text that replaces a missing file, the figure number and the caption."""
         number = "" if drawing.number is None else f"{self._figure_name(drawing.number, ' ')}."
         alt, caption = self.inline(drawing.alt), self.inline(drawing.caption)
-        return Tex(rf"{{{drawing.stem}.pdf}}{{{alt}}}{{{number}}}{{{caption}}}")
+        return Tex(rf"{{{self.file(drawing)}}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def _figure_name(self, number: int, space: str) -> str:
         """Return the name of a figure; TeX adds the figures of earlier problems of the document to its number."""

@@ -101,6 +101,23 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
     return rows
 
 
+def answers_together(steps: Sequence[Sequence[Printed]]) -> list[list[int]]:
+    """Group the steps of a display: consecutive answers of one row each share a frame. Return the positions of the
+    steps of each group."""
+    groups: list[list[int]] = []
+    for i, lines in enumerate(steps):
+        if groups and _is_one_answer(lines) and _is_one_answer(steps[i - 1]):
+            groups[-1].append(i)
+        else:
+            groups.append([i])
+    return groups
+
+
+def _is_one_answer(lines: Sequence[Printed]) -> bool:
+    """Return whether the lines are one row, of one equation, that is framed as a whole."""
+    return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
+
+
 def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
     """Repeat the left side of the chain before a bare number or letter, so that the frame has a complete equation."""
     *others, last = packed
