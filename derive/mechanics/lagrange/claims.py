@@ -197,7 +197,7 @@ def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
     (placed,) = system.bodies
     centre_at_rest = all(is_zero(c) for c in _rates_of(placed.centre.components, system))
     if made == "both":
-        return not system.particles and "inertia_0" in facts.inputs and not placed.is_held
+        return not system.particles and "inertia_0" in facts.inputs and not centre_at_rest
     held_apart = placed.is_held and "speed_0" not in facts.inputs
     return not system.particles and (held_apart or centre_at_rest) and (made == "axis") == (placed.across is not None)
 
