@@ -204,7 +204,7 @@ def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
 
 def _rates_of(place: Any, system: Any) -> list[Expr]:
     moving = list(system.coordinates)
-    return [explicit(diff(by_functions_of_time(explicit(c), moving), TIME)) for c in place]
+    return [by_functions_of_time(explicit(c), moving) for c in place]
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
