@@ -91,7 +91,7 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
     """Return the substitutions, in order, after which one equation contains none of the eliminated unknowns.
 
     residuals   the equations, one more than the eliminated unknowns
-    Return nothing if a substitution would be long, or would divide by a value that might vanish.
+    Return nothing if a substitution would be long, would divide by a value that might vanish, or is not needed.
     """
     rows, left = dict(enumerate(residuals)), list(eliminated)
     found: list[Substitution] = []
@@ -105,7 +105,8 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
         if not possible:
             return ()
         best = min(possible, key=lambda each: (length(each.value), each.equation))
-        if length(best.value) > LONGEST_IN_WORDS:
+        others = [row for i, row in rows.items() if i != best.equation]
+        if length(best.value) > LONGEST_IN_WORDS or not any(row.has(best.unknown) for row in others):
             return ()
         found.append(best)
         left.remove(best.unknown)
