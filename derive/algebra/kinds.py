@@ -102,7 +102,9 @@ def kind_with_article(kind: str) -> str:
 def plural(kind: str) -> str:
     """The plural of a kind: moments of inertia, angular speeds."""
     noun, of, rest = kind.partition(" of ")
-    return f"{noun[:-1]}ies{of}{rest}" if noun.endswith("y") else f"{noun}s{of}{rest}"
+    if noun.endswith("y"):
+        return f"{noun[:-1]}ies{of}{rest}"
+    return f"{noun}{'es' if noun.endswith('s') else 's'}{of}{rest}"
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:

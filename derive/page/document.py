@@ -46,7 +46,7 @@ from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
-from derive.page.repeats import Stated, noted, results, told_by_number
+from derive.page.repeats import AGAIN, Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
@@ -295,6 +295,7 @@ class _Writer:
         blocks: list[Block] = [Paragraph(nodes) for nodes in found_before(answers, self.shown_in, self.words)]
         begins: dict[str, int] = {}
         ends: dict[str, int] = {}
+        self.before = None  # the first sentence of a part is a complete sentence
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
@@ -391,6 +392,9 @@ class _Writer:
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
+        if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
+            self.numbers[step.key] = self.numbers[again]
+            return  # the sentence of the step before is about this step too
         if again is not None and (sentence := told_by_number(step, nodes, self.level)):
             self.numbers[step.key] = self.numbers[again]
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
@@ -471,6 +475,8 @@ class _Writer:
             return nodes if any(isinstance(node, Chain) for node in nodes) else (*nodes, Text(" "), Chain())
         both = self.words.of_both(step, following) if (following := self._following(step.key)) else ""
         self.told_before = following.key if following and both else ""
+        if following and both:
+            own = {**names_of_step(following, self.words, self.dimensions.get(following.symbol)), **own}
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
 
     def _states(self, word: tuple[Inline, ...]) -> bool:

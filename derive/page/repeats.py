@@ -16,7 +16,7 @@ from derive.steps.step import Level, Step
 
 Lines = tuple[Any, ...]  # the lines of a chain on the page
 Formula = tuple[Any, str, Any]
-AGAIN = "again"  # the outcome of a step whose sentence refers to the earlier equation
+AGAIN = ("again", "combined")  # the outcomes of a step whose sentence refers to the earlier equation
 
 
 class Stated:
@@ -59,10 +59,10 @@ def results(step: Step, lines: Lines) -> int:
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
     """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it.
 
-    Return nothing if the outcome is not `again`, or if the level is `full`.
+    Return nothing if the outcome is not one of `AGAIN`, or if the level is `full`.
     """
     before, _ = around_chain(nodes)
-    if step.outcome != AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
+    if step.outcome not in AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
         return ()
     return (*before[:-1], Text(before[-1].text.rstrip(" ,") + "."))
 

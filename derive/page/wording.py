@@ -396,15 +396,22 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return the coordinates of a step and of those following steps that have no words of their own: `theta, x and
-    y`."""
+    """Return names for a step and those following steps that have no words of their own: `together` is the list of the
+    coordinates of these steps, `theta, x and y`, and `newton_together` that of the equations in the role `newton`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
             break
         steps.append(each)
-    told = [Math(q) for each in steps if (q := dict(each.roles).get("coordinate")) is not None]
-    return {"together": joined(told, words.labels["and"])} if 1 < len(told) == len(steps) else {}
+    if len(steps) == 1:
+        return {}
+    named = [dict(each.roles) for each in steps]
+    lists = {role: [each[role] for each in named if isinstance(each.get(role), Str)] for role in named[0]}
+    found: dict[str, list[Inline]] = {
+        f"{role}_together": [Ref(each.name) for each in told] for role, told in lists.items()
+    }
+    found["together"] = [Math(q) for each in named if (q := each.get("coordinate")) is not None]
+    return {name: joined(told, words.labels["and"]) for name, told in found.items() if len(told) == len(steps)}
 
 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:

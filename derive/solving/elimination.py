@@ -19,6 +19,7 @@ from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
 MOST = 5  # greatest number of equations that are solved together
+LONGEST_IN_WORDS = 8  # greatest length of an unknown in a sentence
 LONGEST = 20  # greatest length of an unknown that is written in terms of earlier unknowns
 
 
@@ -70,6 +71,48 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
             vanishing[lead] = named
         else:
             found[lead] = Isolated(named, (), earlier, value if length(value) <= LONGEST else None)
+
+
+@dataclass(frozen=True)
+class Substitution:
+    """One equation, solved for an unknown that is then substituted into the other equations.
+
+    equation   the index of the equation
+    unknown    the unknown that is eliminated
+    value      this unknown in terms of the others, with the earlier substitutions made
+    """
+
+    equation: int
+    unknown: Symbol
+    value: Expr
+
+
+def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tuple[Substitution, ...]:
+    """Return the substitutions, in order, after which one equation contains none of the eliminated unknowns.
+
+    residuals   the equations, one more than the eliminated unknowns
+    Return nothing if a substitution would be long, would divide by a value that might vanish, or is not needed.
+    """
+    rows, left = dict(enumerate(residuals)), list(eliminated)
+    found: list[Substitution] = []
+    while left:
+        possible = []
+        for i, row in rows.items():
+            for u in left:
+                slope = tidied(derivative(row, u))
+                if slope != 0 and sign_for_all(slope) in (1, -1):
+                    possible.append(Substitution(i, u, tidied(-row.xreplace({u: ZERO}) / slope)))
+        if not possible:
+            return ()
+        best = min(possible, key=lambda each: (length(each.value), each.equation))
+        others = [row for i, row in rows.items() if i != best.equation]
+        if length(best.value) > LONGEST_IN_WORDS or not any(row.has(best.unknown) for row in others):
+            return ()
+        found.append(best)
+        left.remove(best.unknown)
+        del rows[best.equation]
+        rows = {i: row.xreplace({best.unknown: best.value}) for i, row in rows.items()}
+    return tuple(found)
 
 
 def _fewest(

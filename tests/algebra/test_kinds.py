@@ -119,7 +119,7 @@ def test_what_may_be_signed_is_positive_otherwise() -> None:
 
 def test_several_of_a_kind_have_a_plural() -> None:
     assert (plural("angular speed"), plural("moment of inertia")) == ("angular speeds", "moments of inertia")
-    assert plural("velocity") == "velocities"
+    assert (plural("velocity"), plural("mass")) == ("velocities", "masses")
 
 
 def test_a_polar_angle_alone_is_within_bounds() -> None:

@@ -14,7 +14,7 @@ from derive.course.problem import deriving, load_problem
 from derive.mechanics.lagrange.claims import follows_from_these_equations, names_the_enforcer
 from derive.mechanics.model.connection import PointForce
 from derive.mechanics.model.constraint import Constraint
-from derive.solving.elimination import isolated_in_order
+from derive.solving.elimination import Substitution, isolated_in_order, substitutions
 from derive.steps.record import Run
 from derive.steps.rule import Judged
 from tests.courses import ROOT
@@ -39,6 +39,14 @@ def test_coupled_equations_are_eliminated_for_the_first_unknown() -> None:
     assert found[x].eliminated == (y, S) and found[x].equations == (0, 1, 2)
     assert (found[y].equations, found[y].value) == ((2,), -x)
     assert (found[S].equations, found[S].value) == ((0,), m * (g - x))
+
+
+def test_the_other_unknowns_are_substituted_one_after_the_other() -> None:
+    """An Atwood machine: y'' = -x'', then S = m (g - x''), and only x'' is left."""
+    found = substitutions([m * x - m * g + S, M * y - M * g + S, x + y], [y, S])
+    assert found == (Substitution(2, y, -x), Substitution(0, S, m * (g - x)))
+    assert substitutions([(M - m) * y + x, y - x * g], [y])[0].value == g * x
+    assert substitutions([(M - m) * y + x, (M - m) * y - x * g], [y]) == ()
 
 
 def test_no_step_divides_by_a_value_that_may_vanish() -> None:

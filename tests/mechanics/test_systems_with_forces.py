@@ -325,8 +325,8 @@ def test_a_wrong_force_of_a_magnetic_field_is_refused(monkeypatch: Any) -> None:
 
 
 def test_a_wrong_dissipation_function_is_refused(monkeypatch: Any) -> None:
-    right = forced.squares_of_rates
-    monkeypatch.setattr(forced, "squares_of_rates", lambda place, moving: 2 * right(place, moving))
+    right = forced.squares_of_velocity
+    monkeypatch.setattr(forced, "squares_of_velocity", lambda damper, moving: 2 * right(damper, moving))
     x, y = lengths("x", "y")
     with pytest.raises(Unverified):
         motions(Particle(m, point(x, y)), damping(c, point(x, y)))

@@ -85,4 +85,6 @@ def test_an_equation_that_is_linear_already_stands_once(tmp_path: Path) -> None:
 def test_that_no_spring_is_pressed_to_nothing_is_told_where_it_is_used(tmp_path: Path) -> None:
     text = rendered(course_with(tmp_path, CART), "trial/one", only={"text"}).texts["text"]
     assert "It is assumed" not in text
-    assert "The potential energy, as long as no spring is compressed to zero length, is" in text
+    assert "so the potential energy, as long as the spring is not compressed to zero length, is" in " ".join(
+        text.split()
+    )

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol
 
-from derive.algebra.expressions import Ratio
+from derive.algebra.expressions import Ratio, Relation
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers import claims
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Letters, in_results
 from derive.solving.divisors import may_vanish
+from derive.solving.elimination import Substitution, substitutions
 from derive.solving.presentation import presented
 from derive.solving.relations import conditions_told
 from derive.solving.unknowns import (
@@ -34,6 +35,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["solved_for"]
 
 MOST = 6  # greatest number of unknowns
+MOST_SUBSTITUTED = 2  # greatest number of substitutions that a sentence makes
 
 
 def solved_for(
@@ -119,11 +121,15 @@ def _solution(
         )
 
     known = coordinates_of(*given)
+    told = () if i or not all(isinstance(each, Symbol) for each in wanted) else substitutions(residuals, marks[1:])
+    told = told if len(told) <= MOST_SUBSTITUTED else ()
+    used = [each.equation for each in told]
+    order = [*used, *(n for n in range(len(given)) if n not in used)]
     return establish(
         SOLVED_FOR,
         unknown,
         lambda *_: Ratio(_written(above), _written(matrix)),
-        {f"equation_{n + 1}": equation for n, equation in enumerate(given)},
+        {f"equation_{n}": given[at] for n, at in enumerate(order, 1)},
         lines=Lines(
             put_in=None,
             law=Level.FULL,
@@ -135,12 +141,32 @@ def _solution(
         key=key,
         kind=kind_of_unknown(unknown, known),
         phrase_data=PhraseData(
-            formulas=conditions_told(excluded=excluded),
+            formulas={
+                **conditions_told(excluded=excluded),
+                **_told(told, residuals, dict(zip(marks, wanted, strict=True))),
+            },
             named={"unknown": unknown},
             outcome_data={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
+        parents=list(given),  # the page shows the equations in this order
         scope=Scope(differ=EVERYTHING),
     )
+
+
+def _told(
+    made: Sequence[Substitution], residuals: Sequence[Expr], named: Mapping[Symbol, Expr]
+) -> dict[str, tuple[Relation, Relation]]:
+    """Return the substitutions for the sentence, each compared with its equation."""
+    done: dict[Symbol, Expr] = {}
+    found = {}
+    for n, each in enumerate(made, 1):
+        row = residuals[each.equation]
+        for unknown, value in done.items():
+            row = row.xreplace({unknown: value})
+        shown = Relation(named[each.unknown], "=", each.value.xreplace(named))
+        found[f"gives_{n}"] = (shown, Relation(row.xreplace(named), "=", Integer(0)))
+        done[each.unknown] = each.value
+    return found
 
 
 def _which(count: int, i: int) -> str:

@@ -119,11 +119,19 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """Return v^2 of the damped point. For a point of a body, the components of the velocity are evaluated."""
-    if not damper.point.held:
+    """Return v^2 of the damped point. The components of the velocity are evaluated for a point of a body, and also if
+    each component is the rate of a coordinate: x_dot^2, not (d/dt (a + x))^2."""
+    velocity = _velocity_of(damper.at, moving)
+    if not damper.point.held and not all(v in {ZERO, *map(rate, moving)} for v in velocity):
         return squares_of_rates(damper.at, moving)
-    squares = [Pow(v, 2) for v in damper.velocity(moving) if v != 0]
+    squares = [Pow(v, 2) for v in (damper.velocity(moving) if damper.point.held else velocity) if v != 0]
     return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO
+
+
+def _velocity_of(place: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
+    """Return the components of a velocity, each with the sign that has no leading minus."""
+    found = [explicit(TimeRate(c, *moving)) for c in place]
+    return [-v if v.could_extract_minus_sign() else v for v in found]
 
 
 def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
@@ -195,9 +203,14 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq; if the force acts on a point of a body, dr_i/dq is evaluated."""
-    pairs = zip(load.force, load.place, load.slopes(q.symbol), strict=True)
-    if load.held:
+    """Return the terms F_i dr_i/dq; dr_i/dq is evaluated if the force acts on a point of a body, or if each is a
+    number."""
+    pairs = list(zip(load.force, load.place, load.slopes(q.symbol), strict=True))
+    if (
+        load.held
+        or any(f != 0 and slope != 0 for f, _, slope in pairs)
+        and all(slope in (0, 1) for f, _, slope in pairs if f != 0)
+    ):
         slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
         return [f if slope == 1 else Factors(f, slope) for f, slope in slopes if slope != 0]
     return [Factors(f, Partial(c, q.symbol)) for f, c, _ in pairs if f != 0]

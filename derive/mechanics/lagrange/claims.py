@@ -188,6 +188,25 @@ def free_bodies(facts: Judged) -> int:
     return sum(not placed.is_held for placed in facts.subject.body.bodies)
 
 
+def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
+    """Whether the sentence names the parts of the energy of a single body only if the system has no other mass. The
+    energy must have a term of the centre of mass, or the body must turn about a point at rest."""
+    system, made = facts.subject.body, facts.words["made"]
+    if made == "any":
+        return True
+    (placed,) = system.bodies
+    centre_at_rest = all(is_zero(c) for c in _rates_of(placed.centre.components, system))
+    if made == "both":
+        return not system.particles and "inertia_0" in facts.inputs and not centre_at_rest
+    held_apart = placed.is_held and "speed_0" not in facts.inputs
+    return not system.particles and (held_apart or centre_at_rest) and (made == "axis") == (placed.across is not None)
+
+
+def _rates_of(place: Any, system: Any) -> list[Expr]:
+    moving = list(system.coordinates)
+    return [by_functions_of_time(explicit(c), moving) for c in place]
+
+
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
     """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u. The
     sentence must mention stretched springs if and only if one of these assumptions is about a spring."""

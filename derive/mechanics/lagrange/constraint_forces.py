@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, sqrt
@@ -40,7 +40,7 @@ from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.gradients import gradient_length
 from derive.mechanics.model.rigid import by_squares
 from derive.solving.divisors import told_of_divisors
-from derive.solving.elimination import Isolated, isolated_in_order
+from derive.solving.elimination import Isolated, Substitution, isolated_in_order, substitutions
 from derive.steps.claims import both, lasts, says_what_it_divides_by, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Manner
@@ -54,6 +54,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
+MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence makes
 
 
 @dataclass(frozen=True)
@@ -111,6 +112,11 @@ class _Problem:
     def residuals(self) -> list[Expr]:
         equations = [explicit(each.value).residual for each in self.used]
         return [*equations, *(each.acceleration(self.moving) for each in self.constraints)]
+
+    @property
+    def residuals_known(self) -> list[Expr]:
+        """The residuals with the values of the coordinates that constraints determine."""
+        return [row.xreplace(self.known) for row in self.residuals]
 
 
 def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordinate] = ()) -> _Problem:
@@ -330,8 +336,37 @@ class _Isolation:
     def pointed(self) -> dict[str, Quantity]:
         """Return the equations, and the earlier unknowns if no formula shows them."""
         hidden = () if self.inputs else self.earlier.values()
-        equations = {f"equation_{i}": each for i, each in enumerate(self.equations, 1)}
+        equations = {f"equation_{i}": each for i, each in enumerate(self._in_use, 1)}
         return {**equations, **{f"earlier_{i}": each for i, each in enumerate(hidden, 1)}}
+
+    @cached_property
+    def _substituted(self) -> tuple[Substitution, ...]:
+        """Return the substitutions that eliminate the other unknowns, if these are few, with one equation for each."""
+        eliminated = self.found.eliminated
+        if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
+            return ()
+        rows = [self.problem.residuals_known[i] for i in self.found.equations]
+        return substitutions(rows, eliminated)
+
+    @property
+    def _in_use(self) -> list[Quantity]:
+        """Return the equations in the order of their use: those of the substitutions, then the last one."""
+        used = [each.equation for each in self._substituted]
+        order = [*used, *(i for i in range(len(self.equations)) if i not in used)]
+        return [self.equations[i] for i in order]
+
+    @property
+    def formulas(self) -> dict[str, tuple[Relation, Relation]]:
+        """Return the substitutions for the sentence, each compared with its equation."""
+        found, rows = {}, self.problem.residuals_known
+        done: dict[Symbol, Expr] = {}
+        for n, each in enumerate(self._substituted, 1):
+            row = rows[self.found.equations[each.equation]]
+            for u, value in done.items():
+                row = row.xreplace({u: value})
+            found[f"gives_{n}"] = (Relation(each.unknown, "=", each.value), Relation(row, "=", ZERO))
+            done[each.unknown] = each.value
+        return found
 
     @property
     def named(self) -> dict[str, Any]:
@@ -354,8 +389,7 @@ class _Isolation:
 
 @lru_cache(maxsize=16)
 def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
-    rows = [row.xreplace(problem.known) for row in problem.residuals]
-    return isolated_in_order(rows, problem.unknowns)
+    return isolated_in_order(problem.residuals_known, problem.unknowns)
 
 
 ACCELERATION = Rule(
@@ -394,7 +428,10 @@ def _acceleration(
         },
         outcome=lambda value: "zero" if value == 0 else isolation.outcome if isolation else together,
         phrase_data=PhraseData(
-            formulas=told_of_divisors([value] if isolation else [found[rate(p, 2)] for p in problem.solved]),
+            formulas={
+                **told_of_divisors([value] if isolation else [found[rate(p, 2)] for p in problem.solved]),
+                **(isolation.formulas if isolation else {}),
+            },
             points_to={"lagrangian": problem.lagrangian, **(isolation.pointed if isolation else {})},
             named=isolation.named if isolation else {},
             outcome_data=isolation.outcome_data if isolation else {},
@@ -453,7 +490,11 @@ def _multiplier(
         ),
         phrase_data=PhraseData(
             words={"sense": sense} if sense else {},
-            formulas={**told_of_divisors([found[each.force]]), **shown},
+            formulas={
+                **told_of_divisors([found[each.force]]),
+                **shown,
+                **(isolation.formulas if isolation else {}),
+            },
             points_to=isolation.pointed if isolation else {},
             named=isolation.named if isolation else {},
             outcome_data={

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -191,7 +191,7 @@ class Turning:
     def energy(self, inertia: Any, omega: Any) -> Expr:
         """Return (1/2) I theta_dot^2 for plane motion, otherwise (1/2) omega . I omega."""
         if self.is_plane:
-            return Factors(HALF, inertia, Pow(omega, 2))
+            return _half_of(inertia, Pow(omega, 2))
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
@@ -204,6 +204,13 @@ class Turning:
             if omega[i] != 0:
                 squares.setdefault(tensor[i, i], []).append(Pow(_factored(omega[i]), 2))
         return Add(*(Mul(HALF, moment, Add(*of)) for moment, of in squares.items() if moment != 0), evaluate=False)
+
+
+def _half_of(factor_: Any, square: Expr) -> Expr:
+    """Return (1/2) I omega^2 or (1/2) m v^2. The numbers are multiplied, (1/4) M R^2 omega^2 and not (1/2) (1/2) M R^2
+    omega^2, unless a factor is a sum."""
+    is_product = not any(explicit(each).is_Add for each in (factor_, square))
+    return Mul(HALF, explicit(factor_), explicit(square)) if is_product else Factors(HALF, factor_, square)
 
 
 def weights_of(system: System) -> set[Symbol]:
@@ -249,6 +256,7 @@ KINETIC_ENERGY = Rule(
     "lagrange.kinetic_energy",
     source="Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
     evidence={"mass_points": ROUTE},
+    statements=[claims.parts_of_the_kinetic_energy],
 )
 
 
@@ -276,7 +284,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
     def law(*given: Expr) -> Expr:
         squares, rest = given[: len(speeds)], given[len(speeds) :]
-        terms = [Factors(HALF, mover.mass, square) for mover, square in zip(moved, squares, strict=True)]
+        terms = [_half_of(mover.mass, square) for mover, square in zip(moved, squares, strict=True)]
         pairs = zip(turnings, rest[::2], rest[1::2], strict=True)
         terms += [turning.energy(inertia, omega) for turning, inertia, omega in pairs]
         return Terms(*terms) if len(terms) > 1 else terms[0]
@@ -300,10 +308,33 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
         kind="energy",
         parents=[*system.put_in, *_behind(system)],
         routes={"mass_points": compared_with(system.matter.kinetic_energy)},
-        lines=Lines(put_in=_level_of_values(turnings), arranged=arranged),
+        lines=_lines_of_kinetic_energy(law, inputs, turnings, arranged),
+        phrase_data=PhraseData(words={"made": _made_of(system, moved, turnings)}),
         facts=[replace(system.matter, loads=(), others=(), fields=()), *eliminated, system.described],
         scope=Scope(about=Subject(body=system), differ=EVERYTHING, coordinates=system.coordinates),
     )
+
+
+def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
+    """Return the word for the parts of the kinetic energy of a single body: "both" for the energy of the centre of mass
+    and that of the rotation about it, "axis" or "point" for the rotation about a fixed axis or point alone."""
+    if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
+        return "any"
+    if moved:
+        return "both"
+    return "axis" if turnings[0].is_plane else "point"
+
+
+def _lines_of_kinetic_energy(
+    law: Callable[..., Expr], inputs: Mapping[str, Any], turnings: list[Turning], arranged: Callable[[Expr], Expr]
+) -> Lines:
+    """Return the lines of a kinetic energy. If the sum with substituted values is already the result, this is one
+    line."""
+    level = _level_of_values(turnings)
+    values = explicit(law(*(value_behind(each) for each in inputs.values()))) if level else ZERO
+    if level is Level.STANDARD and (result := arranged(values)) == values:
+        return Lines(put_in=None, between=[Form(result, "put_in", Level.BRIEF)], arranged=arranged)
+    return Lines(put_in=level, arranged=arranged)
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
@@ -389,6 +420,11 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         terms = [*(Factors(*each) if as_factors else Mul(*each) for each in weights), *stored]
         return Terms(*terms) if len(terms) > 1 else Add(*terms)
 
+    def arranged(value: Expr) -> Expr:
+        return explicit(value) if named else _terms_together(value, moving)
+
+    stretches = {} if lengths else _stretches([each for each in system.between if each.is_spring], moving)
+    is_result = not named and explicit(law()) == arranged(explicit(law()))
     return establish(
         POTENTIAL_ENERGY,
         scalar(symbol or free_letter("U")),
@@ -399,18 +435,37 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
         routes={"work": work},
         outcome=lambda value: "zero" if value == 0 else "generic",
         lines=Lines(
+            law=Level.FULL if is_result else Level.BRIEF,
             put_in=Level.BRIEF if named else None,
             result=not named,
-            arranged=explicit if named else lambda value: _terms_together(value, moving),
+            arranged=arranged,
         ),
         facts=[replace(matter, points=(), fields=()), *acting_on(system), system.described],
         parents=lengths,
         phrase_data=PhraseData(
             words={"seen": "stretched" if kept else "any"},
+            formulas=stretches,
             outcome_data={"branches": tuple(each.branch for each in system.between if each.branch is not None)},
         ),
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
+
+
+FEW_SPRINGS, SHORT = 4, 6  # how many extensions a sentence names, and the greatest length of such an extension
+
+
+def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
+    """Return the extension of each spring for the sentence, length minus natural length, and the same from the force of
+    the spring. Return nothing if there are many springs, if an extension is long, or if a natural length is zero."""
+    found: dict[str, tuple[Expr, Expr]] = {}
+    for i, each in enumerate(springs, 1):
+        constant = derivative(each.pull, each.distance)
+        natural = tidied(each.distance - each.pull / constant)
+        extension = tidied(each.length - natural)
+        if natural == 0 or extension.has(Pow) or length(extension) > SHORT or not extension.has(*moving):
+            return {}
+        found[f"stretch_{i}"] = (extension, each.pull.xreplace({each.distance: each.length}) / constant)
+    return found if len(found) <= FEW_SPRINGS else {}
 
 
 MAGNETIC_TERM = Rule(

@@ -21,7 +21,7 @@ __all__ = ["agreement_of_laws"]
 AGREEMENT_OF_LAWS = Rule(
     "newton.agreement_of_laws",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4",
-    outcomes={"again": claims.same_equation},
+    outcomes={"again": claims.same_as_one, "combined": claims.same_as_several},
     evidence={"virtual_work": ROUTE},
 )
 
@@ -34,7 +34,8 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
     lagrange  Lagrange's equations, one for each coordinate
     Second route: the sum of Lagrange's equations, which come from T and U, equals the law, which comes from forces. If
     the sum has only one term, the result is this Lagrange equation; otherwise the result is the law.
-    Outcomes: again (the result and the law are the same equation, up to a factor).
+    Outcomes: again (one of Lagrange's equations and the law are the same equation, up to a factor), combined (a sum of
+    several of Lagrange's equations is the law).
     Errors: the equation of a coordinate is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
@@ -60,7 +61,7 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
         {"newton": newton, **used},
         lines=Lines(put_in=None, arranged=explicit, result=False),
         routes={"virtual_work": by_virtual_work},
-        outcome="again",
+        outcome="again" if len(used) == 1 else "combined",
         key=key or f"agreement_{q.symbol.name}",
         phrase_data=PhraseData(outcome_data={"count": len(changes)}),
         facts=[OfCoordinate(q)],

@@ -190,6 +190,14 @@ def rate_of_the_energy(facts: Judged, outcome: str) -> bool:
     return is_zero(told - rate(facts.inputs["coordinate"]) * left)
 
 
+def same_as_one(facts: Judged) -> bool:
+    return "lagrange_2" not in facts.quantities and same_equation(facts)
+
+
+def same_as_several(facts: Judged) -> bool:
+    return "lagrange_2" in facts.quantities and same_equation(facts)
+
+
 def same_equation(facts: Judged) -> bool:
     """Whether the law of the one body and the result are the same equation, up to a factor without rates.
 

@@ -18,6 +18,7 @@ from sympy import (
     Rational,
     Symbol,
     cos,
+    diff,
     expand,
     expand_trig,
     fraction,
@@ -506,7 +507,23 @@ def slides_freely(facts: Judged) -> bool:
     return is_fraction_of_the_familiar(facts) and familiar == g * sin(alpha)
 
 
+def _pulling_springs(facts: Judged) -> int:
+    """Return how many springs of the system would pull with another force if this constant were different."""
+    behind = facts.quantities["of"].ancestors()
+    systems = {q.subject.body for q in behind if q.step.rule == "lagrange.potential_energy"}
+    letter = facts.inputs["letter"]
+    return max((sum(diff(s.pull, letter) != 0 for s in each.between if s.is_spring) for each in systems), default=0)
+
+
+def keep_the_springs(facts: Judged) -> bool:
+    return _pulling_springs(facts) > 1 and _energy_is_kept(facts)
+
+
 def keeps_the_spring(facts: Judged) -> bool:
+    return _pulling_springs(facts) < 2 and _energy_is_kept(facts)
+
+
+def _energy_is_kept(facts: Judged) -> bool:
     """Whether the energy of the springs with this constant does not change to second order along the mode.
 
     The stiffness matrix of these springs is the difference between the stiffness matrices for two values of the

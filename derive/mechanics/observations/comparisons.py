@@ -161,7 +161,7 @@ def _familiar(view: View, of: Quantity, part: Expr, known: Expr, symbols: Mappin
 UNAFFECTED = Rule(
     "observations.unaffected",
     source="Taylor, *Classical Mechanics*, sections 11.2 and 11.4",
-    outcomes={"spring": claims.keeps_the_spring, "mass": claims.stays_at_rest},
+    outcomes={"spring": claims.keeps_the_spring, "springs": claims.keep_the_springs, "mass": claims.stays_at_rest},
     evidence={"other_value": CHECK},
 )
 
@@ -179,6 +179,7 @@ def unaffected(view: View) -> Observed:
         linear = whole.part([whole.moving.index(s) for s in of.needed(Mode).moving])
         for letter in view.in_order((used & linear.letters) - explicit(of.value).free_symbols):
             outcome, data = _reason(linear, letter, view.letters[letter])
+            outcome = "springs" if outcome == "spring" and springs_with(of, letter) > 1 else outcome
             if outcome:
                 yield _unaffected(of, shape, letter, outcome, data)
 
@@ -186,6 +187,15 @@ def unaffected(view: View) -> Observed:
 def linear_equations(of: Quantity) -> Linear | None:
     """Return the linear equations from which a frequency was derived."""
     return next((fact for q in of.ancestors() if (fact := q.fact(Linear)) is not None), None)
+
+
+def springs_with(of: Quantity, letter: Symbol) -> int:
+    """Return how many springs with this constant contribute to the potential energy from which a result was derived."""
+    energies = [q.subject.body for q in of.ancestors() if q.step.rule == "lagrange.potential_energy"]
+    return max(
+        (sum(explicit(each.energy).has(letter) for each in body.between if each.is_spring) for body in energies),
+        default=0,
+    )
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:

@@ -79,6 +79,12 @@ def is_mirrored(facts: Judged) -> bool:
     return bool(entry("xx", "yy", "zz")(facts)) and all(is_zero(each) for each in odd)
 
 
+def is_across_flat(facts: Judged) -> bool:
+    """Whether the result is the moment about the z axis of a body with no extension along z from the point."""
+    body, point = facts.subject.body, facts.subject.point
+    return bool(entry("zz")(facts)) and is_zero(body.over_mass(lambda r: r[2] ** 2, point))
+
+
 def _different(values: Iterable[Expr]) -> int:
     found: list[Expr] = []
     for value in values:

@@ -50,6 +50,7 @@ Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
 MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # the entries that remain if the planes normal to the axes are mirror planes
+ACROSS_PLANE: Pair = (2, 2)  # the moment about the normal of a body in the plane of x and y
 ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # the distinct entries that remain by symmetry about the z axis
 
 
@@ -96,7 +97,12 @@ def inertia_tensor(
     region = body.within(point, coordinates)
     by_definition = _definition(body, point, region, name, key)
     pairs = pairs_left_by_symmetry(body, point)
-    entries = {pair: _entry_by_integration(body, point, region, name, key, pair, by_definition) for pair in pairs}
+    entries: dict[Pair, Quantity] = {}
+    for pair in pairs:
+        if pair == ACROSS_PLANE and (1, 1) in entries and _lies_in_plane(body, point):
+            entries[pair] = _entry_of_flat(body, point, name, key, entries)
+        else:
+            entries[pair] = _entry_by_integration(body, point, region, name, key, pair, by_definition)
     n, place = column(*component_names("n")), point.seen(body.middle.position)
     (balanced,) = body.another_way(lambda r: r, point, of=lambda _: body.mass * place).values()
     return establish(
@@ -305,6 +311,7 @@ ENTRY = Rule(
         "mirrored": claims.is_mirrored,
         "across": claims.entry("xx", round_body=True),
         "along": claims.entry("zz", round_body=True),
+        "flat": claims.is_across_flat,
     },
     evidence={"particles": ROUTE, "quadrature": CHECK},
     shown=Shown(result_again=Level.BRIEF),
@@ -332,6 +339,29 @@ def _entry_by_integration(
         key=f"{key}_{named}",
         phrase_data=PhraseData(formulas=_told_square(region, pair, weight), words={"about": point.name}),
         scope=Scope(about=Subject(body=body, point=point, axis=named)),
+    )
+
+
+def _lies_in_plane(body: Body, point: Point) -> bool:
+    """Whether a body lies in the plane through a point normal to the z axis."""
+    return getattr(body, "flat_across", None) == "z" and is_zero(point.seen(body.middle.position)[2])
+
+
+def _entry_of_flat(body: Body, point: Point, name: str, key: str, entries: Mapping[Pair, Quantity]) -> Quantity:
+    """Derive the moment of a flat body about the normal of its plane, J_zz = J_xx + J_yy."""
+    named = "zz"
+    return establish(
+        ENTRY,
+        entry_name(name, *ACROSS_PLANE),
+        lambda x, y: Terms(x, y),
+        {"first": entries[0, 0], "second": entries[1, 1]},
+        routes=body.another_way(lambda r: _entry_by_moments(r, ACROSS_PLANE), point),
+        outcome="flat",
+        kind="moment of inertia",
+        lines=Lines(put_in=None),
+        key=f"{key}_{named}",
+        phrase_data=PhraseData(words={"about": point.name}),
+        scope=Scope(about=Subject(body=body, point=point, axis=named), differ={"axis"}),
     )
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Expr, I, ImmutableDenseMatrix, Integer, MatrixSymbol, Symbol, cos, exp, pi, sin
+from sympy import Add, Expr, I, ImmutableDenseMatrix, Integer, MatrixSymbol, Symbol, cos, diff, exp, pi, sin
 from sympy.matrices import MatrixBase
 
 from derive.algebra.amplitudes import Amplitudes, Determinant, expanded_by_rows
@@ -176,7 +176,10 @@ def _characteristic(equations: Equations[Conservative]) -> Quantity:
         {"omega": letter},
         lines=Lines(put_in=None, arranged=lambda _: Relation(factored, "=", 0)),
         routes={"trial": by_trial},
-        phrase_data=PhraseData(points_to=equations.named),
+        phrase_data=PhraseData(
+            points_to=equations.named,
+            formulas={"factor": (-(letter**2), diff(cos(letter * T), T, 2) / cos(letter * T))},
+        ),
         key=f"{equations.start}characteristic_equation{equations.number}",
         parents=equations.linear,
         scope=Scope(coordinates={letter: "angular speed"}),
