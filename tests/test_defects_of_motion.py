@@ -342,7 +342,7 @@ def test_a_length_that_the_constraint_changes_does_not_stay(tmp_path: Path) -> N
     )
     (found,) = complaints(tmp_path, text)
     assert (found.code, found.place.line) == ("contradicts-motion", 10)
-    assert "the rates that are substituted contradict the constraint" in found.message
+    assert "the rates that are substituted contradict the constraints" in found.message
 
 
 def test_a_letter_of_gravity_that_nothing_uses_is_warned_of(tmp_path: Path) -> None:

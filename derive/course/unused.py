@@ -86,7 +86,8 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
 
 
 def _texts(written: ProblemKeys) -> Iterator[Prose]:
-    """Yield the prose in whose formulas a letter counts as used: the statement, the questions, and the solution."""
+    """Yield the prose in whose formulas a letter counts as used: the questions, the statement, the strategy, the note,
+    and the sentences under `wording`."""
     yield from (part.ask for part in written.parts)
     yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
     yield from (prose for outcomes in written.wording.values() for prose in outcomes.values())

@@ -1,9 +1,10 @@
 """The position, caption and alternative text of each drawing on a page.
 
 The alternative text is derived from the expressions of the marks, so the text changes with the inputs. A drawing
-appears in the statement if it shows only inputs. If the drawing leads to steps, it appears in the part that derives the
-first of these steps. Otherwise it appears in the first part after which all its steps are derived. A problem may move a
-drawing to a later part, but never to an earlier one.
+appears in the statement if it shows only inputs. Some drawings, such as a force diagram, are placed before the steps
+that they explain; such a drawing appears in the part that derives the first of these steps. Any other drawing appears
+in the first part after which all its steps are derived. A problem may move a drawing to a later part, but never to an
+earlier one.
 """
 
 from __future__ import annotations

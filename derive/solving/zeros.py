@@ -104,7 +104,8 @@ def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
 
 
 def _turned(factor: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of a factor by `zeros_of`; if its period is a full turn, also the zeros one turn before and after."""
+    """The zeros of a factor by `zeros_of`; if the factor has a sine or cosine and repeats after a full turn, also the
+    zeros one turn before and after."""
     turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
     return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 

@@ -131,7 +131,8 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 
 
 def _is_positive_by_means(total: Expr) -> bool:
-    """Whether each negative term is at most twice the geometric mean of two positive terms: a^2 - 2 a b + b^2 + c.
+    """Whether a sum is positive because each negative term is, in absolute value, at most twice the geometric mean of
+    two positive terms, as in a^2 - 2 a b + b^2 + c.
 
     Each positive term is used at most once, and at least one must be left over.
     """

@@ -82,7 +82,7 @@ def _fits_together(claim: Claim) -> Verdict | None:
         except Contradiction as contradiction:
             if contradiction.of_rates:
                 kept = ", ".join(f"{each.residual} = 0" for each in claim.blueprint.of.conditions)
-                return claim.refuted(f"the rates that are substituted contradict the constraint {kept}", trial)
+                return claim.refuted(f"the rates that are substituted contradict the constraints {kept}", trial)
         except NotComputable:
             return None
     return None

@@ -245,9 +245,9 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the component of the result along the axis is negative, for the word "left".
+    """Judge whether the component of the result along the axis is known to be negative, for the word "left".
 
-    For any other word, judge whether this component is not negative.
+    For any other word, judge whether this component is not known to be negative.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -296,7 +296,8 @@ def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
 
 
 def euler(torque: bool, coupled: str) -> Predicate:
-    """Judge whether a torque acts, and where products of components of omega remain.
+    """Judge whether a torque acts if and only if `torque` is true, and whether products of components of omega remain
+    where `coupled` says.
 
     coupled   "here": in this equation; "elsewhere": in another equation, but not in this one; "nowhere": in no
               equation; empty: the products are not examined

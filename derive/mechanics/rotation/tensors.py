@@ -55,7 +55,8 @@ MOMENT = "moment of inertia"
 
 
 def seen_particles(body: Any, point: Point) -> list[tuple[Expr, ImmutableMatrix]]:
-    """Return the equimomental particles of a body, with positions relative to a point and along the axes there."""
+    """Return the equimomental particles of a body: the mass of each, and its position relative to a point, in
+    components along the axes of this point."""
     return [(mass, ImmutableDenseMatrix(point.axes.T * (place - point.position))) for mass, place in body.particles()]
 
 

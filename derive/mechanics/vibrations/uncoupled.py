@@ -54,8 +54,8 @@ class UncoupledModes:
     before: int
 
     def found(self) -> list[Quantity]:
-        """Return one frequency for each coordinate; if all coordinates of the system have one frequency, return it
-        once."""
+        """Return a frequency for each of these coordinates; if these are all coordinates of the system, and their
+        frequencies are equal, return it only once."""
         whole = self.linear[0].needed(Linear)
         roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in self.alone}
         order = sorted(self.alone, key=lambda i: in_order(roots[i]))
