@@ -1,7 +1,7 @@
 """Encode an expression as nested lists, and decode the lists into the same expression: `["Mul", ["Rational", 13, 12],
 ["Symbol", ...]]`.
 
-Decoding builds objects of the classes that this module lists, and of nodes; nothing is evaluated from text.
+Decoding builds only nodes and objects of the classes that this module lists; nothing is evaluated from text.
 """
 
 from __future__ import annotations

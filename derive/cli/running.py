@@ -102,8 +102,8 @@ ending = Ending()
 
 
 class _Interrupted(KeyboardInterrupt):
-    """The exception for Ctrl-C. If a KeyboardInterrupt passes through `exec`, Python kills the process when it exits,
-    even if the exception was caught. Python does not do so for a subclass of KeyboardInterrupt."""
+    """The exception for Ctrl-C. If a KeyboardInterrupt passes through `exec` of a string, Python kills the process when
+    it exits, even if the exception was caught. Python does not do so for a subclass of KeyboardInterrupt."""
 
 
 def _signaled(number: int, _: FrameType | None) -> NoReturn:

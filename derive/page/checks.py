@@ -164,5 +164,5 @@ def _by_grade(counts: Mapping[Grade, int], words: Mapping[str, str]) -> str:
 
 
 def _columns_of_steps(words: Phrases) -> dict[str, str]:
-    """Return the heading above the number of steps of each grade; for definitions the heading is `named`."""
+    """Return, for each grade, the word after the number of its steps, as in "12 proved"."""
     return {**words.grades, Grade.DEFINITION: words.labels["named"]}

@@ -36,7 +36,7 @@ from derive.steps.step import Quantity
 
 DISTANCES = ((Rational(1, 10**8), Rational(1, 10**9)), (Rational(1, 40), Rational(1, 80)))
 POINTS = 4
-SLOWEST = Rational(1, 6)  # the quotient in `rest_vanishes` must shrink at least as this power of the distance
+SLOWEST = Rational(1, 6)  # the quotient in `rest_vanishes` must shrink at least as fast as this power of the distance
 
 
 def entries_of(value: Any) -> list[Expr]:

@@ -255,7 +255,9 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # flight, because the given start may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of trial numbers; they satisfy the conditions of the flight, so the force vanishes
-FLOWN = 1e-4  # accuracy to which a simulated flight, which begins at a simulated event, and a formula agree
+# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value. The
+# beginning of the flight is simulated too.
+FLOWN = 1e-4
 
 
 def flight(claim: Claim) -> Verdict | None:

@@ -377,7 +377,7 @@ def refused(case: str) -> Any:
 @pytest.mark.parametrize(
     ("case", "said"),
     [
-        ("no rest", "is not in equilibrium at theta = 0, phi = pi/2: g\\*l\\*m remains instead of 0"),
+        ("no rest", "does not hold at rest at theta = 0, phi = pi/2: one side minus the other is g\\*l\\*m, not 0"),
         ("missing", "the value of phi at equilibrium is unknown"),
         ("stranger", "have no coordinate psi"),
         ("one of two", "needs all the equations"),

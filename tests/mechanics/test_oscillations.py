@@ -87,7 +87,7 @@ def test_what_is_no_equilibrium_is_refused(place: Any) -> None:
         linearised(motion(*PENDULUM), at=place)
     (complaint,) = refusal.value.complaints
     assert complaint.code == "no-equilibrium"
-    assert complaint.message.startswith(f"`equation_of_motion` is not in equilibrium at theta = {place}: ")
+    assert complaint.message.startswith(f"`equation_of_motion` does not hold at rest at theta = {place}: ")
 
 
 def test_an_equation_with_another_coordinate_is_refused() -> None:

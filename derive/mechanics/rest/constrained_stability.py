@@ -223,6 +223,6 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
         message = f"`stability`: the constraints allow {len(allowed.ways)} directions, which are too many to list"
         raise Rejected(Complaint("too-large", message))
     if allowed.multipliers is None:
-        message = f"`stability`: at {where} a force remains along the constraints"
+        message = f"`stability`: at {where} the forces do not balance along the allowed displacements"
         raise Rejected(Complaint("no-equilibrium", message, help="give values at which the forces balance"))
     return allowed

@@ -336,7 +336,7 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
             message = f"`{equation.key}` has no value at {where}, where a distance or a denominator is zero"
             raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
         if not is_zero(left):
-            message = f"`{equation.key}` is not in equilibrium at {where}: {left} remains instead of 0"
+            message = f"`{equation.key}` does not hold at rest at {where}: one side minus the other is {left}, not 0"
             raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
 
 

@@ -79,8 +79,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
     (growing), any_of_several (repeated).
     With drag: several, one (for a characteristic equation of several coordinates, or of one).
-    Errors: the roots have no closed form, and some symbols have no numbers; with drag the modes do not separate; there
-    are too many symbols.
+    Errors: the roots have no closed form, and numbers do not help; with drag the modes do not separate; there are too
+    many coordinates or too many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
     together = together_for("normal_modes", linear)

@@ -334,8 +334,9 @@ def _scaled_ticks(
 def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[float, float]) -> Ticks:
     """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
 
-    They have at most `most` intervals between the ends of the range. If there is room below and above, the numbers
-    continue beyond both ends of the range, so that each end lies between two numbers.
+    The numbers divide the range into at most `most` intervals, except for a range of more than `most` full turns. If
+    there is room below and above, the numbers continue beyond both ends of the range, so that each end lies between two
+    numbers.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))

@@ -1,7 +1,7 @@
 """Breaks a sum that is too long for a line. A line ends before a plus or minus sign, but never within a root or matrix.
 
-A bracket that is itself too long opens on one line and closes on another. In a fraction with a long numerator, the
-denominator becomes a factor in front, and the numerator is broken like such a bracket.
+A bracket that is itself too long opens on one line and closes on another. If the numerator of a fraction is long,
+1/denominator becomes a factor in front, and the numerator is broken like such a bracket.
 """
 
 from __future__ import annotations

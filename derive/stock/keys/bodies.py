@@ -121,7 +121,7 @@ class QuotedKeys(ShapeKeys):
     def check_integrated(self, faults: Faults) -> None:
         """Reject `derive` for a body whose moment of inertia is never quoted."""
         if self.is_integrated and (self.shape is None or _shape_name(self.shape) not in QUOTED_SHAPES):
-            message = "`derive` has no effect: the moment of inertia of this body is always integrated"
+            message = "`derive` has no effect: a moment of inertia of this body is never quoted"
             faults.error("unused-key", message, self.places["derive"], help="leave it out")
 
 

@@ -154,7 +154,7 @@ def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], lett
             help_line = did_you_mean(letter, letters.letters) or "use a symbol, a coordinate or a rate"
             rejected("undeclared-symbol", f"`{letter}` is not declared", letter.place, help_line)
         known = letters.letters[letter].symbol
-        if isinstance(known, Prescribed) and not known.order:  # the value holds at all times, even if it is a constant
+        if isinstance(known, Prescribed) and not known.order:  # the value replaces the function at all times
             return letter, letters.of_kind(value, str(letter), known.sort)
         return letter, value_or_infinity(value, letters)
 
