@@ -118,8 +118,8 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of at most `MOST` coupled equations that determine as many new unknowns; empty if there
-    is none.
+    """Return the smallest set of at most `MOST` coupled equations that determine as many new unknowns; an empty set
+    if no such set exists.
 
     The sets are tried in order: equations with the most preferred unknown come first, and among these the shortest.
     """

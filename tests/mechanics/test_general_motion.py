@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -221,8 +222,11 @@ def page(folder: Path, text: str, detail: str | None = None) -> str:
 
 def test_the_page_shows_the_trial_the_roots_the_general_motion_and_the_constants(tmp_path: Path) -> None:
     shown = page(tmp_path, DAMPED)
-    assert "Substituting x = e^st into (6) gives the characteristic equation s² + 2β s + ω_0² = 0" in shown
-    assert "so the roots of (7) are complex, s = -β ± i ω_1" in shown
+    trial = re.search(
+        r"Substituting x = e\^st into (\S+) gives the characteristic equation s² \+ 2β s \+ ω_0² = 0", shown
+    )
+    assert trial is not None
+    assert re.search(r"so the roots of \(\d+\) are complex, s = -β ± i ω_1", shown)
     assert "The general solution is x = e^(-βt) (A cos(ω_1 t) + B sin(ω_1 t))" in shown
     assert "require A = x_0 and B = x_0 β/ω_1, so" in shown
     assert shown.count("The general solution is") == 1

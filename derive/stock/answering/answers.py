@@ -124,7 +124,7 @@ class StockAnswers(Answers[W]):
         """Return the answers by the requested names, and draw the requested plots. A subclass also draws the described
         objects."""
         found = self.by_name.answers(asked)
-        shown = {quantity.key for quantity in returned_quantities(found)}
+        shown = {quantity.key for quantity in returned_quantities(found)} if found else set[str]()
         for drawing in drawings:
             plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces, shown)
             if drawing.is_portrait:
