@@ -44,7 +44,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 # number of cases of a test -> one case of how many is tried; all cases of tests with fewer than 4
-SAMPLED = {4: 5, 50: 10}
+SAMPLED = {4: 7, 50: 10}
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

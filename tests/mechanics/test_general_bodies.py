@@ -40,6 +40,7 @@ def test_a_ball_by_its_map_is_the_ball() -> None:
     assert tensor.step.grade is Grade.SAMPLED  # its second route is a sum in numbers
 
 
+@pytest.mark.long
 def test_a_cone_by_cartesian_or_cylindrical_limits_is_the_cone() -> None:
     """Goldstein, section 5.3: 3/20 M (R^2 + 4 h^2) and 3/10 M R^2 about the apex."""
     cone = Solid((r * cos(phi), r * sin(phi), z), {z: (0, h), r: (0, R * z / h), phi: (0, 2 * pi)}, mass=M)

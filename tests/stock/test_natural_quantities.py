@@ -13,7 +13,7 @@ from derive.building.solution import rendered
 from derive.errors import DeriveError
 from derive.steps import natural
 from tests.courses import ROOT
-from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, solved
+from tests.stock.described import CART_WITH_DRAG, PENDULUM, complaints, course_with, edited, solved
 
 DAMPED = f"""{CART_WITH_DRAG}statement: A cart.
 parts:
@@ -130,7 +130,8 @@ def test_a_mistake_is_reported(tmp_path: Path, formulas: str, code: str, said: s
 
 
 def test_a_quantity_that_shortens_nothing_is_a_warning(tmp_path: Path) -> None:
-    found = rendered(course_with(tmp_path, defined("{eta: x_0/a}")), "trial/one", only={"text"})
+    text = edited(PENDULUM, ("\ngiven:", "\ndefine: {eta: k/m}\ngiven:"))
+    found = rendered(course_with(tmp_path, text), "trial/one", only={"text"})
     (warning,) = (each for each in found.warnings if each.code == "unused-definition")
     assert warning.place is not None and "`eta`" in warning.message and warning.place.text.startswith("define:")
 

@@ -175,7 +175,7 @@ def altered(text: str) -> Iterator[str]:
         yield f"{text[: number.start()]}{int(number[0]) + 1}{text[number.end() :]}"
 
 
-@pytest.mark.parametrize("name", ["euler", "slab"])
+@pytest.mark.parametrize("name", ["euler", pytest.param("slab", marks=pytest.mark.long)])
 def test_one_altered_number_in_any_line_is_found(name: str) -> None:
     page, tried = json.loads(json_of(name)), 0
     for step in page["steps"]:
