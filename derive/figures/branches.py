@@ -21,18 +21,21 @@ from derive.algebra.relation import Relation
 from derive.errors import Complaint, Rejected, Unverified
 from derive.figures.marks import Branch, Diagram
 
-STEPS = 160  # of a branch between two changes
-GRID = 2000  # of the parameter, and of the coordinate in the second route
+STEPS = 160  # number of steps of a branch between two changes
+GRID = 2000  # number of steps of the parameter, and of the coordinate in the second route
 HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
 REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
 NEAR, DIGITS = 5, 40  # the rise of the energy is found at 10^-5 of the vertical axis, with 40 digits
 SHRUNK = 1e-6  # at a zero, the slope is below this fraction of its values beside it; at a pole, it is not
-WIDENED = 0.0731, 0.0917  # parts of the vertical axis, beyond its ends, in which the second route counts zeros
-EDGE = 1e-5  # part of the vertical axis at the end of the range of a coordinate in which no zero is counted
+WIDENED = (
+    0.0731,
+    0.0917,
+)  # the second route also counts zeros beyond the ends of the vertical axis, by these parts of it
+EDGE = 1e-5  # no zero is counted so close to the end of the range of a coordinate, in parts of the vertical axis
 FULL_TURN = 2 * exact_pi
-OFFSET = 0.01234  # of a full turn, so that the slope does not vanish at its ends
+OFFSET = 0.01234  # the grid of a full turn begins here, because the slope may vanish at a multiple of pi
 
 Spots: TypeAlias = tuple[tuple[float, float], ...]
 State: TypeAlias = bool | None  # whether an equilibrium is stable; None if it does not exist
@@ -187,7 +190,7 @@ def _lines(i: int, place: Function, spans: Sequence[tuple[float, float, tuple[St
 
 
 def _extent(diagram: Diagram, lines: Sequence[BranchLine]) -> tuple[float, float]:
-    """Return the smallest and the greatest value on all lines, apart from each other."""
+    """Return the smallest and the greatest value on all lines; two different values, even if all are equal."""
     values = [y for line in lines for _, y in line.points]
     if not values:
         raise Rejected(Complaint("drawing", "no equilibrium exists within the range of the diagram"))
@@ -295,7 +298,9 @@ def _confirm(
                 if _is_minimum(height, x, y, searched[1] - searched[0]) != is_stable:
                     word, has = ("stable", "no minimum") if is_stable else ("unstable", "a minimum")
                     where = f"{q.name} = {y:.4g} for the value {x:.4g} of the parameter"
-                    raise _wrong(f"the diagram is {word} at {where}, but the potential energy has {has} there")
+                    raise _wrong(
+                        f"the equilibrium of the diagram is {word} at {where}, but the potential energy has {has} there"
+                    )
 
 
 def _wrong(message: str) -> Unverified:
