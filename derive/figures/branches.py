@@ -295,9 +295,9 @@ def _confirm(
             for y, is_stable in known:
                 if _is_minimum(height, x, y, searched[1] - searched[0]) != is_stable:
                     word, has = ("stable", "no minimum") if is_stable else ("unstable", "a minimum")
-                    where = f"{q.name} = {y:.4g} for the value {x:.4g} of the parameter"
+                    at = f"{q.name} = {y:.4g} for the value {x:.4g} of the parameter"
                     raise _wrong(
-                        f"the diagram shows a {word} equilibrium at {where}, but the potential energy has {has}"
+                        f"the diagram shows a {word} equilibrium at {at}, but the potential energy has {has} there"
                     )
 
 
