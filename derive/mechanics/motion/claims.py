@@ -86,9 +86,10 @@ def _is_negative(root: Expr) -> bool:
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
-    If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
-    motion turns back first, behind it. If contact or a taut string must last until the motion reaches the place, a
-    sentence with a condition must say so.
+    A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
+    each place must also lie ahead of the start or, if the motion turns back first, behind it. A sentence with a
+    condition must say that contact must last if the system has a surface, or that a string must stay taut if the system
+    has a string.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -152,8 +153,8 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """Whether the place is ahead of the start (1) or behind it (-1): the set of the answers for all trial numbers.
-    Numbers for which the place is the start are left out; if no others remain, the result is {1}."""
+    """Return the sides of the start on which the place lies, for all trial numbers: 1 is ahead, -1 is behind. Numbers
+    are left out if the place is the start, or if the side is unknown; if no numbers remain, the result is {1}."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -270,8 +271,8 @@ def _constraint_of(force: Quantity) -> Constraint | None:
 
 
 def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the friction on the body is opposite to the direction of the slip that the sentence
-    states."""
+    """Whether, numerically, the friction on the body is opposite to the direction of slip, if the sentence states
+    one."""
     if "sense" not in facts.words:
         return True
     constraint = _constraint_of(facts.quantities["friction"])
@@ -284,7 +285,7 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
+    """Whether the word for the body that would slip is its name in the contact, or "body" if it has no name there."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -479,7 +480,8 @@ def sum_left(wanted: str) -> Predicate:
 
 
 def times_its_factor(facts: Judged) -> bool:
-    """Whether the result is the equation of motion times the factor that the sentence names."""
+    """Whether the left side of the result is the left side of the equation of motion times the factor that the sentence
+    names."""
     multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
     return is_zero(explicit(facts.result.left) - multiplied)
 
@@ -666,7 +668,7 @@ def misses(facts: Judged) -> bool:
 
 
 def _later(fact: InFlight) -> tuple[Expr, ...]:
-    """Times after the departure, on the scale of the speed at the departure divided by the acceleration."""
+    """Times after the departure, in units of the speed at the departure divided by the acceleration."""
     speed = sqrt(Add(*(diff(c, TIME).subs(TIME, 0) ** 2 for c in fact.path)))
     pull = sqrt(Add(*(diff(c, TIME, 2) ** 2 for c in fact.path)))
     return tuple(n * speed / pull for n in LATER)

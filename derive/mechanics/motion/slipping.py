@@ -78,7 +78,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     direction of F, F <= mu_s N and -F <= mu_s N. The sentence states the direction of the slip if it is known: the body
     slips against the friction that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
-    from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
+    from the start to the place, and |F| > mu_s N just beyond the place. Witness: the motion of the described system.
     Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
     needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).

@@ -454,7 +454,8 @@ BALANCED = Rule(
 
 
 def balanced(view: View) -> Observed:
-    """The angles 0 and 90 degrees, if the bearings need no torque there, but need one at each angle between them."""
+    """The angles 0 and 90 degrees, if the bearings need no torque at these angles, but need one at each angle in
+    between."""
     for of in view.answers:
         entries = [each for each in explicit(of.value) if each != 0] if isinstance(of.value, MatrixBase) else []
         if of.step.kind == "torque" and len(entries) == 1:

@@ -466,7 +466,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by differentiation whether the first nonzero derivative yields this shape. The step uses a series."""
+    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape; the step
+    uses a series. If `at_bound` is true, a case must be named, and the second derivative must vanish."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

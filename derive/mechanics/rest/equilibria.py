@@ -394,7 +394,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor of the force without q is zero.
+    """Return the condition that none of the factors of the force that do not contain q is zero.
 
     If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q may be
     zero.
