@@ -17,7 +17,7 @@ class References:
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
     away     the equations of the parts that the page leaves out, by the keys of their steps; they have no numbers
-    faults   the object that collects the errors
+    faults   the list to which errors are added
     """
 
     def __init__(

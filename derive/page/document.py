@@ -436,7 +436,8 @@ class _Writer:
 
     def _share_a_row(self, step: Step, own: Equations, above: Equations) -> bool:
         """Return whether a step and the step before may share a row and its number. Both steps need a symbol, and none
-        of their lines may have a reason next to it. If they are answers, both must be vectors, which share a frame."""
+        of their lines may have a reason next to it. If one of them is an answer, both must be answers and vectors,
+        which share a frame."""
         steps = (self.before, step)
         if self.level is Level.FULL or any(each is None or each.symbol is None for each in steps):
             return False
@@ -533,8 +534,8 @@ def _illustrated(
     ends: Mapping[str, int],
     steps: int,
 ) -> tuple[Block, ...]:
-    """Insert each drawing after the last step that it shows, or before the first step to which it leads; a drawing that
-    shows no steps begins the part. Numerical values of the answers follow the drawing."""
+    """Insert each drawing before the first of its steps in `leads_to`, or after the last of its steps in `rests_on`; a
+    drawing without steps begins the part. Numerical values of the answers follow the drawing."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [
         min((begins[k] for k in d.leads_to if k in begins), default=0)

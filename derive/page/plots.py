@@ -179,8 +179,9 @@ def _own(
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
     """Return whether the curves are in one panel. The problem may state this.
 
-    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if they have the
-    same range and no curve is much smaller than all curves together. A phase portrait always has its own panel.
+    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if no curve is
+    much smaller than all curves together and, except for paths, the curves have the same range. More than
+    `MOST_TOGETHER` curves never share a panel; a phase portrait or a bifurcation diagram always has its own panel.
     """
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
