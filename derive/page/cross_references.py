@@ -45,7 +45,8 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """Record the mentions that print an equation number: a relation is named by number, as it has no symbol."""
+        """Record the mentions that print an equation number: a relation is named by number, because it has no
+        symbol."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 

@@ -1,4 +1,5 @@
-"""Static friction reaches its largest value: |F| = mu_s N, for constant forces or along a motion of one coordinate."""
+"""When static friction reaches its largest value, |F| = mu_s N, for constant forces or along a motion of one
+coordinate."""
 
 from __future__ import annotations
 

@@ -330,7 +330,7 @@ def names_a_letter(facts: Judged) -> bool:
 
 
 def _may_vary(letter: Symbol, point: Point) -> Point:
-    """Return a point at which only this symbol is different."""
+    """Return the point with another number for this symbol only."""
     return {**point, letter: point[letter] * Rational(8, 7)}
 
 
@@ -550,7 +550,8 @@ def _energy_is_kept(facts: Judged) -> bool:
 
 
 def stays_at_rest(facts: Judged) -> bool:
-    """Whether the mode does not move the coordinate whose equation contains this mass."""
+    """Whether this mass is in only one entry of the mass matrix, on the diagonal, and the mode does not move the
+    coordinate of this entry."""
     letter, shape = facts.inputs["letter"], explicit(facts.quantities["shape"].value)
     mass, at = facts.inputs["mass"], int(facts.inputs["at"])
 
@@ -593,7 +594,7 @@ def _is_constant(value: Expr, of: Quantity) -> bool:
 
 
 def _others_are_fixed(of: Quantity, *rates: Symbol) -> bool:
-    """Whether the derived constraints give z_ddot = 0 for each distance z whose rate is not one of these."""
+    """Whether the derived constraints give z_ddot = 0 for each distance z whose rate is not among `rates`."""
     others = [q for q, kind in of.coordinates.items() if kind == "length" and rate(q) not in rates]
     constraints = [each for each in of.ancestors() if each.step.rule == "lagrange.constraint_rate"] if others else []
     fixed = {s for each in constraints if len(found := explicit(each.value).residual.free_symbols) == 1 for s in found}

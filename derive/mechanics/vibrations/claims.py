@@ -724,8 +724,8 @@ def _in_equation(equation: Any) -> set[Any]:
 
 
 def _are_one_group(equations: Sequence[Any]) -> bool:
-    """Whether the equations contain as many displacements as there are equations, and no group of the equations
-    contains displacements that the others do not contain."""
+    """Whether the equations contain as many displacements as there are equations, and each equation is coupled to each
+    other one, directly or through other equations."""
     contained = list(map(_in_equation, equations))
     group = contained.pop(0)
     while near := [each for each in contained if each & group]:
