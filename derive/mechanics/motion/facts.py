@@ -37,7 +37,8 @@ class ByEnergy(Fact):
 
     @staticmethod
     def behind(force: Quantity, q: Symbol) -> Quantity | None:
-        """The step q_dot^2 = f(q), by conservation of energy, from which a force was derived; None if there is none."""
+        """The step q_dot^2 = f(q), by conservation of energy, from which a force was derived; None if no such step
+        exists."""
         of_energy = ((each, each.fact(ByEnergy)) for each in force.ancestors())
         return next((each for each, known in of_energy if known is not None and known.coordinate == q), None)
 
