@@ -365,7 +365,7 @@ def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complain
 
 
 def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placement | None) -> bool:
-    """Whether a drawing would show polhodes of a body with two equal moments, which are circles."""
+    """Whether a drawing would show polhodes of a body with two equal moments; such polhodes are circles."""
     if not isinstance(drawing, m.Drawing) or drawing.polhodes is None:
         return False
     ratios, _ = _moments(problem, drawing, placement)

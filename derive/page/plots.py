@@ -36,7 +36,7 @@ DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
 STEPS = 240  # number of steps of a curve
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
-MOST_TOGETHER = 4  # greatest number of curves in one panel that differ in the style of their lines
+MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 

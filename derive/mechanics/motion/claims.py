@@ -465,7 +465,8 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Judge the terms without a highest rate: no such terms exist ("plain"), their sum is zero ("cancel"), or their sum is not zero ("remain")."""
+    """Judge the terms without a highest rate: no such terms exist ("plain"), their sum is zero ("cancel"), or
+    their sum is not zero ("remain")."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))

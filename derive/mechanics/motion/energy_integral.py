@@ -216,7 +216,7 @@ RATE_BY_ENERGY = Rule(
 
 @in_results(
     "square_root",
-    "the rate of a coordinate, or its magnitude if the sign is unknown, from its square",
+    "the rate of a coordinate from the squared rate, or the magnitude of the rate if the sign is unknown",
     squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:

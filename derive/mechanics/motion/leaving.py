@@ -183,7 +183,8 @@ def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: 
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """The step for a motion that turns back before the place where the force would vanish (N > 0), or at it (N >= 0).
+    """The step for a motion that turns back before the place where the force would vanish (N > 0), or at this place (N
+    >= 0).
 
     Outcomes: turns_back, turns_there.
     Source: the same as for `leaves_contact`.

@@ -419,7 +419,7 @@ ONE_SIGN = Rule(
 
 
 def one_sign(view: View) -> Observed:
-    """Normal force whose sign does not depend on the position, although its size does."""
+    """Normal force whose sign is the same at all positions, although its magnitude depends on the position."""
     for of in view.values("force"):
         value = tidied(of.value)
         moving = [q for q in of.coordinates if q in value.free_symbols]
@@ -465,7 +465,8 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both and not between them.
+    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both angles, but not in
+    between.
 
     The entry must be sin(angle) cos(angle) times factors that have one sign for all angles in this range.
     """

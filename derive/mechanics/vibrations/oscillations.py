@@ -118,7 +118,8 @@ def _squared_form(value: Expr) -> Expr:
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
-    """Return the outcome from the sign of omega_0^2 = k/m, under the condition for which the equilibrium exists."""
+    """Return the outcome from the sign of omega_0^2 = k/m for values of the symbols for which the equilibrium
+    exists."""
     value = tidied(value)
     if value == 0:
         return "neutral"
