@@ -34,7 +34,8 @@ class References:
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
-        """Return the reference that a mention prints: to a problem, a figure or an equation."""
+        """Return the reference that a mention prints: to a problem, a figure or an equation; None if the problem or
+        figure is unknown."""
         if mention.of == PROBLEM:
             return self._problem(mention)
         if mention.of == FIGURE:

@@ -345,7 +345,8 @@ class _Writer:
         return (*kept[:-1], Text(kept[-1].text.rstrip())) if kept and isinstance(kept[-1], Text) else tuple(kept)
 
     def _limits(self) -> PartPage | None:
-        """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
+        """Return the limiting cases as the last part, which begins with the steps that only these cases need; None
+        without such cases."""
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
@@ -450,7 +451,7 @@ class _Writer:
 
     def _following(self, key: str) -> Step | None:
         """Return the next step that the part shows, if one sentence may describe both the step `key` and this next
-        step."""
+        step; otherwise None."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None

@@ -165,7 +165,7 @@ def coordinate_of_rate(facts: Judged, q: Any) -> bool:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """Whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
+    """Judge whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
 
     def is_so(facts: Judged) -> bool:
         q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
@@ -187,7 +187,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Whether the force at the start is positive (zero if `later`) numerically, and the stated condition is correct."""
+    """Judge whether the force at the start is numerically positive (zero if `later`), and the stated condition is
+    correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -303,7 +304,7 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Whether, numerically, |F| <= mu_s N if and only if the result holds.
+    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
     for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.
@@ -537,8 +538,8 @@ def is_the_place_of_departure(facts: Judged) -> bool:
 
 
 def speeds_up(wanted: bool) -> Predicate:
-    """Whether a constant force acts along the axis of this component; for `wanted=False`, whether no force acts along
-    this axis."""
+    """Judge whether a constant force acts along the axis of this component; for `wanted=False`, whether no force acts
+    along this axis."""
 
     def is_so(facts: Judged) -> bool:
         bend = diff(facts.result, TIME, 2)
@@ -643,7 +644,7 @@ def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
 
 
 def lands(outcome: str) -> Predicate:
-    """Whether, numerically, the particle reaches the plane or the circle at this time, from the free side."""
+    """Judge whether, numerically, the particle reaches the plane or the circle at this time, from the free side."""
 
     def is_so(facts: Judged) -> bool:
         fact, target, time = facts.inputs["flight"], facts.inputs["target"], explicit(facts.result)

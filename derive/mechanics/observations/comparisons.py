@@ -185,7 +185,8 @@ def unaffected(view: View) -> Observed:
 
 
 def linear_equations(of: Quantity) -> Linear | None:
-    """Return the linear equations from which a frequency was derived."""
+    """Return the linear equations from which a frequency was derived; None if it was not derived from linear
+    equations."""
     return next((fact for q in of.ancestors() if (fact := q.fact(Linear)) is not None), None)
 
 

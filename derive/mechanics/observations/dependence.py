@@ -237,7 +237,7 @@ def _factors(value: Expr) -> list[tuple[Expr, int]]:
 
 
 def _zero_in(view: View, base: Expr) -> Relation | None:
-    """Return the value of a mass, a length or an angle for which a factor vanishes."""
+    """Return the value of a mass, a length or an angle for which a factor vanishes; None if no such value is found."""
     for letter in [s for s in view.in_order(base.free_symbols) if view.letters[s] in ("mass", "length")]:
         found = solved_for_letter(base, letter)
         if found is not None and simple(found, 4) and sign_for_all(found) == 1:
@@ -299,12 +299,13 @@ def _at(rests: Sequence[Quantity], place: Expr) -> Quantity | None:
 
 
 def _shape_at(view: View, place: Expr) -> Quantity | None:
-    """Return the curvature of the potential energy at an equilibrium."""
+    """Return the step of the curvature of the potential energy at an equilibrium; None if the page has no such step."""
     return next((q for q in view.shown if (shape := q.fact(Shape)) and is_zero(shape.place - place)), None)
 
 
 def _border(view: View, of: Quantity, cosine: Expr) -> Relation | None:
-    """Return the value of an angular velocity for which both the curvature and 1 - cos(theta) vanish."""
+    """Return the value of an angular velocity for which both the curvature and 1 - cos(theta) vanish; None if no such
+    value is found."""
     for letter in view.of_kind("angular speed"):
         found = solved_for_letter(cosine - 1, letter)
         if found is not None and is_zero(tidied(explicit(of.value).xreplace({letter: found}))):

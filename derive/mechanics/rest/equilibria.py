@@ -356,7 +356,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 def all_matter(potential: Quantity) -> Matter | None:
     """Return the mass points and forces to which a potential energy belongs, including magnetic forces, which are not
-    in U."""
+    in U. The result is None if the mass points and forces are unknown."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)

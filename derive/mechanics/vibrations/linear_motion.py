@@ -376,7 +376,8 @@ def _under_swing(linear: LinearCoefficients, swing: Expr) -> Expr:
 
 
 def _excluded(linear: LinearCoefficients) -> Relation | None:
-    """Return the condition against resonance: no free motion has the frequency or the rate of the driving force."""
+    """Return the condition against resonance: no free motion has the frequency or the rate of the driving force. The
+    result is None if no condition is needed."""
     found: dict[Relation, None] = {}
     for term in Add.make_args(_driving(linear.driven)):
         for f in term.atoms(sin, cos, exp):
