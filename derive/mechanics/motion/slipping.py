@@ -84,7 +84,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
     Errors: no coefficient of static friction; the surface does not push; no solution in closed form; the place depends
-    on the values of the symbols.
+    on the values of the symbols; the friction has its largest value at the start of the motion.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     contact, unknown = friction_of(friction, normal), unknown_of("slips", letter)

@@ -157,8 +157,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     are also counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
-    Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
-    between the coordinates is maintained by a force.
+    Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
+    equilibrium is in the given range; the energy contains the time; a constraint between the coordinates is maintained
+    by a force; the coordinates are singular at an equilibrium.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     """
     require_kind("equilibria", "of", of, "energy")

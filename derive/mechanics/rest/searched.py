@@ -134,7 +134,7 @@ def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
 
 
 def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
-    """Solve A x = b by elimination, with the largest entry as pivot; None if no pivot differs from zero."""
+    """Solve A x = b by elimination, with the largest entry as pivot; None if A is singular."""
     count = len(right)
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     for k in range(count):
