@@ -103,7 +103,7 @@ def _unknowns(of: Quantity) -> set[Any]:
 
 
 def _scales(view: View) -> set[Symbol]:
-    """Return the symbols that are factors of a Lagrangian of the page: no motion depends on them."""
+    """Return the symbols that are factors of a Lagrangian of the page; no motion depends on these symbols."""
     wholes = [explicit(q.value) for q in view.shown if q.fact(Energies) is not None]
     return {s for s in view.letters for whole in wholes if s in whole.free_symbols and not tidied(whole / s).has(s)}
 

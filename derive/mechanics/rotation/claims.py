@@ -473,7 +473,7 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
     if the shift begins at the centre of mass."""
     if facts.words["start"] != facts.quantities["centre"].needed(CountedFrom).start.name:
         return False
-    if "entry" not in facts.quantities:  # no step derives the entry: a product of inertia that is zero
+    if "entry" not in facts.quantities:  # no step derives the entry, because it is a product of inertia that is zero
         return outcome == "outward"
     point = facts.quantities["entry"].subject.point
     return point is None or (point.name in {"centre", "centre_of_mass"}) == (outcome == "outward")
