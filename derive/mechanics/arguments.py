@@ -83,7 +83,7 @@ def checked(verb: F) -> F:
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:
-    """Return a description of a call: the verb, and the names of steps and symbols among its arguments."""
+    """Return a description of a call: the verb, and the names of up to four steps and symbols among its arguments."""
     about = [f"`{name}`" for name in _names(tuple(arguments.values()))]
     return f"`{verb}`" + (f" of {', '.join(about[:4])}" if about else "")
 

@@ -1,4 +1,4 @@
-"""Theorems in general form. A page states a theorem once, before the first step that uses this theorem.
+"""Theorems in general form. A page states a theorem at most once, before the first step that uses this theorem.
 A theorem is a formula in symbols. A theorem is not a step, because it is not about a body or system of the problem.
 Each step that uses a theorem is checked, and the rule of such a step names the theorem under `quotes`.
 `tests/mechanics/test_theorems.py` substitutes bodies and motions into the formulas.

@@ -1,4 +1,5 @@
-"""Assumptions about symbols as textbooks write them: 0 < alpha < pi/2, without assumptions that others imply."""
+"""Assumptions about symbols as textbooks write them, such as 0 < alpha < pi/2; an assumption that others imply is
+omitted."""
 
 from __future__ import annotations
 

@@ -106,7 +106,8 @@ class ChainWriter:
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
-        """Return the decimals of an answer that contains no symbols: they are shown with the lines of that answer."""
+        """Return the decimals of an answer that contains no symbols; these decimals are shown with the lines of the
+        answer."""
         value = self.values.get(step.key)
         exact = value is not None and value.outcome == "exact"
         return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []

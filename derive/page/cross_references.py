@@ -17,7 +17,7 @@ class References:
     others   numbers of the set's problems, by their names
     figures  numbers of the drawings that have a caption, by their names
     away     the equations of the parts that the page leaves out, by the keys of their steps; they have no numbers
-    faults   the object that collects the errors
+    faults   the list to which errors are added
     """
 
     def __init__(
@@ -34,7 +34,8 @@ class References:
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
-        """Return the reference that a mention prints: to a problem, a figure or an equation."""
+        """Return the reference that a mention prints: to a problem, a figure or an equation; None if the problem or
+        figure is unknown."""
         if mention.of == PROBLEM:
             return self._problem(mention)
         if mention.of == FIGURE:
@@ -45,7 +46,8 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """Record the mentions that print an equation number: a relation is named by number, as it has no symbol."""
+        """Record the mentions that print an equation number: a relation is named by number, because it has no
+        symbol."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 

@@ -67,8 +67,8 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions or given forces has a caption, which states them. A force diagram and the
-    drawing of a normal mode also have captions.
+    A drawing that leaves out conditions or given forces has a caption, which states them. A force diagram, and the
+    drawings of a normal mode and of polhodes, also have captions.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
@@ -365,7 +365,7 @@ def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complain
 
 
 def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placement | None) -> bool:
-    """Whether a drawing would show polhodes of a body with two equal moments, which are circles."""
+    """Whether a drawing would show polhodes of a body with two equal moments; such polhodes are circles."""
     if not isinstance(drawing, m.Drawing) or drawing.polhodes is None:
         return False
     ratios, _ = _moments(problem, drawing, placement)
@@ -373,8 +373,8 @@ def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placeme
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps that a drawing shows. The drawing is placed after those of these steps that are in
-    its part. The drawings of normal modes follow the last mode, so that they are side by side."""
+    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that the drawing
+    shows and, for a normal mode, the steps of the other modes. So the drawings of all modes are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 
@@ -387,8 +387,8 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """Return the index of the earliest part for a drawing; None if there is no such part.
 
-    If the drawing leads to steps, the part is the one that derives the first of these steps. Otherwise the part is the
-    first one after which all steps of the drawing are derived. The index -1 means the statement.
+    If the drawing is placed before steps, the part is the one that derives the first of these steps. Otherwise the part
+    is the first one after which all steps of the drawing are derived. The index -1 means the statement.
     """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
@@ -488,8 +488,8 @@ def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
 
 
 def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) -> tuple[list[Expr], bool]:
-    """Return the ratios of the moments of inertia for which polhodes are drawn, and whether they are an example: not
-    all numbers on which they depend are numbers of the problem."""
+    """Return the ratios of the moments of inertia for which polhodes are drawn, and whether the ratios are only an
+    example, because a number in them is not a number of the problem."""
     assert drawing.polhodes is not None
     given = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     chosen = dict(placement.values) if placement else {}
@@ -505,7 +505,8 @@ def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) 
 def _polhodes(
     phrase: str, problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases
 ) -> tuple[Inline, ...]:
-    """Return the caption of polhodes, or words for them: they name the curves and the axes that the curves surround."""
+    """Return the caption or the alternative text of polhodes, as `phrase` selects. Both name the axes that the curves
+    surround."""
     assert drawing.polhodes is not None
     ratios, _ = _moments(problem, drawing, placement)
     if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
@@ -621,7 +622,8 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch: its ends, and its values if they vary."""
+    """Return the names for the words about a part of a branch: its ends, the values there, whether it is stable, and
+    whether its values vary."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}

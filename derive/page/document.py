@@ -345,7 +345,8 @@ class _Writer:
         return (*kept[:-1], Text(kept[-1].text.rstrip())) if kept and isinstance(kept[-1], Text) else tuple(kept)
 
     def _limits(self) -> PartPage | None:
-        """Return the limiting cases as the last part, which begins with the steps that only these cases need."""
+        """Return the limiting cases as the last part, which begins with the steps that only these cases need; None
+        without such cases."""
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
@@ -436,7 +437,8 @@ class _Writer:
 
     def _share_a_row(self, step: Step, own: Equations, above: Equations) -> bool:
         """Return whether a step and the step before may share a row and its number. Both steps need a symbol, and none
-        of their lines may have a reason next to it. If they are answers, both must be vectors, which share a frame."""
+        of their lines may have a reason next to it. If one of them is an answer, both must be answers and vectors,
+        which share a frame."""
         steps = (self.before, step)
         if self.level is Level.FULL or any(each is None or each.symbol is None for each in steps):
             return False
@@ -449,7 +451,7 @@ class _Writer:
 
     def _following(self, key: str) -> Step | None:
         """Return the next step that the part shows, if one sentence may describe both the step `key` and this next
-        step."""
+        step; otherwise None."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None
@@ -533,8 +535,8 @@ def _illustrated(
     ends: Mapping[str, int],
     steps: int,
 ) -> tuple[Block, ...]:
-    """Insert each drawing after the last step that it shows, or before the first step to which it leads; a drawing that
-    shows no steps begins the part. Numerical values of the answers follow the drawing."""
+    """Insert each drawing before the first of its steps in `leads_to`, or after the last of its steps in `rests_on`; a
+    drawing without steps begins the part. Numerical values of the answers follow the drawing."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [
         min((begins[k] for k in d.leads_to if k in begins), default=0)

@@ -122,8 +122,8 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield each answer that depends on the step directly or through steps that are not answers, with the shortest path
-    of such steps."""
+    """Yield the step itself if it is an answer. Yield each answer that depends on the step directly or through steps
+    that are not answers, with the shortest path of such steps."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

@@ -1,4 +1,5 @@
-"""The formulas in an author's prose, parsed with the symbols of the problem: symbols and dimensions are checked.
+"""The formulas in an author's prose, parsed with the symbols of the problem; the symbols and the dimensions are
+checked.
 
 A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. But an
 equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results must hold for the results of the

@@ -125,8 +125,8 @@ class _Hints:
         return [*words, *laws]
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Return the law of each chain in a sentence, or the lines after the law, as `rung` selects; results are left
-        out."""
+        """Return the law of each chain in a sentence, or the lines after the law, as the slice `rung` selects; results
+        are left out."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))

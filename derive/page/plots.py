@@ -36,7 +36,7 @@ DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
 STEPS = 240  # number of steps of a curve
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
-MOST_TOGETHER = 4  # greatest number of curves in one panel that differ in the style of their lines
+MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
@@ -179,8 +179,9 @@ def _own(
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
     """Return whether the curves are in one panel. The problem may state this.
 
-    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if they have the
-    same range and no curve is much smaller than all curves together. A phase portrait always has its own panel.
+    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if no curve is
+    much smaller than all curves together and, except for paths, the curves have the same range. More than
+    `MOST_TOGETHER` curves never share a panel; a phase portrait or a bifurcation diagram always has its own panel.
     """
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:

@@ -61,7 +61,7 @@ class Selection:
     asked   keys of the answers
     shown   the values under the problem's `show:`, by key of the step
     worded  keys of the steps that the problem rewords
-    values  the numbers of answers, by key: a number may be shown instead of the formula
+    values  the numbers of answers, by key; a number may be shown instead of the formula
     """
 
     def __init__(

@@ -147,8 +147,8 @@ class Phrases:
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
 
-        A phrase may apply only after a step of the same rule with a certain outcome, or with the same words, or only
-        after a step of a certain other rule.
+        A phrase may apply only after certain steps: after a step of the same rule with a certain outcome or with the
+        same words, or after a step of a certain other rule.
         """
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule

@@ -86,9 +86,10 @@ def _is_negative(root: Expr) -> bool:
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
-    If the result contains a rate with its sign at the start, each place must also lie ahead of the start or, if the
-    motion turns back first, behind it. If contact or a taut string must last until the motion reaches the place, a
-    sentence with a condition must say so.
+    A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
+    each place must also lie ahead of the start or, if the motion turns back first, behind it. A sentence with a
+    condition must say that contact must last if the system has a surface, or that a string must stay taut if the system
+    has a string.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -152,8 +153,8 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """Whether the place is ahead of the start (1) or behind it (-1): the set of the answers for all trial numbers.
-    Numbers for which the place is the start are left out; if no others remain, the result is {1}."""
+    """Return the sides of the start on which the place lies, for all trial numbers: 1 is ahead, -1 is behind. Numbers
+    are left out if the place is the start, or if the side is unknown; if no numbers remain, the result is {1}."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -164,7 +165,7 @@ def coordinate_of_rate(facts: Judged, q: Any) -> bool:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """Whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
+    """Judge whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
 
     def is_so(facts: Judged) -> bool:
         q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
@@ -186,7 +187,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Whether the force at the start is positive (zero if `later`) numerically, and the stated condition is correct."""
+    """Judge whether the force at the start is numerically positive (zero if `later`), and the stated condition is
+    correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -270,8 +272,8 @@ def _constraint_of(force: Quantity) -> Constraint | None:
 
 
 def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the friction on the body is opposite to the direction of the slip that the sentence
-    states."""
+    """Whether, numerically, the friction on the body is opposite to the direction of slip, if the sentence states
+    one."""
     if "sense" not in facts.words:
         return True
     constraint = _constraint_of(facts.quantities["friction"])
@@ -284,7 +286,7 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
+    """Whether the word for the body that would slip is its name in the contact, or "body" if it has no name there."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -302,7 +304,7 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Whether, numerically, |F| <= mu_s N if and only if the result holds.
+    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
     for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.
@@ -464,8 +466,8 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Judge the terms without a highest rate: there are none ("plain"), their sum is zero ("cancel"), or their sum is
-    not zero ("remain")."""
+    """Judge the terms without a highest rate: no such terms exist ("plain"), their sum is zero ("cancel"), or
+    their sum is not zero ("remain")."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -479,7 +481,8 @@ def sum_left(wanted: str) -> Predicate:
 
 
 def times_its_factor(facts: Judged) -> bool:
-    """Whether the result is the equation of motion times the factor that the sentence names."""
+    """Whether the left side of the result is the left side of the equation of motion times the factor that the sentence
+    names."""
     multiplied = explicit(facts.inputs["factor"]) * explicit(facts.inputs["written"].left)
     return is_zero(explicit(facts.result.left) - multiplied)
 
@@ -535,8 +538,8 @@ def is_the_place_of_departure(facts: Judged) -> bool:
 
 
 def speeds_up(wanted: bool) -> Predicate:
-    """Whether a constant force acts along the axis of this component; for `wanted=False`, whether no force acts along
-    this axis."""
+    """Judge whether a constant force acts along the axis of this component; for `wanted=False`, whether no force acts
+    along this axis."""
 
     def is_so(facts: Judged) -> bool:
         bend = diff(facts.result, TIME, 2)
@@ -641,7 +644,7 @@ def _at_times(facts: Judged, times: tuple[Expr, ...], wanted: int) -> bool:
 
 
 def lands(outcome: str) -> Predicate:
-    """Whether, numerically, the particle reaches the plane or the circle at this time, from the free side."""
+    """Judge whether, numerically, the particle reaches the plane or the circle at this time, from the free side."""
 
     def is_so(facts: Judged) -> bool:
         fact, target, time = facts.inputs["flight"], facts.inputs["target"], explicit(facts.result)
@@ -666,7 +669,7 @@ def misses(facts: Judged) -> bool:
 
 
 def _later(fact: InFlight) -> tuple[Expr, ...]:
-    """Times after the departure, on the scale of the speed at the departure divided by the acceleration."""
+    """Times after the departure, in units of the speed at the departure divided by the acceleration."""
     speed = sqrt(Add(*(diff(c, TIME).subs(TIME, 0) ** 2 for c in fact.path)))
     pull = sqrt(Add(*(diff(c, TIME, 2) ** 2 for c in fact.path)))
     return tuple(n * speed / pull for n in LATER)

@@ -243,8 +243,8 @@ def _added(sides: Sequence[Expr]) -> list[Expr]:
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """Return the word for the terms that contain no highest rate: "plain" if there are none, "cancel" if their sum is
-    zero, "remain" otherwise."""
+    """Return the word for the terms that contain no highest rate: "plain" if no such terms exist, "cancel" if their sum
+    is zero, "remain" otherwise."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"

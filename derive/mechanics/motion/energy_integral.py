@@ -74,7 +74,8 @@ def speed_from_energy(
     A separate step states that the energy has its initial value.
     Second route: half the derivative of q_dot^2 with respect to q is q_ddot from `motion`, or from d'Alembert's
     principle for the mass points. With this q_ddot the energy is constant. At the start the rate has the given value.
-    Errors: the energy is not conserved, contains another coordinate, or is not of the form m(q) q_dot^2/2 + V(q).
+    Errors: the energy is not conserved, contains another coordinate or the time, or is not of the form m(q) q_dot^2/2 +
+    V(q); neither the energy nor `motion` determines q_ddot.
     Source: Taylor, *Classical Mechanics*, section 4.6 (one-dimensional systems).
     """
     value = explicit(energy.value)
@@ -215,7 +216,7 @@ RATE_BY_ENERGY = Rule(
 
 @in_results(
     "square_root",
-    "the rate of a coordinate, or its magnitude if the sign is unknown, from its square",
+    "the rate of a coordinate from the squared rate, or the magnitude of the rate if the sign is unknown",
     squared="square_root: a squared rate, as `speed` finds it",
 )
 def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:

@@ -37,7 +37,8 @@ class ByEnergy(Fact):
 
     @staticmethod
     def behind(force: Quantity, q: Symbol) -> Quantity | None:
-        """The step q_dot^2 = f(q), by conservation of energy, from which a force was derived; None if there is none."""
+        """The step q_dot^2 = f(q), by conservation of energy, from which a force was derived; None if no such step
+        exists."""
         of_energy = ((each, each.fact(ByEnergy)) for each in force.ancestors())
         return next((each for each, known in of_energy if known is not None and known.coordinate == q), None)
 
@@ -64,7 +65,7 @@ class Arrival:
     is_found   whether the place was derived from this motion; then `reached` is None
     sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if it does not, or
                if the motion starts from rest
-    turned     whether the motion turns back before it comes to the place, so that the rate has the opposite sign there
+    turned     whether the motion turns back before it comes to the place; the rate then has the opposite sign there
     lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
                the tension of a string, "" if there is no such constraint
     """

@@ -142,7 +142,7 @@ def sign_of_friction(motion: Motion, place: Expr) -> int:
 
 
 def is_first(motion: Motion, place: Expr) -> Verdict:
-    """Check numerically that |F| < mu_s N from the start to the place, and |F| > mu_s N beyond it."""
+    """Check numerically that |F| < mu_s N from the start to the place, and |F| > mu_s N just beyond the place."""
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
         begin, end = value_at(motion.start, point), value_at(motion.place(place), point)

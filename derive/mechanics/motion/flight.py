@@ -296,7 +296,8 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
-    Errors: contact is not lost; the system is not one particle in a plane under its weight.
+    Errors: contact is not lost; the system is not one particle in a plane under its weight; the force was derived
+    without conservation of energy; `at` is not a symbol, or its range does not contain the value at the departure.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
@@ -474,8 +475,8 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
-    Errors: the plane moves, or is on the wrong side; a sign is unknown; the particle may meet the circle before the
-    plane.
+    Errors: the plane moves; the particle may depart below the plane; a sign is unknown; the particle may meet the
+    circle before the plane; `on` is omitted, and the particle was not on a circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)

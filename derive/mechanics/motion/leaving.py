@@ -69,7 +69,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
-    start    the value of the unknown at the start, where the surfaces touch
+    start    the value of the unknown at the start, where the force is positive
     The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
     f must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
     If f cannot be positive there, contact is not lost.
@@ -81,7 +81,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back).
     Errors: the force may have either sign, as on a rail; it is not positive at the start, or not linear in the unknown;
-    the motion may turn back before the place.
+    the motion may turn back before the place, or does not begin at `start`.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -183,7 +183,8 @@ def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: 
 
 
 def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared: Expr, key: str) -> Quantity:
-    """The step for a motion that turns back before the place where the force would vanish (N > 0), or at it (N >= 0).
+    """The step for a motion that turns back before the place where the force would vanish (N > 0), or at this place (N
+    >= 0).
 
     Outcomes: turns_back, turns_there.
     Source: the same as for `leaves_contact`.

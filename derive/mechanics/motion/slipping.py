@@ -1,4 +1,5 @@
-"""Static friction reaches its largest value: |F| = mu_s N, for constant forces or along a motion of one coordinate."""
+"""When static friction reaches its largest value, |F| = mu_s N, for constant forces or along a motion of one
+coordinate."""
 
 from __future__ import annotations
 
@@ -78,12 +79,12 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     direction of F, F <= mu_s N and -F <= mu_s N. The sentence states the direction of the slip if it is known: the body
     slips against the friction that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
-    from the start to the place, and |F| > mu_s N beyond the place. Witness: the motion of the described system.
+    from the start to the place, and |F| > mu_s N just beyond the place. Witness: the motion of the described system.
     Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
     needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
     Errors: no coefficient of static friction; the surface does not push; no solution in closed form; the place depends
-    on the values of the symbols.
+    on the values of the symbols; the friction has its largest value at the start of the motion.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     contact, unknown = friction_of(friction, normal), unknown_of("slips", letter)

@@ -1,4 +1,5 @@
-"""The static friction and the normal force of a contact, and when the friction suffices: |F| <= mu_s N."""
+"""The static friction and the normal force of a contact, and the condition |F| <= mu_s N for the friction to
+suffice."""
 
 from __future__ import annotations
 

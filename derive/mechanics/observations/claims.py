@@ -106,8 +106,8 @@ def swings_like_a_pendulum(facts: Judged) -> bool:
 
 
 def is_a_length_or_its_symbol(facts: Judged, told: Any) -> bool:
-    """Whether the stated length is the result and does not contain g, or is a symbol whose value or acceleration is
-    stated, too. If it is such a symbol, another predicate checks the value, or the outcome checks the acceleration."""
+    """Whether the stated length is the result and does not contain g, or is a symbol. For a symbol, the sentence must
+    also state its value, which another predicate checks, or an acceleration, which the outcome checks."""
     if told == facts.result:
         return facts.inputs["g"] not in told.free_symbols
     return isinstance(told, Symbol) and bool({"equal", "field"} & set(facts.inputs))
@@ -143,7 +143,7 @@ def differs_from_gravity(facts: Judged, field: Expr) -> bool:
 
 
 def orbital(facts: Judged, ratio: Expr, at: Mapping[Any, Expr] | None = None) -> bool:
-    """Whether the radial frequency is this multiple of the orbital rate at the radius of the circular orbit.
+    """Whether the radial frequency is `ratio` times the orbital rate at the radius of the circular orbit.
 
     at   values of symbols for a special case
     """
@@ -167,7 +167,7 @@ def orbital_ratio(wanted: Callable[[Expr], bool]) -> Predicate:
 
 
 def closes_for(ratio: int) -> Naming:
-    """Judge whether the radial frequency is this multiple of the orbital rate for the stated value of a symbol."""
+    """Judge whether the radial frequency is `ratio` times the orbital rate for the stated value of a symbol."""
 
     def is_so(facts: Judged, told: Relation) -> bool:
         return orbital(facts, Integer(ratio), {told.left: told.right})
@@ -330,7 +330,7 @@ def names_a_letter(facts: Judged) -> bool:
 
 
 def _may_vary(letter: Symbol, point: Point) -> Point:
-    """Return a point at which only this symbol is different."""
+    """Return the point with another number for this symbol only."""
     return {**point, letter: point[letter] * Rational(8, 7)}
 
 
@@ -434,7 +434,8 @@ def branches_off(facts: Judged) -> bool:
 
 
 def is_this_multiple(facts: Judged) -> bool:
-    """Whether the first answer is this multiple of the second one: a rational number greater than 1 or less than -1."""
+    """Whether the first answer is the result times the second one. The result must be a rational number greater than 1
+    or less than -1."""
     of, other = (explicit(facts.quantities[role].value) for role in ("of", "other"))
     ratio = facts.result
     agrees = everywhere(numbers([of, other]), lambda p: same(value_at(of, p), ratio * value_at(other, p)))
@@ -488,7 +489,8 @@ def is_in_both(facts: Judged, letter: Symbol) -> bool:
 
 
 def is_fraction_of_the_familiar(facts: Judged) -> bool:
-    """Whether the size of the acceleration is this fraction of the familiar one at all trial points."""
+    """Whether, at all trial points, the magnitude of the acceleration is the result times that of the familiar
+    acceleration. The result must be a rational number between 0 and 1."""
     of, familiar = explicit(facts.quantities["of"].value), facts.inputs["familiar"]
     part = facts.result
     agrees = everywhere(
@@ -548,7 +550,8 @@ def _energy_is_kept(facts: Judged) -> bool:
 
 
 def stays_at_rest(facts: Judged) -> bool:
-    """Whether the mode does not move the coordinate whose equation contains this mass."""
+    """Whether this mass is in only one entry of the mass matrix, on the diagonal, and the mode does not move the
+    coordinate of this entry."""
     letter, shape = facts.inputs["letter"], explicit(facts.quantities["shape"].value)
     mass, at = facts.inputs["mass"], int(facts.inputs["at"])
 
@@ -591,7 +594,7 @@ def _is_constant(value: Expr, of: Quantity) -> bool:
 
 
 def _others_are_fixed(of: Quantity, *rates: Symbol) -> bool:
-    """Whether the derived constraints give z_ddot = 0 for each distance z whose rate is not one of these."""
+    """Whether the derived constraints give z_ddot = 0 for each distance z whose rate is not among `rates`."""
     others = [q for q, kind in of.coordinates.items() if kind == "length" and rate(q) not in rates]
     constraints = [each for each in of.ancestors() if each.step.rule == "lagrange.constraint_rate"] if others else []
     fixed = {s for each in constraints if len(found := explicit(each.value).residual.free_symbols) == 1 for s in found}
@@ -699,7 +702,8 @@ def balances(facts: Judged) -> bool:
     """Whether the torque vanishes at 0 and 90 degrees and at no angle between them, and both angles are in the
     declared range.
 
-    With u = tan(angle/2), each component is a rational function of u; Sturm's theorem counts its zeros for 0 < u < 1.
+    With u = tan(angle/2), each component is a rational function of u; Sturm's theorem counts the zeros for 0 < u < 1
+    that are common to all components.
     """
     torque = [each for each in map(explicit, facts.quantities["of"].value) if each != 0]
     angle, u = facts.inputs["angle"], Symbol("u")

@@ -185,7 +185,8 @@ def unaffected(view: View) -> Observed:
 
 
 def linear_equations(of: Quantity) -> Linear | None:
-    """Return the linear equations from which a frequency was derived."""
+    """Return the linear equations from which a frequency was derived; None if it was not derived from linear
+    equations."""
     return next((fact for q in of.ancestors() if (fact := q.fact(Linear)) is not None), None)
 
 
@@ -233,7 +234,8 @@ CIRCLING = Rule(
 
 
 def circling(view: View) -> Observed:
-    """Acceleration that is a constant times the velocity turned by a right angle: the motion is uniform in a circle."""
+    """Acceleration that is a constant times the velocity turned by a right angle, so the motion is uniform in a
+    circle."""
     moving = {q.symbol: q for q in view.values("acceleration")}
     coordinates = dict.fromkeys(q for each in moving.values() for q in each.coordinates if rate(q, 2) in moving)
     for x, y in combinations(sorted(coordinates, key=str), 2):
@@ -299,7 +301,7 @@ POLHODE = Rule(
 
 
 def polhode(view: View) -> Observed:
-    """Constant kinetic energy and constant |L|: in the body, the tip of L stays on an ellipsoid and on a sphere."""
+    """Constant kinetic energy and constant |L|, so in the body the tip of L stays on an ellipsoid and on a sphere."""
     kept = [q for q in view.shown if q.step.rule == "motion.rate_under" and is_zero(q.value)]
     energy = _conserved(kept, "rotation.kinetic_energy")
     square = _conserved([q for q in kept if q in view.answers], "answers.squared_magnitude")

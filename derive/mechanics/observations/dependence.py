@@ -103,7 +103,7 @@ def _unknowns(of: Quantity) -> set[Any]:
 
 
 def _scales(view: View) -> set[Symbol]:
-    """Return the symbols that are factors of a Lagrangian of the page: no motion depends on them."""
+    """Return the symbols that are factors of a Lagrangian of the page; no motion depends on these symbols."""
     wholes = [explicit(q.value) for q in view.shown if q.fact(Energies) is not None]
     return {s for s in view.letters for whole in wholes if s in whole.free_symbols and not tidied(whole / s).has(s)}
 
@@ -237,7 +237,7 @@ def _factors(value: Expr) -> list[tuple[Expr, int]]:
 
 
 def _zero_in(view: View, base: Expr) -> Relation | None:
-    """Return the value of a mass, a length or an angle for which a factor vanishes."""
+    """Return the value of a mass, a length or an angle for which a factor vanishes; None if no such value is found."""
     for letter in [s for s in view.in_order(base.free_symbols) if view.letters[s] in ("mass", "length")]:
         found = solved_for_letter(base, letter)
         if found is not None and simple(found, 4) and sign_for_all(found) == 1:
@@ -299,12 +299,13 @@ def _at(rests: Sequence[Quantity], place: Expr) -> Quantity | None:
 
 
 def _shape_at(view: View, place: Expr) -> Quantity | None:
-    """Return the curvature of the potential energy at an equilibrium."""
+    """Return the step of the curvature of the potential energy at an equilibrium; None if the page has no such step."""
     return next((q for q in view.shown if (shape := q.fact(Shape)) and is_zero(shape.place - place)), None)
 
 
 def _border(view: View, of: Quantity, cosine: Expr) -> Relation | None:
-    """Return the value of an angular velocity for which both the curvature and 1 - cos(theta) vanish."""
+    """Return the value of an angular velocity for which both the curvature and 1 - cos(theta) vanish; None if no such
+    value is found."""
     for letter in view.of_kind("angular speed"):
         found = solved_for_letter(cosine - 1, letter)
         if found is not None and is_zero(tidied(explicit(of.value).xreplace({letter: found}))):
@@ -419,7 +420,7 @@ ONE_SIGN = Rule(
 
 
 def one_sign(view: View) -> Observed:
-    """Normal force whose sign does not depend on the position, although its size does."""
+    """Normal force whose sign is the same at all positions, although its magnitude depends on the position."""
     for of in view.values("force"):
         value = tidied(of.value)
         moving = [q for q in of.coordinates if q in value.free_symbols]
@@ -454,7 +455,8 @@ BALANCED = Rule(
 
 
 def balanced(view: View) -> Observed:
-    """The angles 0 and 90 degrees, if the bearings need no torque there, but need one at each angle between them."""
+    """The angles 0 and 90 degrees, if the bearings need no torque at these angles, but need one at each angle in
+    between."""
     for of in view.answers:
         entries = [each for each in explicit(of.value) if each != 0] if isinstance(of.value, MatrixBase) else []
         if of.step.kind == "torque" and len(entries) == 1:
@@ -464,7 +466,8 @@ def balanced(view: View) -> Observed:
 
 
 def _vanishes_only_at_the_ends(entry: Expr, angle: Symbol) -> bool:
-    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both and not between them.
+    """Whether 0 and 90 degrees are in the range of the angle, and the entry vanishes at both angles, but not in
+    between.
 
     The entry must be sin(angle) cos(angle) times factors that have one sign for all angles in this range.
     """

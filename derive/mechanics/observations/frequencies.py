@@ -141,7 +141,7 @@ ORBIT = Rule(
 
 
 def orbit(view: View) -> Observed:
-    """Ratio of the radial frequency to the orbital rate: a nearly circular orbit closes if this ratio is rational."""
+    """Ratio of the radial frequency to the orbital rate; a nearly circular orbit closes if this ratio is rational."""
     for of in view.values("angular speed"):
         if of.step.rule in OSCILLATES and _seen(of) and _has_polar_coordinates(view):
             for there, told, step in _orbital_rates(view):
@@ -199,7 +199,7 @@ def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -
 
 
 def _closing(square: Expr, wanted: int) -> Relation | None:
-    """Return the value of a symbol for which the squared ratio is this number, if the symbol can have this value."""
+    """Return the value of a symbol for which the squared ratio is `wanted`; None if no symbol can have such a value."""
     for letter in sorted(square.free_symbols, key=str):
         found = solved_for_letter(square - wanted, letter)
         if found is not None and not (letter.is_positive and sign_for_all(found) != 1):
@@ -217,7 +217,7 @@ MODES = Rule(
 
 
 def modes(view: View) -> Observed:
-    """Ratio of the frequencies of normal modes: every motion is periodic if all ratios are rational."""
+    """Ratio of the frequencies of two normal modes; every motion is periodic if all such ratios are rational."""
     every = [each for each in view.values("angular speed") if each.fact(Mode) is not None]
     found = [each for each in every if _seen(each)]
     ratios = [(slow, fast, _ratio(slow, fast)) for slow, fast in pairwise(found)]
@@ -257,7 +257,7 @@ ONE_FREQUENCY = Rule(
 
 
 def one_frequency(view: View) -> Observed:
-    """One frequency of all motions of a particle: each orbit is an ellipse."""
+    """One frequency of all motions of a particle, so each orbit is an ellipse."""
     speeds = [q for q in view.shown if q.step.rule == "lagrange.squared_speed"]
     of_particle = len(speeds) == 1 and is_zero(
         explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))

@@ -189,9 +189,9 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
     """Return the sign of the change of the energy near the equilibrium, to second order.
 
     The sign is 1 if the energy rises in all directions, and -1 if it falls in at least one direction. Otherwise the
-    energy is constant in at least one direction, and the sign is 0. No formula is differentiated: differences of the
-    energy at nearby points give the matrix of second order. Each coordinate is scaled to a suitable size, and the sign
-    is the sign of the least eigenvalue.
+    energy is constant in at least one direction, and the sign is 0. No formula is differentiated: the matrix of second
+    derivatives follows from differences of the energy at nearby points. Each coordinate is scaled to a suitable size,
+    and the sign is the sign of the least eigenvalue.
     """
     step, here, size = mp.mpf(10) ** -30, energy(*place), len(place)
 
@@ -200,8 +200,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         return (energy(*moved) - here) / step**2
 
     def twice(i: int, j: int) -> Any:
-        """Return the second difference of the energy along the sum of the directions i and j, or along i if they are
-        equal."""
+        """Return the second difference of the energy along the sum of the directions i and j, or along i if i = j."""
         way = [int(k == i) + int(k == j and j != i) for k in range(size)]
         return gained(*way) + gained(*(-w for w in way))
 
@@ -466,7 +465,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by differentiation whether the first nonzero derivative yields this shape. The step uses a series."""
+    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape; the step
+    uses a series. If `at_bound` is true, a case must be named, and the second derivative must vanish."""
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

@@ -20,7 +20,7 @@ STEPS, TRIALS = 1500, 3  # number of parts of a range; number of sets of numbers
 HALVINGS, SHRUNK = (
     40,
     1e-6,
-)  # number of halvings; at a zero the force must then be below this fraction of its first value
+)  # number of halvings; at a zero, the force after the halvings must be below this fraction of its first value
 LITTLE = 1e-9
 
 

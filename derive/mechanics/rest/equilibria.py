@@ -157,8 +157,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     are also counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
-    Errors: a zero of the force has no closed form; there is no equilibrium; the energy contains the time; a constraint
-    between the coordinates is maintained by a force.
+    Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
+    equilibrium is in the given range; the energy contains the time; a constraint between the coordinates is maintained
+    by a force; the coordinates are singular at an equilibrium.
     Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
@@ -356,7 +357,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 def all_matter(potential: Quantity) -> Matter | None:
     """Return the mass points and forces to which a potential energy belongs, including magnetic forces, which are not
-    in U."""
+    in U. The result is None if the mass points and forces are unknown."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -394,7 +395,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor of the force without q is zero.
+    """Return the condition that none of the factors of the force that do not contain q is zero.
 
     If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q may be
     zero.

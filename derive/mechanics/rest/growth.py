@@ -34,7 +34,8 @@ Leftover = Callable[..., Sequence[Any]]
 
 
 def matter_of(potential: Quantity) -> Matter | None:
-    """Return the mass points and forces to which a potential energy belongs, including magnetic forces."""
+    """Return the mass points and forces to which a potential energy belongs, including magnetic forces; None if they
+    are unknown."""
     if potential.fact(SeenWith) is None and isinstance(potential.subject.body, System):
         return potential.subject.body.matter
     return matter_behind(potential)

@@ -47,7 +47,7 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
     here, small = energy(*place), mp.mpf(10) ** -STEP
 
     def gained(*shares: Any) -> Any:
-        """Return the energy changes for a displacement and its opposite, added and divided by the step squared."""
+        """Return the sum of the energy changes for a displacement and for its opposite, divided by the squared step."""
         total = mp.mpf(0)
         for side in (1, -1):
             moved = [

@@ -112,7 +112,7 @@ def extreme_value(
     at          the value q_0 of the coordinate; 0 by default
     Check: the term of order zero in the expansion of U about q_0.
     Outcomes: minimum, maximum, level (U'' vanishes too), conditional (the sign of U'' is unknown).
-    Errors: U' does not vanish at q_0.
+    Errors: U' does not vanish at q_0; the potential energy depends on the time.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     q = by.symbol if isinstance(by, Coordinate) else by or only_coordinate(potential)
@@ -172,7 +172,8 @@ def leading_order(
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     with its value on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound,
     flat_at_bound.
-    Errors: U' does not vanish at q_0; the boundary belongs to another potential energy.
+    Errors: U' does not vanish at q_0; the curvature does not vanish in the case of `where`; the potential energy
+    depends on the time.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """
     shape = of.fact(Shape)

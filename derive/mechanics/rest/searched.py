@@ -134,7 +134,7 @@ def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
 
 
 def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
-    """Solve A x = b by elimination, with the largest entry as pivot."""
+    """Solve A x = b by elimination, with the largest entry as pivot; None if A is singular."""
     count = len(right)
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     for k in range(count):
@@ -184,7 +184,7 @@ def _is_rest(motion: Motion, start: Sequence[float]) -> bool:
 
 
 def _step(motion: Motion, at: Sequence[Any]) -> list[Any] | None:
-    """Return Newton's step, J^-1 f."""
+    """Return Newton's step, J^-1 f; None if the step cannot be computed."""
     count = len(at)
     try:
         found = motion(*at)

@@ -1,4 +1,5 @@
-"""Find the values of a symbol for which an equilibrium is stable; a higher order decides about the boundary."""
+"""Find the values of a symbol for which an equilibrium is stable; a higher order decides whether the value on the
+boundary is one of them."""
 
 from __future__ import annotations
 

@@ -296,7 +296,7 @@ def rate_in_space(
         lines=Lines(
             between=_rates_worked(momentum, omega, in_body),
             put_in=None,
-            # The rate in the body is derived from the torque, so adding omega x L only gives the torque back: a check.
+            # The rate in the body is derived from the torque, so adding omega x L gives the torque again, as a check.
             law=Level.FULL if in_body else Level.BRIEF,
             result=in_body is not None,  # without `in_body`, Euler's equations show the components
             arranged=lambda value: value.applyfunc(lambda entry: by_products(entry, moving)),

@@ -50,7 +50,7 @@ Pair = tuple[int, int]
 
 PAIRS: tuple[Pair, ...] = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # moments of inertia, then products
 MIRRORED: tuple[Pair, ...] = PAIRS[:3]  # the entries that remain if the planes normal to the axes are mirror planes
-ACROSS_PLANE: Pair = (2, 2)  # the moment about the normal of a body in the plane of x and y
+ACROSS_PLANE: Pair = (2, 2)  # the moment of a body in the x-y plane about the normal of this plane
 ROUND: tuple[Pair, ...] = ((0, 0), (2, 2))  # the distinct entries that remain by symmetry about the z axis
 
 
@@ -343,7 +343,7 @@ def _entry_by_integration(
 
 
 def _lies_in_plane(body: Body, point: Point) -> bool:
-    """Whether a body lies in the plane through a point normal to the z axis."""
+    """Whether a body lies in the plane that is normal to the z axis and contains a point."""
     return getattr(body, "flat_across", None) == "z" and is_zero(point.seen(body.middle.position)[2])
 
 

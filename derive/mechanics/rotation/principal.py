@@ -174,8 +174,8 @@ def principal_axes(
     """Principal axes, a right-handed set of unit vectors with I e_k = I_k e_k.
 
     moments   the principal moments of a tensor
-    If two moments are equal, their axes contain a free angle; if all three are equal, any three perpendicular axes are
-    principal axes.
+    If two moments are equal, the unit vectors of their axes contain a free angle; if all three are equal, any three
+    perpendicular axes are principal axes.
     Check: each vector satisfies I e = I_k e; the vectors have length 1, are perpendicular and right-handed.
     Outcomes: single (the axis of the moment that differs from two equal ones), symmetry (this axis of a round body),
     free (an axis of one of the two equal moments), any (all three moments are equal), distinct.

@@ -90,8 +90,8 @@ def turned_tensor(
     inertia   tensor I (3, 3), kg m^2
     axis      "x", "y" or "z": the axis about which the axes are rotated
     angle     the angle of this right-handed rotation
-    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes; the
-    trace is invariant.
+    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:
+    the trace is the same.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.

@@ -47,8 +47,8 @@ class About:
     steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   the symbol of each cyclic momentum with its value in the steady motion; if a value of the momentum is
-              given, a symbol in this given value replaces the symbol of the momentum
+    momenta   symbols with their values in the steady motion: for each cyclic momentum, its symbol or, if a value of the
+              momentum is given, a symbol in this given value
     letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
     instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """
@@ -114,8 +114,8 @@ def frequency_squared_about(
     without   the symbol to eliminate with the condition of the steady motion; by default the symbol whose elimination
     gives the shortest result
     During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
-    Second route: d'Alembert's principle for all coordinates, including the cyclic ones, to first order in the
-    displacements: the determinant of these equations vanishes for oscillations of this frequency.
+    Second route: d'Alembert's principle gives equations for all coordinates, including the cyclic ones. To first order
+    in the displacements, the determinant of these equations vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
     Errors: several coordinates remain; the condition belongs to another Lagrangian, or cannot be solved for `without`.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.

@@ -67,8 +67,9 @@ from derive.steps.trial_numbers import (
 def free_motion(wanted: str) -> Predicate:
     """Judge the kind of a free motion.
 
-    If a or c is zero, the other coefficients decide. Otherwise the signs of c/a and of the discriminant decide. If the
-    sign of the discriminant is unknown, the sentence must state that the discriminant has the sign for this kind.
+    If a or c is zero, the other coefficients decide. Otherwise the signs of b/a, of c/a and of the discriminant decide.
+    If the sign of the discriminant is unknown, the sentence must state that the discriminant has the sign for this
+    kind.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -97,7 +98,7 @@ def free_motion(wanted: str) -> Predicate:
 
 
 def are_exponents(wanted: str) -> Predicate:
-    """Judge the kind of motion, and whether both values of the result are roots of a s^2 + b s + c."""
+    """Judge the kind of motion, and whether the two values of the result are the two roots of a s^2 + b s + c."""
     kind = free_motion(wanted)
 
     def is_so(facts: Judged) -> bool:
@@ -723,8 +724,8 @@ def _in_equation(equation: Any) -> set[Any]:
 
 
 def _are_one_group(equations: Sequence[Any]) -> bool:
-    """Whether the equations contain as many displacements as there are equations, and no group of the equations
-    contains displacements that the others do not contain."""
+    """Whether the equations contain as many displacements as there are equations, and each equation is coupled to each
+    other one, directly or through other equations."""
     contained = list(map(_in_equation, equations))
     group = contained.pop(0)
     while near := [each for each in contained if each & group]:
@@ -761,7 +762,8 @@ def starts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
-    """Whether the coordinate and its rate have the stated values at the start, or zero if the sentence states none."""
+    """Whether the coordinate and its rate have the stated values at the start. A value that is not stated must be zero,
+    and the sentence must say that all others are zero."""
     q = facts.inputs["coordinate"]
     told = {each.left: each.right for role, each in facts.inputs.items() if role.startswith("start_")}
     at_start = {q: facts.result.subs(TIME, 0), rate(q): diff(facts.result, TIME).subs(TIME, 0)}

@@ -33,7 +33,7 @@ class DampedModes(Equations[Damped]):
     """The results of `normal_modes` with drag."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return decay rates, frequencies and shapes, factor by factor."""
+        """Return exponents that are zero, decay rates, frequencies and shapes, factor by factor."""
         roots, characteristic = self.system.roots, _characteristic(self)
         found: list[Quantity] = []
         number = self.before

@@ -326,8 +326,8 @@ def linear_stability(
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
     potential energy. If only gyroscopic forces stabilise an equilibrium, drag on every coordinate makes the
     equilibrium unstable.
-    Second route: on the boundary of the condition two roots of a determinant coincide, or one root vanishes. This
-    determinant is computed by substituting cosines and sines into the equations.
+    Second route: the determinant is also computed by substituting cosines and sines into the equations. Check: on the
+    boundary of a condition, two roots of this determinant coincide, or one root vanishes.
     Outcomes: stable, unstable, depends; if there are several conditions: first, further, last.
     Errors: there is drag; the determinant does not factor, or has a zero or repeated root and U has no minimum.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.

@@ -96,8 +96,8 @@ def solution(
     case: str | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values: with the roots s of
-    a s^2 + b s + c, q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
+    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values, q = C_1 e^(s_1 t) +
+    C_2 e^(s_2 t) + a particular motion, where s_1 and s_2 are the roots of a s^2 + b s + c.
 
     equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
     equation may be of first order, a = 0, or solved for q_ddot or q_dot
@@ -376,7 +376,8 @@ def _under_swing(linear: LinearCoefficients, swing: Expr) -> Expr:
 
 
 def _excluded(linear: LinearCoefficients) -> Relation | None:
-    """Return the condition against resonance: no free motion has the frequency or the rate of the driving force."""
+    """Return the condition against resonance: no free motion has the frequency or the rate of the driving force. The
+    result is None if no condition is needed."""
     found: dict[Relation, None] = {}
     for term in Add.make_args(_driving(linear.driven)):
         for f in term.atoms(sin, cos, exp):

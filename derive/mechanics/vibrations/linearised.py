@@ -60,7 +60,7 @@ def linearised(
     Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag: damped, displaced_damped; with a
     driving force: driven, displaced_driven.
     Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
-    coefficients depend on the time.
+    coefficients depend on the time; the equilibrium does not exist for the given numbers.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.2.
     """
     if isinstance(motion, Quantity) and not isinstance(at, Mapping | Quantity):

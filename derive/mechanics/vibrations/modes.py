@@ -304,7 +304,7 @@ def _shape(
     drift = _drift(equations, root)
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Substitute the motion into the linear equations, at any time."""
+        """Check that the motion satisfies the linear equations at all times."""
         w = stand_in("w", positive=True)
         course = {1: cos(w * T), None: cos(w * T), 0: 1 + T, -1: exp(w * T)}[root.sign]
         square = {w**2: -root.value if root.sign == -1 else root.value}

@@ -49,6 +49,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     linear   the equation m q_ddot + k q = 0, as `linearised` yields it
     Check: q = cos(omega_0 t) is substituted back into the equation.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
+    Errors: the equation is not of this form; a coefficient is not constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
     """
     q = linear.needed(OfCoordinate).coordinate.symbol
@@ -118,7 +119,8 @@ def _squared_form(value: Expr) -> Expr:
 
 
 def _sort_of(value: Expr, entries: tuple[Expr, Expr], exists: Relation | None) -> str:
-    """Return the outcome from the sign of omega_0^2 = k/m, under the condition for which the equilibrium exists."""
+    """Return the outcome from the sign of omega_0^2 = k/m for values of the symbols for which the equilibrium
+    exists."""
     value = tidied(value)
     if value == 0:
         return "neutral"

@@ -65,8 +65,8 @@ def _proposed(
     of: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
-    """Propose a constant. If a defined quantity or the frequency of an earlier answer has the same value, or an earlier
-    result has the same symbol and value, propose this quantity or result instead.
+    """Propose a constant. A defined quantity, or the frequency of an earlier answer, is proposed instead if it has the
+    same value; an earlier result is proposed instead if it has the same symbol and value.
 
     The result is None if the symbol already has another meaning, or if the constant would only rename a symbol.
     """

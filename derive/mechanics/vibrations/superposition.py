@@ -88,7 +88,8 @@ def motions_by_modes(
     Keys: of_t_x for a coordinate x; a given `key` replaces of_t.
     Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
-    Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant.
+    Errors: drag mixes the modes; gyroscopic forces act; an initial value is not constant, or does not belong to a
+    displacement.
     Source: Taylor, *Classical Mechanics*, sections 11.2 and 11.3; Goldstein, Poole, Safko, *Classical Mechanics*,
     section 6.3.
     """
