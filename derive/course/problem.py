@@ -274,7 +274,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
     """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
-    Unless it is a phase portrait, it needs `against` and `range`. A drawing with neither must not have `against`."""
+    Unless it is a phase portrait, it needs `against` and `range`. A drawing without `plot` and `curves` must not have
+    `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         if drawing.is_of_engine and isinstance(script, Script):
