@@ -56,7 +56,7 @@ class _Answer:
     def in_form(self) -> Place | None:
         """The place in the file where the form of this answer asks for a number: its unit, else its `figures`.
 
-        `figures` count only if the answer has no number although some of its symbols have one.
+        `figures` count only if the answer has no number although some of its symbols have numbers.
         """
         form = self.part.form_of(self.asked)
         if form.units:

@@ -93,8 +93,8 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws. Those
-        of bifurcation diagrams are not among them."""
+        """The names of the steps that parts ask for, of the steps that limiting cases name, and of the answers whose
+        curves the engine draws; the equilibria of a bifurcation diagram and the formulas of a path are left out."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property

@@ -168,7 +168,7 @@ class Formula(Brackets):
         return cursor.before.text if cursor.before.kind == "mark" else f"\\{cursor.before.text}"
 
     def divided(self, cursor: Cursor, depth: int, above: TermOrGrid, signs: list[Sign]) -> TermOrGrid:
-        """Read `a/b`; reject a factor or a `/` after it, because some readers take `a/2b` for a/(2b) and some for (a/2)b."""
+        """Read `a/b`; reject a factor or a `/` after it, because `a/2b` could mean a/(2b) or (a/2)b."""
         slash = cursor.token
         assert slash is not None
         cursor.at += 1
