@@ -121,8 +121,8 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
     """Warn of an answer without a number if all its letters have numbers, or if one of them has a number that no plot
     and no answer with a number uses. The author may have forgotten a number.
 
-    There is no warning if a letter without a number is the time, a coordinate or another letter that the problem does
-    not declare.
+    Do not warn if a letter without a number is the time, a coordinate or another letter that the problem does not
+    declare.
     """
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))

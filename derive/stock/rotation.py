@@ -221,8 +221,8 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
         """Draw the curves on which the tip of the angular momentum of a free body stays.
 
-        The drawing follows the requested answers about the stability of a rotation and about the conserved quantities;
-        if there are none, it follows the angular momentum.
+        The drawing follows the requested answers about the stability of a rotation and about the conserved quantities
+        or, without such answers, the angular momentum.
         """
         if self.described.torque or self.is_given:
             message = "the polhodes are those of a body that rotates freely"

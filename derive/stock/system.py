@@ -576,7 +576,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
 
 def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
-    """Return the quantities as a tuple; if there are none, raise an error with the message `otherwise`."""
+    """Return the quantities as a tuple; without quantities, raise an error with the message `otherwise`."""
     some = tuple(found)
     if not some:
         raise Rejected(Complaint("wrong-argument", otherwise))
