@@ -474,7 +474,7 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
     """Whether each error is an unknown key that resembles no known key and is inside an entry, such as a particle. Then
-    no value is missing, so errors in the known keys are not consequences of these errors."""
+    no value is missing because of these errors, so errors in the values of the known keys are reported too."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top
