@@ -254,7 +254,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def motions(self) -> tuple[Quantity, ...]:
-        """Return one equation of motion for each independent coordinate, by the method of the problem."""
+        """Return one equation of motion for each independent coordinate, derived by `self.method`."""
         return tuple(self.motion(name) for name in self.independent)
 
     @cached_property
