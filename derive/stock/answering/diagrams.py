@@ -51,7 +51,8 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of the steps that parts ask for or, if parts ask for no step, the keys of the equilibria."""
+        """Return the keys of those of these steps that parts ask for; if parts ask for none of them, the keys of the
+        equilibria."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 

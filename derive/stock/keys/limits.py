@@ -24,8 +24,8 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """Return the steps of each case: the limiting case and, if the problem states them, steps that write its result in
-    other symbols or compare it with another step.
+    """Return the steps of each case: the limiting case and, if requested, steps that write its result in other symbols
+    or compare it with another step.
 
     Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
     can therefore have the same symbol. No steps are returned for a case in three situations:
