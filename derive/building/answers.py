@@ -25,8 +25,8 @@ Rows = list[tuple[str, ...]]
 def answers_of(root: Path, problem_id: str) -> Rows:
     """Return a row of headings and a row for each name.
 
-    The first names are the answers that the description offers, with the results of the problem, or the answers that
-    the script returns. Then come the steps on which these answers depend.
+    The answers come first: those that the script returns or, for a description, those that the description offers and
+    the results of the problem. Then come the other steps on which these answers depend.
     """
     problem = load_problem(root, problem_id)
     record = Run()

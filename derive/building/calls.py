@@ -31,7 +31,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls stored by earlier builds; the calls that the last build used come first."""
+        """The calls stored by earlier builds; the calls of the build that stored them come first."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 

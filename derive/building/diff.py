@@ -125,5 +125,5 @@ def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
 
 
 def _other_engine() -> Complaint:
-    message = "derive itself has changed since the last build: this may have caused some of the changes"
+    message = "derive or one of its packages has changed since the last build: this may have caused some of the changes"
     return Complaint("other-engine", message, severity="warning")

@@ -38,8 +38,9 @@ SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-# A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if it has at
-# least MANY labels, and more than DENSE on a square centimetre; but not if a label then costs more by SLIGHT.
+# A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if the drawing
+# has at least MANY labels and more than DENSE labels per square centimetre. It is not made larger if the greatest cost
+# of a label would then increase by more than SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
 # The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
 OF_MODES, FEW = (3.6, 4.7), 4
@@ -125,7 +126,7 @@ def _drawn(
     from derive.render.drawing.picture import picture
 
     sizes = (width,) if width else (WIDTH, WIDE)
-    if width and what.body_size is not None:  # the author's width decides about the size of the body
+    if width and what.body_size is not None:  # the width that the author gives determines the size of the body
         what = replace(what, body_size=None)
     if what.mode is not None and not width and len(what.mode.moves) <= FEW:
         sizes = OF_MODES

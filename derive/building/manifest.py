@@ -86,7 +86,7 @@ class Manifest:
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
     def made(self, problem: str, recipe: Recipe, read: Callable[[str], str]) -> str:
-        """Record the inputs of a page, and return the key under which the page is stored."""
+        """Record the recipe and the inputs of a page, and return the key under which the page is stored."""
         made_by = recipe_digest(recipe)
         self.recipes[made_by] = {**recipe}
         self.made_by[problem] = made_by

@@ -56,7 +56,7 @@ class _Answer:
     def in_form(self) -> Place | None:
         """The place in the file where the form of this answer asks for a number: its unit, else its `figures`.
 
-        `figures` count only if the answer has no number although some of its symbols have one.
+        `figures` count only if the answer has no number although some of its symbols have numbers.
         """
         form = self.part.form_of(self.asked)
         if form.units:
@@ -121,7 +121,7 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
     """Warn of an answer without a number if all its letters have numbers, or if one of them has a number that no plot
     and no answer with a number uses. The author may have forgotten a number.
 
-    There is no warning if a letter without a number is a coordinate or another letter that the problem does not
+    Do not warn if a letter without a number is the time, a coordinate or another letter that the problem does not
     declare.
     """
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}

@@ -116,7 +116,7 @@ def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
 
 
 def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return the page of a set: its documents to print, and the statement and the drawing of each problem."""
+    """Return the page of a set: its documents to print, and each statement with the first drawing in it."""
     questions = numbered_in_a_row(each.card_html for each in problems)
     return _page(root, "index.html.j2", heading, _listed(problems), questions=questions)
 

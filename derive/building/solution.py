@@ -108,7 +108,7 @@ def _edited(problem: Problem, begun: int) -> bool:
 
 @lru_cache(maxsize=4)  # one process may need the same steps more than once
 def _kept(cache: Cache, key: str) -> Solved:
-    """Return the steps stored under a key."""
+    """Return the steps stored under a key; raise `KeyError` if nothing is stored there."""
     kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)
@@ -131,8 +131,8 @@ def _check_characters(problem: Problem) -> None:
 def derived(
     problem: Problem, memory: Memory | None = None, faults: Faults | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
-    """Return the derivation of all answers, the steps that evaluate answers numerically (by key), the results of all
-    steps (by key), and the record of the run.
+    """Return the derivation of all answers, the steps that evaluate answers numerically (by key), all returned results
+    and those on which they depend (by key), and the record of the run.
 
     faults   collects errors that do not affect any step; by default they are raised
     """

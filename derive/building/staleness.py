@@ -56,7 +56,7 @@ class Staleness:
 def left_older(
     record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
 ) -> list[Complaint]:
-    """Warn of documents that are older than their problems because the last build was not asked to make them."""
+    """Warn of PDFs that are older than their inputs because the last build was not asked to make them."""
     older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
     if not older:
         return []
@@ -91,8 +91,8 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Return the set, "/" and the file of a path below build/. The path is relative to the working folder or to the
-    root."""
+    """Return the set, "/" and the file of a path below build/; None for any other path. The path is relative to the
+    working folder or to the root."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]

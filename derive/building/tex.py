@@ -248,8 +248,8 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Return environment variables that set long messages, a fixed date, and access only to the working folder and the
-    engine's own folders."""
+    """Return the environment of the engine. It sets long messages, a fixed date, and access only to the working folder
+    and the engine's own folders."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",

@@ -19,7 +19,7 @@ from derive.errors import OutOfTime
 __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
-IDLE = 0.02  # share of processor time below which work counts as waiting
+IDLE = 0.02  # work that uses a smaller share of the processor than this counts as waiting
 PATIENCE = 10  # even on a busy machine, work is stopped after PATIENCE * (limit + 6 s) of wall-clock time
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 

@@ -1,1 +1,1 @@
-"""Reads and checks what an instructor writes: YAML, expressions, LaTeX of other documents, scripts."""
+"""Reads and checks what an instructor writes: YAML, expressions, LaTeX and scripts."""

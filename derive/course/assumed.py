@@ -35,7 +35,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
     """Return the relations of one entry; a chain gives one relation for each pair of neighbours.
 
     constant   the letters that a relation may contain
-    moving     coordinates and rates, which a relation may not contain, because it would not hold at all times
+    moving     coordinates and rates; a relation may not contain them, because it would not hold at all times
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)

@@ -1,7 +1,7 @@
 """The files of a new problem, copied from a pattern or from an existing problem.
 
-No work of the author is lost: an existing file is never overwritten, and the file of an existing set only gains one
-entry in its list of problems.
+No work of the author is lost: an existing file is never overwritten, and the file of an existing set gains at
+most one entry in its list of problems.
 """
 
 from __future__ import annotations

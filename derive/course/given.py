@@ -309,7 +309,7 @@ class NumbersAsLetters:
         self.measured: list[Measured] = []
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
-        """Return the value that replaces a number with a unit: zero, an exact angle, or a letter with a sign.
+        """Return the value that replaces a number with a unit: zero, an exact angle, a letter, or minus a letter.
 
         The result is None if the text is an expression. `of` is the size of the group to which the number belongs, such
         as 3 for the sides of a box.
@@ -382,8 +382,8 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
         # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
-        # Equal numbers share a letter, so that a cube stays a cube. If all numbers are integer multiples of the
-        # smallest number, they share one letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
+        # Equal numbers share a letter, so that a cube stays a cube. If all entries are small integer multiples of the
+        # smallest one, they share one letter: 2 cm, 4 cm, 6 cm are a, 2a, 3a.
         times = size / smallest.si if smallest else 1
         if smallest:
             entry, size = smallest, smallest.si

@@ -26,8 +26,9 @@ def own_modules(script: Path) -> tuple[Path, ...]:
 
 @contextmanager
 def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
-    """Append the script's folder to the module search path, so that no module of a problem hides an installed package.
-    At the end, remove the folder from the path, and the modules that were imported meanwhile from `sys.modules`."""
+    """If there are modules, append the script's folder to the module search path, so that no module of a problem hides
+    an installed package. At the end, remove the folder from the path, and the modules that were imported meanwhile from
+    `sys.modules`."""
     if not modules:
         yield
         return

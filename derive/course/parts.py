@@ -115,8 +115,7 @@ OBSERVATIONS_MEANING = (
 
 @dataclass(frozen=True)
 class AnswerForm(Record):
-    """The required form of a number, in one unit or in several; a key that is left out has the default of the
-    problem."""
+    """The required form of a number, in one unit or in several; a key that is left out has its default value."""
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",

@@ -1,4 +1,4 @@
-"""The key `drawings:` of a problem: where each drawing of the script appears, its caption and width, what it plots."""
+"""The key `drawings:` of a problem: where each drawing appears, its caption and width, and what it plots."""
 
 from __future__ import annotations
 

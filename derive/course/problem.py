@@ -93,8 +93,8 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, that limiting cases name, and whose curves the engine draws. Those
-        of bifurcation diagrams are not among them."""
+        """The names of the steps that parts ask for, of the steps that limiting cases name, and of the answers whose
+        curves the engine draws; the equilibria of a bifurcation diagram and the formulas of a path are left out."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
@@ -274,7 +274,8 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
     """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
-    Unless it is a phase portrait, it needs `against` and `range`. A drawing with neither must not have `against`."""
+    Unless it is a phase portrait, it needs `against` and `range`. A drawing without `plot` and `curves` must not have
+    `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         if drawing.is_of_engine and isinstance(script, Script):
@@ -473,7 +474,7 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
     """Whether each error is an unknown key that resembles no known key and is inside an entry, such as a particle. Then
-    no value is missing, so errors in the known keys are not consequences of these errors."""
+    no value is missing because of these errors, so errors in the values of the known keys are reported too."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top

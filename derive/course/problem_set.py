@@ -177,7 +177,7 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set, or raise one `Rejected` with the errors of its file."""
+    """Return the set; raise `Misused` if it does not exist, and one `Rejected` with all errors of its file."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)

@@ -2,8 +2,8 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-Each key has a reader. The JSON schema of the reader shows editors what the key allows; its function turns the contents
-of the key into a checked value.
+Each key has a reader. The JSON schema of the reader shows editors what the key allows; the function of the reader turns
+the contents of the key into a checked value.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Key:
 def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", formerly: str = "") -> Any:
     """Declare a field of a record; the field is read from a key of a file.
 
-    called     the name of the key in the file, if Python does not allow this name for a field
+    called     the name of the key in the file, if it differs from the name of the field
     formerly   the former name of the key: an error for this name says which name to write instead
     """
     own = Key(meaning, reader, required, formerly)

@@ -185,7 +185,8 @@ class InLetters:
     ) -> Expr:
         """Read a constant expression of a kind; with `in_time`, it may be a function of the time.
 
-        If quantities of this kind are positive, a negative expression is rejected; zero is allowed only with `or_zero`.
+        If quantities of this kind are positive, an expression that is known not to be positive is rejected; zero is
+        allowed with `or_zero`.
         """
         found = self.constant(node, name, kind, of, in_time)
         if (

@@ -243,7 +243,7 @@ class DrawingKeys(Record):
     )
     over: dict[Word, tuple[Formula, ...]] = key(
         "for a phase portrait: a coordinate and its momentum, each with its two ends; for a bifurcation diagram: the "
-        "coordinate, if the vertical axis does not show all equilibria",
+        "coordinate with its two ends, if the vertical axis should not show all equilibria",
         mapping_of(ENDS),
     )
     ends: tuple[Formula, ...] | None = key(
@@ -320,7 +320,7 @@ class ProblemKeys(Record):
         TEXT,
         required=True,
     )
-    points: Fraction | None = key("total points; the points of the parts must add up to this total", POINTS)
+    points: Fraction | None = key("total points; if all parts have points, these must add up to this total", POINTS)
     symbols: dict[Word, SortOfLetter] = key(
         "letters and their kinds, with what is known about the values: `M: mass`, `F: positive force`, "
         "`alpha: angle in (0, pi/2)`",

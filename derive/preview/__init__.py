@@ -1,1 +1,1 @@
-"""Shows the page of a problem in a browser while you write it; it accepts requests from this machine only."""
+"""Shows the page of a problem in a browser while you edit the problem, and accepts requests from this machine only."""

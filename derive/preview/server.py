@@ -4,8 +4,8 @@
     /NAME.html        the page of another problem of the set
     /NAME/events      messages to the page NAME.html: its new content, or its errors
 
-Nothing else is served, and no file can be requested by its name. Only requests that use a local name of this machine
-are answered, so that no page of another site can read the content of these pages.
+Nothing else is served, and no file can be requested by its name. A request that does not use a local name of this
+machine is rejected, so that no page of another site can read the content of these pages.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Scripts that the engine offers: `solve:` names one of them, and `given:` describes the bodies or the system."""
+"""Scripts of the engine: `solve:` names one of them, and `given:` describes the system, the bodies or the rotation."""

@@ -219,8 +219,11 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return found
 
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
-        """Draw the curves on which the tip of the angular momentum of a free body stays; the drawing follows the
-        answers about the stability of a rotation and about the conserved quantities."""
+        """Draw the curves on which the tip of the angular momentum of a free body stays.
+
+        The drawing follows the requested answers about the stability of a rotation and about the conserved quantities
+        or, without such answers, the angular momentum.
+        """
         if self.described.torque or self.is_given:
             message = "the polhodes are those of a body that rotates freely"
             rejected("wrong-argument", message, None, "leave out `torque`, `along`, `rates` and `start`")

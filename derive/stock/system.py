@@ -209,7 +209,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def bodies(self) -> dict[str, Any]:
-        """Return the bodies with a position, by name."""
+        """Return the bodies in their positions, by name."""
         found: dict[str, Any] = {}
         for name, body in self.described.bodies.items():  # a body may be held at a point of an earlier body
             found[name] = body.made(found)
@@ -254,7 +254,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def motions(self) -> tuple[Quantity, ...]:
-        """Return one equation of motion for each independent coordinate, by the method of the problem."""
+        """Return one equation of motion for each independent coordinate, derived by `self.method`."""
         return tuple(self.motion(name) for name in self.independent)
 
     @cached_property
@@ -491,8 +491,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that the constant momenta are positive, or different from zero. Leave the second assumption out if the
-        force of the effective potential on the other coordinates does not depend on the momentum."""
+        """Assume that each constant momentum is positive if its symbol is, and otherwise that it is not zero.
+
+        The second assumption is left out if there are other coordinates, and if the force of the effective potential on
+        them does not depend on this momentum.
+        """
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
@@ -553,8 +556,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        """Whether given forces that do not depend on the time may shift the equilibrium. For a given Lagrangian the
-        answer is yes, unless the Lagrangian contains the time."""
+        """Whether given forces may shift the equilibrium; false if one of these forces or the Lagrangian depends on the
+        time. A Lagrangian that the problem gives may contain such forces."""
         if depends_on_time(self.lagrangian.value):
             return False
         pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []
@@ -573,7 +576,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
 
 def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
-    """Return the quantities as a tuple; if there are none, raise an error with the message `otherwise`."""
+    """Return the quantities as a tuple; without quantities, raise an error with the message `otherwise`."""
     some = tuple(found)
     if not some:
         raise Rejected(Complaint("wrong-argument", otherwise))

@@ -5,8 +5,8 @@ r"""The grammar of a formula: chains of sides, sums, products, factors.
     product  factor ((\cdot | \times)? factor)* ("/" factor)?    with integral signs and differentials among the factors
     factor   atom power?                             atom    number, letter, fraction, root, function, bracket, matrix
 
-If a formula has two possible readings, it is rejected, and the help shows how to write it clearly: `a/2b`, `\sin a b`
-of two dimensionless letters, `\sin x^2`, `2\frac12`, `U(\theta)`.
+A formula with two possible readings is rejected, such as `a/2b`, `\sin x^2`, `2\frac12`, `U(\theta)`, and `\sin a b` if
+both letters are dimensionless. The help of the error shows how to write the formula clearly.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ _SIGNS = {"+": (1, 1), "-": (-1, -1), "\\pm": (1, -1), "\\mp": (-1, 1)}
 
 
 class _Parts:
-    """The factors of a product: neighbours are multiplied first, then dot and cross products are taken from left to
-    right."""
+    """The factors of a product: factors without a sign between them are multiplied first, then dot and cross products
+    are taken from left to right."""
 
     def __init__(self, reader: Grids):
         self.reader = reader
@@ -168,7 +168,7 @@ class Formula(Brackets):
         return cursor.before.text if cursor.before.kind == "mark" else f"\\{cursor.before.text}"
 
     def divided(self, cursor: Cursor, depth: int, above: TermOrGrid, signs: list[Sign]) -> TermOrGrid:
-        """Read `a/b`, and reject a factor that follows `b`: some readers take `a/2b` for a/(2b) and some for (a/2)b."""
+        """Read `a/b`; reject a factor or a `/` after it, because `a/2b` could mean a/(2b) or (a/2)b."""
         slash = cursor.token
         assert slash is not None
         cursor.at += 1
@@ -325,7 +325,7 @@ class Formula(Brackets):
         return spanning(value, argument.start, argument.end)
 
     def closed_sum(self, cursor: Cursor, depth: int) -> TermOrGrid:
-        """Read a sum that fills everything between two braces."""
+        """Read a sum that extends to the last token of the cursor; reject anything after it."""
         value = self.sum(cursor, depth)
         if cursor.token:
             self.unexpected(cursor)

@@ -1,8 +1,8 @@
 """Quotations of a document in its own letters: prose with formulas between dollar signs.
 
-A quotation is data and never reaches TeX unchanged. The formulas of a quotation are split into commands and signs.
-The formula is written again from these pieces if each is on a list of known ones and all are correctly nested. Anything
-unknown is rejected at its place in the text. A quotation may contain commands that the grammar does not read, because
+A quotation is data and never reaches TeX unchanged. Each formula of a quotation is split into commands and signs. The
+formula is written again from these pieces if each piece is known and all pieces are correctly nested. Anything unknown
+is rejected at its place in the text. A quotation may contain commands that the grammar does not read, because
 the quoted formula may be garbled.
 """
 

@@ -156,7 +156,7 @@ def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, 
 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
-    """Compare the decimal in a relation such as `S > 28` with the derived decimal. The left sides and the comparison
+    """Compare the decimal in a relation such as `S > 28` with the derived number. The left sides and the comparison
     signs must be the same."""
     if stated.left != ours.left or stated.operator != ours.operator or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")

@@ -2,7 +2,8 @@
 
 The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
 `values:`. An edit of the problem's input therefore does not break the comparison. A problem's own file can also have
-entries, under `reference:`; they are compared for the problem's input. An entry states a value of one step:
+entries, under `reference:`; they are compared for the problem's input. An entry usually states a value of
+one step. Its comparison has one of these outcomes:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, equal to that many figures

@@ -91,8 +91,8 @@ class GroupKeys(Record):
         _OUR_LETTERS,
     )
     values: dict[Word, Tree] = key(
-        "numbers for letters; if a stated value does not contain the letter, its number is substituted in the derived "
-        "value",
+        "numbers for letters; if a stated value does not contain one of these letters, the number of this letter is "
+        "substituted in the derived value",
         VALUES,
     )
     entries: tuple[EntryKeys, ...] = key(

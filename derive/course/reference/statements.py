@@ -122,7 +122,8 @@ def reference_of_set(root: Path, set_id: str) -> Tree | None:
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """Return the groups about this problem, each as the problem with the group's input; raise `Rejected` on errors.
+    """Return, for each group about this problem, the problem with the group's input, and the entries of the group;
+    raise `Rejected` on errors.
 
     The contents of groups for other problems are not read here, so their errors do not concern this problem.
     """

@@ -51,7 +51,8 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of the steps that a part asks for; of the equilibria, if no part asks for any of them."""
+        """Return the keys of those of these steps that parts ask for; if parts ask for none of them, the keys of the
+        equilibria."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 
@@ -129,7 +130,8 @@ class Parameter:
 
 
 def ratio(name: Any, expr: Expr, letters: Sequence[Symbol], against: Word, keys: tuple[str, ...]) -> Parameter:
-    """Return the parameter for a ratio such as omega/omega_c: it replaces the first letter in it.
+    """Return the parameter for a ratio such as omega/omega_c; the ratio replaces the first letter to which it is
+    proportional.
 
     letters   the letters of the ratio in their order
     """

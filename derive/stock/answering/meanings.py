@@ -22,7 +22,7 @@ MEANINGS: Mapping[str, str] = {
     "equilibria": "the equilibria, or the steady motions",
     "stability": "the stability of each equilibrium",
     "linearised": "the equations of small displacements",
-    "normal_modes": "the frequencies of the normal modes and their shapes",
+    "normal_modes": "the frequencies and the shapes of the normal modes",
     "frequency": "the frequencies of small oscillations",
     "period": "the period of small oscillations",
     "no_slip": "the conditions of rolling without slipping",

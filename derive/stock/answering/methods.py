@@ -60,7 +60,7 @@ def _is_of_a_lagrangian(name: str) -> bool:
 
 
 def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
-    """Reject a method by which no step of the answers is derived."""
+    """Reject a method other than `lagrange` by which no step of the answers is derived."""
     if method is None or method == LAGRANGE or not answers:
         return
     steps = with_ancestors(returned_quantities(list(answers.values())))

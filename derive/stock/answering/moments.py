@@ -39,8 +39,8 @@ def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None
     """Reject an assumption about rates, such as the direction of slip, that is false at the start of the requested
     motions.
 
-    An assumption with > is tested if it contains the rate of a coordinate with a requested motion. The start values
-    must also determine the sign of left side minus right side.
+    An assumption with > is tested if it contains the rate of a coordinate with a requested motion, and if the start
+    values determine the sign of its left side minus its right side.
     """
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}

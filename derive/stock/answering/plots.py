@@ -34,7 +34,8 @@ _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
 @dataclass(frozen=True)
 class Shown:
-    """A quantity of a path: its name on the axis, its value, its kind and unit, and the keys of its answers."""
+    """A quantity of a path, or the ratio of a diagram: its name on the axis, its value, its kind and unit, and the keys
+    of its answers."""
 
     label: Any
     expr: Expr

@@ -23,7 +23,9 @@ def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quan
 
     contact   the constraint of a contact with static friction
     answer    a function of the name of an answer and of the key of one of its steps; it returns this step
-    If the page derives the accelerations or the forces, and the forces are constant, the condition is solved for mu_s.
+    If the page derives the accelerations or the forces, and the derived forces are known to satisfy the condition,
+    nothing is assumed. If these forces are constant, mu_s is a letter and the friction has only one possible direction,
+    the condition is solved for mu_s.
     Errors: the condition is known to be false.
     """
     steps, limit = established(), contact.limit

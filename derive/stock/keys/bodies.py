@@ -418,7 +418,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """Return the specified sizes of a shape, and report sizes that are missing or do not belong to the shape."""
+    """Return the specified sizes of a shape; report missing sizes, a missing mass, and keys that the shape lacks."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))

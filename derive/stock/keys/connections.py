@@ -334,8 +334,8 @@ class StringKeys(Record):
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
     mass_of: Word | None = key(
-        "for a uniform rope with mass: the particle that has this mass. It moves with the speed of the rope at a "
-        "constant height, because `gravity` acts on the pieces of the rope",
+        "for a uniform rope with mass: the particle that has this mass. Describe this particle at a constant height "
+        "and with the speed of the rope, because `gravity` acts on the pieces of the rope",
         TEXT,
     )
 

@@ -24,12 +24,13 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """Return the steps of each case: the limiting case, and steps that compare it with a known result.
+    """Return the steps of each case: the limiting case and, if requested, steps that write its result in other symbols
+    or compare it with another step.
 
     Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
     can therefore have the same symbol. No steps are returned for a case in three situations:
 
-    - The step of the case does not exist for the current inputs.
+    - Another step replaces the step of the case.
     - The inputs or the result no longer contain a symbol of the case.
     - The value of another symbol of the case depends on the symbol that goes to its limit.
     """

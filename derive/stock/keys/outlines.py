@@ -69,11 +69,11 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """Draw a body with its axes at the point about which it rotates, and its axis of rotation.
+    """Draw a body with its axes at the point about which it rotates, and its axis of rotation if `along` gives it.
 
     Nothing is drawn if the boundary of the body is neither round nor made of faces.
-    If the angular velocity is known at one instant only, an arrow along it replaces the axis of rotation. If the axis
-    is given and `has_angle` is true, a second drawing shows the angle between the angular velocity and the angular
+    If the angular velocity is known at one instant only, an arrow shows its direction. If `along` gives the axis
+    and `has_angle` is true, a second drawing shows the angle between the angular velocity and the angular
     momentum.
     """
     body, described = answers.body, answers.described
