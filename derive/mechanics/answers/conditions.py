@@ -39,7 +39,9 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # rule and comparison sign for real roots
+REAL = {
+    ("answers.discriminant", mark) for mark in (">=", ">")
+}  # rule and comparison sign of a condition for real roots
 POINTS = 40
 ZERO = Integer(0)
 
@@ -122,7 +124,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # If the original and the solved relation differ by a factor of known sign, "beside" is valid everywhere.
+            # If the original and the solved relation differ by a factor of known sign, the route "beside" suffices.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",

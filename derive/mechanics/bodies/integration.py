@@ -1,9 +1,9 @@
 """Integrals over a body, worked out line by line as in a written calculation.
 
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
-variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines are the split,
-the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then follow the product of
-the values, and this product with density times volume, which is the mass, in one bracket.
+variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines show the
+separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then
+follow the product of the values, and this product with density times volume, which is the mass, in one bracket.
 
 The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
 varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along

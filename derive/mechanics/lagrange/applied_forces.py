@@ -203,8 +203,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq; dr_i/dq is evaluated if the force acts on a point of a body, or if each is a
-    number."""
+    """Return the terms F_i dr_i/dq; the derivatives are evaluated if the force acts on a point of a body, or if each of
+    them is 0 or 1."""
     pairs = list(zip(load.force, load.place, load.slopes(q.symbol), strict=True))
     if (
         load.held

@@ -54,7 +54,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
-MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence makes
+MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
 
 
 @dataclass(frozen=True)
@@ -357,7 +357,7 @@ class _Isolation:
 
     @property
     def formulas(self) -> dict[str, tuple[Relation, Relation]]:
-        """Return the substitutions for the sentence, each compared with its equation."""
+        """Return the substitutions for the sentence, each with the equation from which it follows."""
         found, rows = {}, self.problem.residuals_known
         done: dict[Symbol, Expr] = {}
         for n, each in enumerate(self._substituted, 1):

@@ -106,8 +106,8 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _subtracted(energy: Expr, moving: Collection[Symbol]) -> list[Expr]:
-    """Return the terms of minus the energy, those without coordinates last. A difference of constants before a
-    coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
+    """Return the terms of -U for a potential energy U; terms without coordinates are last. A difference of constants
+    before a coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
     terms = sorted(Add.make_args(energy), key=lambda term: not term.free_symbols & {*moving})
     return [_turned(term, moving) for term in terms]
 

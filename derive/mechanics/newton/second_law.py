@@ -82,7 +82,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
 
 
 def at_rest_in(equation: Relation, system: System, at_rest: bool) -> Relation:
-    """The equation with all rates and accelerations zero, if the system is at rest."""
+    """The equation; for a system at rest, with all rates and accelerations zero."""
     still = {rate(q, n): ZERO for q in system.coordinates for n in (1, 2)}
     return Relation(equation.residual.xreplace(still), "=", ZERO) if at_rest else equation
 
