@@ -444,8 +444,8 @@ def near_that(facts: Judged, place: Any) -> bool:
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """Whether the power is the requested order, if there is one. For a finite limit, no higher power of the small
-    quantity may be kept."""
+    """If an order is requested, whether the power is this order. For a finite limit, no higher power of the small
+    quantity may then be kept."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)
@@ -537,7 +537,8 @@ def there_where_told(facts: Judged, outcome: str) -> bool:
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
     """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence hold.
-    Trial numbers are used only if they make the width of the interval positive and the place real."""
+    Trial numbers are used only if they satisfy the assumptions and make the width of the interval positive and the
+    place real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

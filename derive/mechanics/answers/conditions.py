@@ -39,9 +39,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {
-    ("answers.discriminant", mark) for mark in (">=", ">")
-}  # rule and comparison sign of a condition for real roots
+REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # conditions for real roots: rule and comparison sign
 POINTS = 40
 ZERO = Integer(0)
 

@@ -80,8 +80,8 @@ def limiting_case(
 ) -> Quantity:
     """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x, -1/x or x - a.
 
-    of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
-             limit of the right side is found. Any other equation is expanded by `equation_in_limit`
+    of       a scalar, a vector or a tensor, any unit. For an equation, or an inequality with >= or <=, that is solved
+             for a letter, the limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       the limit: 0 for a small letter, SymPy's `oo` or `-oo` for a large letter, otherwise the value that it is
              near

@@ -1,8 +1,8 @@
 """Check the positions of the named points of a body by means of the limits of its region.
 
-A corner is at a limit of every coordinate. A point of the rim is on the outermost circle. The base is the middle of an
-end face. The apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by
-integration.
+A corner or the end of a rod is at a limit of every coordinate. A point of the rim is on the outermost circle. The base
+is the middle of an end face. The apex is an end where the cross-section shrinks to a point. The centre is the centre of
+mass by integration.
 """
 
 from __future__ import annotations

@@ -346,7 +346,7 @@ class Impact:
 
     def _check_approach(self, speed: Expr) -> None:
         """Require that the two places approach each other along the normal, because surfaces can push but not pull. If
-        it is unknown whether they do, the page assumes that they approach each other."""
+        it is unknown whether the places approach each other, the page assumes that they do."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"

@@ -351,14 +351,15 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-LITTLE_LONGER = 2  # an energy in which each coordinate occurs once may be longer by this number, measured by `length`
+# An energy in which terms with the same coordinate are together may be longer by this number, measured by `length`.
+LITTLE_LONGER = 2
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta).
 
-    Each coordinate occurs once if this makes the energy only a little longer: (M - m) g x - M g l, not
-    M g (x - l) - m g x.
+    Terms with the same coordinate are put together if this makes the energy only a little longer: (M - m) g x - M g l,
+    not M g (x - l) - m g x.
     """
     collected = with_constants_together(value.expand(), moving)
     forms = [by_terms(value), by_terms(value.expand()), collected]
@@ -456,9 +457,9 @@ FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names
 
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
-    """Return the extension of each spring for the sentence, length minus natural length, and the same from the force of
-    the spring. Return an empty mapping if there are many springs. Also return an empty mapping if one extension is
-    long, contains a power, or contains no coordinate, or if one natural length is zero."""
+    """Return the extension of each spring for the sentence: as length minus natural length, and from the force of the
+    spring. Return an empty mapping if there are many springs. Also return an empty mapping if one extension is long,
+    contains a power, or contains no coordinate, or if one natural length is zero."""
     found: dict[str, tuple[Expr, Expr]] = {}
     for i, each in enumerate(springs, 1):
         constant = derivative(each.pull, each.distance)

@@ -2,8 +2,8 @@
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
 second law for this body along this direction contains only forces that the description names. The forces that the
-coordinates replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they
-have no component along the direction.
+coordinates replace do no work in such a displacement, so they have no component along the direction. An example is the
+tension of a string whose length the coordinates keep constant.
 
 Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7.
 """

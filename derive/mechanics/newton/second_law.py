@@ -94,7 +94,8 @@ def scope_of(system: System) -> Scope:
 
 
 def outcome_of(body: Alone, at_rest: bool) -> str:
-    """The outcome of a law of one body: whether the system has other bodies, and whether one has the same mass."""
+    """The outcome of a law of one body: whether the system has other bodies, and whether one of these has the same
+    mass."""
     masses = [each.mass for each in bodies_alone(body.system)]
     same = sum(is_zero(each - body.mass) for each in masses)
     found = "alone" if len(masses) == 1 else "alike" if same > 1 else "of_several"
