@@ -185,7 +185,8 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if there is no such fault.
+    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if no fault occurs in every
+    draw.
 
     If no fault is common to all draws, the body is possible. For example, two of many rods may overlap by accident in
     one draw, and two other rods in the next draw.

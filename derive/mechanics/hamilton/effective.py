@@ -134,7 +134,7 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
             message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
             raise Rejected(Complaint("wrong-argument", message, help="use the equation of motion with this force"))
     if not found:
-        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate remains"
+        message = f"`{verb}`: every coordinate has a constant momentum, so no coordinate remains"
         raise Rejected(Complaint("wrong-argument", message))
     return found
 

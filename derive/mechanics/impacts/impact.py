@@ -382,7 +382,7 @@ class Impact:
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):
-            message = "the rates before this impact do not keep a constraint of the system"
+            message = "the rates before this impact do not satisfy a constraint of the system"
             raise Rejected(Complaint("wrong-argument", message))
         kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
         letter = unknown(f"J_{c.force.name}", kind)

@@ -701,7 +701,7 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
         how = "contradict" if _contradict(problem.constraints) else "repeat"
         message = f"the constraints enforced by {names} {how} one another, so the forces are not determined"
         return Rejected(
-            Complaint("constraints", message, help="remove constraints that follow from the other constraints")
+            Complaint("constraints", message, help="remove constraints that follow from the others or contradict them")
         )
     bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
     what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"

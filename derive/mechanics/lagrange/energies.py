@@ -339,7 +339,7 @@ def _lines_of_kinetic_energy(
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the level at which the line with substituted values appears; None if there are no rotations, and so no
+    """Return the lowest level that shows the line with substituted values; None if there are no rotations, and so no
     such line. A line with columns or matrices appears only at full level."""
     if not turnings:
         return None
