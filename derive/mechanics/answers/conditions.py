@@ -187,8 +187,8 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """Return the condition that the divisor of both sides of an equation does not vanish; None if this is known, and
-    for an inequality."""
+    """Return the condition that the divisor of both sides of an equation does not vanish. Return None for an
+    inequality, or if it is known that the divisor does not vanish."""
     if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)

@@ -185,11 +185,10 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if no fault occurs in every
-    draw.
+    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if the body is possible.
 
-    If no fault is common to all draws, the body is possible. For example, two of many rods may overlap by accident in
-    one draw, and two other rods in the next draw.
+    The body is possible if no fault is common to all these draws. For example, two of many rods may overlap by accident
+    in one draw, and two other rods in the next draw.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}
