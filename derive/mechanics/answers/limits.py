@@ -227,8 +227,8 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
 
 
 def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
-    """Return numbers close to the limit: a very large number for an infinite limit, otherwise one number on each
-    side."""
+    """Return numbers close to the limit: for an infinite limit, a number of very large absolute value; otherwise, one
+    number on each side."""
     if aim in (oo, -oo):
         return (FAR if aim == oo else -FAR,)
     there = explicit(aim).xreplace(dict(point))

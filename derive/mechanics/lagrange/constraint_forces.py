@@ -154,7 +154,8 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
     eliminated (from these equations, after other unknowns are eliminated), zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
-    for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
+    for every coordinate.
+    Check: the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are more than
     nine unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have
     to pull, or a string would have to push.
