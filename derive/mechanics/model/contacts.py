@@ -122,8 +122,8 @@ def contact(
     of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`. If a body
                carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
-    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
-               if the coordinates allow the body to leave the surface
+    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. The
+               symbol is needed if the coordinates allow the body to leave the surface
     rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
                the coordinates alone keep the body on the surface. The friction is positive in the direction along the
                surface that has the free side on its left. In space, the friction has two components along axes in the

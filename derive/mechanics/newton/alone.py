@@ -173,7 +173,7 @@ def body_of(system: System, q: Symbol) -> Alone:
             if s not in taken and each.moves_with(s) and _moves_alone(each, s):
                 taken[s] = each
     if q not in taken:
-        why = "because they keep a connection whose force has no symbol"
+        why = "because the coordinates keep a connection whose force has no symbol"
         message = f"the coordinates do not let one body move with {q.name} while all others stay at rest, {why}"
         help_line = (
             "give each body coordinates of its own, and each string, rod, joint or contact a symbol for its force; "
