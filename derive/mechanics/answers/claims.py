@@ -389,7 +389,7 @@ def linear(facts: Judged) -> bool:
 
 
 def root(facts: Judged, fact: RootOf) -> bool:
-    """Whether the value is a root of the polynomial whose coefficients `fact` has."""
+    """Whether the value is a root of the polynomial with the coefficients of `fact`."""
     value = facts.result.right if isinstance(facts.result, Relation) else facts.result
     powers = range(len(fact.coefficients) - 1, -1, -1)
     return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))

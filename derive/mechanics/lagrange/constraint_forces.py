@@ -172,10 +172,10 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
     Second route: d'Alembert's principle, as for `accelerations`.
-    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force and is
-    always negative; the sentence states the direction in which it acts), multiplier (the gradient of f with respect to
-    the position of the particle does not have length 1; the sentence states the length), isolated and eliminated (as
-    for `accelerations`), zero.
+    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force on a
+    single body and is known to be negative; the sentence states the direction in which the force acts), multiplier (the
+    gradient of f with respect to the position of the particle does not have length 1; the sentence states the length),
+    isolated and eliminated (as for `accelerations`), zero.
     Errors: no constraint is enforced by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
