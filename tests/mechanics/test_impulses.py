@@ -197,7 +197,7 @@ def test_questions_about_impacts_that_do_not_fit() -> None:
 def test_rates_before_must_keep_the_constraints() -> None:
     x, y = coordinate("x", "length"), coordinate("y", "length")
     system = System(Particle(m, point(x + 0, y + 0)), constraint(y - x))
-    with pytest.raises(Rejected, match="do not keep a constraint"):
+    with pytest.raises(Rejected, match="do not satisfy a constraint"):
         Impact(system, impulse((J, 0), point(x + 0, y + 0)), before={x: v})
 
 

@@ -72,7 +72,7 @@ def equation_in_limit(
         message = f"`equation_in_limit`: `{equation.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
     if x == TIME or any(x.name in (q.name, f"{q.name}_dot", f"{q.name}_ddot") for q in coordinates_of(equation)):
-        message = f"`equation_in_limit`: {x.name} changes in the motion, so it is not always small"
+        message = f"`equation_in_limit`: {x.name} changes in the motion, so it does not stay near one value"
         raise Rejected(Complaint("changes", message, help="`linearised` gives small motions about equilibrium"))
     place = explicit(to.value if isinstance(to, Quantity) else to)
     series = expansion_of(equation, left, x, place, order)

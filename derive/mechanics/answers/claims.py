@@ -189,8 +189,9 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Judge whether a factor that must not vanish may be divided out of the difference of quantity and bound: the
-    quotient must still vanish for the result. Return True if there is no such factor."""
+    """Judge whether the difference of quantity and bound may be divided by the factor that must not vanish: the
+    quotient must contain the unknown, and must vanish if the result is substituted. Return True if there is no such
+    factor."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -212,8 +213,9 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Judge whether the difference has the stated sign for all values of its symbols. This sign must satisfy the
-    comparison if `wanted` is true, and must violate it otherwise."""
+    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
+    The stated sign must satisfy the requested comparison if `wanted` is true, and must violate this comparison
+    otherwise."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -258,8 +260,8 @@ def is_nothing(facts: Judged) -> bool:
 
 
 def goes_as(wanted: int) -> Predicate:
-    """Judge whether terms are left out and the result is one power of the small quantity. In the limit the result must
-    stay finite (`wanted` is 0), vanish (1) or diverge (-1)."""
+    """Judge whether terms are left out and each nonzero entry of the result is one power of the small quantity, up to a
+    factor. In the limit these entries must stay finite (`wanted` is 0), vanish (1) or diverge (-1)."""
 
     def is_so(facts: Judged) -> bool:
         x, to = facts.inputs["x"], facts.inputs["to"]
@@ -338,8 +340,8 @@ def to_order(wanted: int | None) -> Predicate:
 
 
 def roots_fit(test: Callable[[Expr, Expr, Expr], Any]) -> Predicate:
-    """Judge whether `test` accepts this root, the other root and the coefficient b at all trial numbers for which the
-    roots are real. Symbols with a given number keep this number."""
+    """Judge whether `test` accepts this root, the other root and the coefficient b at all trial numbers with a positive
+    discriminant. Symbols with a given number keep this number."""
 
     def is_so(facts: Judged) -> bool:
         quadratic = facts.inputs["quadratic"]
@@ -368,8 +370,9 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge whether the discriminant has this sign. For a positive sign, the product of the roots must also be negative
-    if `product` is -1, and must not be negative otherwise."""
+    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown. For a
+    positive sign, the product of the roots must also be negative if `product` is -1, and must not be negative
+    otherwise."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -386,7 +389,7 @@ def linear(facts: Judged) -> bool:
 
 
 def root(facts: Judged, fact: RootOf) -> bool:
-    """Whether the value is a root of the polynomial whose coefficients `fact` has."""
+    """Whether the value is a root of the polynomial with the coefficients of `fact`."""
     value = facts.result.right if isinstance(facts.result, Relation) else facts.result
     powers = range(len(fact.coefficients) - 1, -1, -1)
     return is_zero(sum(c * explicit(value) ** n for c, n in zip(fact.coefficients, powers, strict=True)))
@@ -441,8 +444,8 @@ def near_that(facts: Judged, place: Any) -> bool:
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """Whether the power is the requested order, if there is one. For a finite limit, no higher power of the small
-    quantity may be kept."""
+    """If an order is requested, whether the power is this order. For a finite limit, no higher power of the small
+    quantity may then be kept."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)
@@ -475,7 +478,7 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether a condition for no root is a strict inequality, because at equality there is still a root; True for other
+    """Whether a condition for no root has the form "... < 0", because at equality there is still a root; True for other
     outcomes."""
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
@@ -534,7 +537,8 @@ def there_where_told(facts: Judged, outcome: str) -> bool:
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
     """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence hold.
-    Trial numbers are used only if they make the width of the interval positive and the place real."""
+    Trial numbers are used only if they satisfy the assumptions and make the width of the interval positive and the
+    place real."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

@@ -39,7 +39,7 @@ WORDS = {
     ">=": "at_least",
     "<=": "at_most",
 }
-REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # rule and comparison sign for real roots
+REAL = {("answers.discriminant", mark) for mark in (">=", ">")}  # conditions for real roots: rule and comparison sign
 POINTS = 40
 ZERO = Integer(0)
 
@@ -122,7 +122,7 @@ def where(
         ),
         routes={
             "beside": lambda found: _beside(found, difference, mark),
-            # If the original and the solved relation differ by a factor of known sign, "beside" is valid everywhere.
+            # If the original and the solved relation differ by a factor of known sign, the route "beside" suffices.
             **({} if divided_out(difference, alone, solved) else {"points": same_truth}),
         },
         outcome="squared" if alone != unknown else "solved",
@@ -187,8 +187,8 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """Return the condition that the divisor of both sides of an equation does not vanish; None if this is known, and
-    for an inequality."""
+    """Return the condition that the divisor of both sides of an equation does not vanish. Return None for an
+    inequality, or if it is known that the divisor does not vanish."""
     if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)

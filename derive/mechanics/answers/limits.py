@@ -80,8 +80,8 @@ def limiting_case(
 ) -> Quantity:
     """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x, -1/x or x - a.
 
-    of       a scalar, a vector or a tensor, any unit. For an equation or an inequality that is solved for a letter, the
-             limit of the right side is found. Any other equation is expanded by `equation_in_limit`
+    of       a scalar, a vector or a tensor, any unit. For an equation, or an inequality with >= or <=, that is solved
+             for a letter, the limit of the right side is found. Any other equation is expanded by `equation_in_limit`
     letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
     to       the limit: 0 for a small letter, SymPy's `oo` or `-oo` for a large letter, otherwise the value that it is
              near
@@ -95,8 +95,9 @@ def limiting_case(
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
-    motion does not reach the limit; the result has no such expansion (for example because it oscillates near the
-    limit), has different expansions on the two sides, or has no term up to the requested order.
+    motion does not reach the limit; an assumed relation cannot hold near the limit; the result has no such expansion
+    (for example because it oscillates near the limit), has different expansions on the two sides, or has no term up to
+    the requested order.
     Source: Morin, *Introduction to Classical Mechanics*, section 1.1 (special cases).
     """
     solved = _solved_for(of)
@@ -189,7 +190,7 @@ def _solved_for(of: Quantity) -> Symbol | None:
 
 
 def _what_goes(letter: Any) -> tuple[Expr, Symbol]:
-    """Return the expression whose limit the page states, and the symbol that goes to the limit: h for h/R."""
+    """Return the expression whose limit the page states, such as h/R, and the symbol that goes to the limit, here h."""
     if isinstance(letter, Mul):
         above = [part for part in Mul.make_args(letter.as_numer_denom()[0]) if isinstance(part, Symbol)]
         if above and above[0] not in (letter / above[0]).free_symbols:
@@ -204,7 +205,7 @@ def _check_letter(of: Quantity, value: Any, x: Symbol, is_end: bool) -> None:
         message = f"`limiting_case`: `{of.key}` does not contain {x.name}"
         raise Rejected(Complaint("nothing-to-put-in", message))
     if not is_end and changes(x, {**of.coordinates, **dict.fromkeys(named_coordinates(), "")}) is not None:
-        message = f"`limiting_case`: {x.name} changes in the motion, so it is not always small"
+        message = f"`limiting_case`: {x.name} changes in the motion, so it does not stay near one value"
         raise Rejected(Complaint("changes", message, help="give a letter that is constant"))
 
 
@@ -226,8 +227,8 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
 
 
 def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
-    """Return numbers close to the limit: a very large number for an infinite limit, otherwise one number on each
-    side."""
+    """Return numbers close to the limit: for an infinite limit, a number of very large absolute value; otherwise, one
+    number on each side."""
     if aim in (oo, -oo):
         return (FAR if aim == oo else -FAR,)
     there = explicit(aim).xreplace(dict(point))

@@ -347,7 +347,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
     found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
     if any(part is None or part.degree() > 2 for part, _ in found):
         degree = max(part.degree() for part, _ in found if part is not None)
-        message = f"`roots`: `{equation.key}` does not factor, and is of degree {degree} in {unknown}"
+        message = f"`roots`: `{equation.key}` has a factor of degree {degree} in {unknown}, which does not factor"
         raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 

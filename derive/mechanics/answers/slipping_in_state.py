@@ -25,7 +25,7 @@ __all__: list[str] = []
 @in_results(
     "slips",
     "the condition |F| <= mu_s N for static friction to suffice; along a motion from `speed`, the first place where "
-    "it does not",
+    "static friction does not suffice",
     friction="slips: the static friction of a contact",
     letter="for: a letter, or a function of a letter such as `tan(alpha)`",
     results="results: answers substituted in the friction and in the normal force",

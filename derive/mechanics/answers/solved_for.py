@@ -35,7 +35,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["solved_for"]
 
 MOST = 6  # greatest number of unknowns
-MOST_SUBSTITUTED = 2  # greatest number of substitutions that a sentence makes
+MOST_SUBSTITUTED = 2  # greatest number of substitutions that a sentence states
 
 
 def solved_for(
@@ -49,8 +49,8 @@ def solved_for(
 
     Check: all values substituted back into all equations; elimination of the unknowns one after another.
     Outcomes: alone (one equation), several (the first of several unknowns), following (a later unknown).
-    Errors: the numbers of equations and of unknowns differ; the equations are not linear in the unknowns, or do not
-    determine the unknowns.
+    Errors: the numbers of equations and of unknowns differ; there are more than six unknowns; the equations are not
+    linear in the unknowns, or do not determine the unknowns.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 3.3.
     """
     given = (equations,) if isinstance(equations, Quantity) else tuple(equations)
@@ -156,7 +156,7 @@ def _solution(
 def _told(
     made: Sequence[Substitution], residuals: Sequence[Expr], named: Mapping[Symbol, Expr]
 ) -> dict[str, tuple[Relation, Relation]]:
-    """Return the substitutions for the sentence, each compared with its equation."""
+    """Return the substitutions for the sentence, each with the equation from which it follows."""
     done: dict[Symbol, Expr] = {}
     found = {}
     for n, each in enumerate(made, 1):

@@ -92,9 +92,9 @@ def put_in(
     this earlier result.
     A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
     back. If the motion reaches the place only under a condition, the sentence states this condition.
-    Outcomes: results (with results), values (with values only), zero (the value is zero), identity (an equation that
-    always holds after the substitution), again (an earlier result is reproduced), turned (a rate that has changed its
-    sign).
+    Outcomes: results (with results), values (with values only), zero (with values only, and the result is zero),
+    identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a
+    rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
@@ -210,8 +210,8 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements by a result: for its symbol and, if it gives a coordinate for the whole motion, for the
-    rates of this coordinate. A conserved momentum also replaces the rate of its coordinate."""
+    """Return the replacements that a result makes: of its symbol and, if the result gives a coordinate for the whole
+    motion, of the rates of this coordinate. A conserved momentum also replaces the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning
@@ -433,7 +433,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return a mapping from the symbol in the name of the result to its value: from theta_dot for the name theta_dot^2.
+    """Return a mapping from the symbol in the name of the result to the value of this symbol: from theta_dot, if the
+    name is theta_dot^2.
 
     For the name |q_dot|, q_dot has the value of the result. The mapping is empty if the name is only a symbol.
     """

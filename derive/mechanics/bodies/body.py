@@ -304,7 +304,7 @@ class OfHeight(Body):
 
 
 class Spherical(OfRadius, RoundBody):
-    """A body whose curved outer surface is a sphere about the origin, or a part of this sphere."""
+    """A body whose curved outer surface is a sphere about the origin, or a part of such a sphere."""
 
     @property
     def ends(self) -> tuple[Expr, Expr]:

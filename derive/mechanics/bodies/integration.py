@@ -1,9 +1,9 @@
 """Integrals over a body, worked out line by line as in a written calculation.
 
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
-variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines are the split,
-the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then follow the product of
-the values, and this product with density times volume, which is the mass, in one bracket.
+variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines show the
+separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then
+follow the product of the values, and this product with density times volume, which is the mass, in one bracket.
 
 The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
 varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along
@@ -107,8 +107,8 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """The term as one integral for each group of variables; the constant factors are in the integral of the first group
-    whose variables the term contains."""
+    """The term as a product of integrals, one for each group of variables; the constant factors are in the integral of
+    the first group whose variables the term contains."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -213,8 +213,8 @@ def _flat(term: Expr) -> tuple[Expr, ...]:
 
 
 def _has_chords(region: Region) -> bool:
-    """Whether the innermost limits are the ends of a chord: they contain a square root with a variable other than the
-    first."""
+    """Whether the innermost limits are the ends of a chord: the upper limit contains a square root of an expression
+    with a variable other than the outermost."""
     roots = (power for power in region.limits[-1][2].atoms(Pow) if power.exp == Rational(1, 2))
     return any(root.has(*region.names[1:]) for root in roots)
 

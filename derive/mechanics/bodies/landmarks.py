@@ -1,8 +1,8 @@
 """Check the positions of the named points of a body by means of the limits of its region.
 
-A corner is at a limit of every coordinate. A point of the rim is on the outermost circle. The base is the middle of an
-end face. The apex is an end where the cross-section shrinks to a point. The centre is the centre of mass by
-integration.
+A corner or the end of a rod is at a limit of every coordinate. A point of the rim is on the outermost circle. The base
+is the middle of an end face. The apex is an end where the cross-section shrinks to a point. The centre is the centre of
+mass by integration.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.steps.step import is_zero
 
 def is_where_named(body: Any, point: Point) -> bool:
     """Whether the axes of a point are orthonormal and right-handed, and its position passes the test for its name, if
-    there is one."""
+    there is a test for this name."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)

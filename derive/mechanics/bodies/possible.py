@@ -2,8 +2,8 @@
 density that changes its sign, a negative mass or size.
 
 The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
-of another part. They reject a body only if it is impossible for every draw of its symbols; a symbol with a number in
-the problem has this number in each draw.
+of another part. These checks reject a body only if it is impossible for every draw of its symbols; a symbol with a
+number in the problem has this number in each draw.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from derive.steps.signs import sign_known
 POINTS = 40  # number of points of a part that are sampled
 TWINS = 6  # number of sampled points at which other values of the variables with the same position are sought
 SHARP = 1e-6  # length added to the bounds of a part, which may be flat or straight
-APART = 1e-3  # values of a variable are distinct if they differ by this fraction of its range
+APART = 1e-3  # values of a variable are distinct if they differ by more than this fraction of its range
 
 
 def require_positive(body: str, role: str, value: Any) -> None:
@@ -185,10 +185,10 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if there is no such fault.
+    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if the body is possible.
 
-    If no fault is common to all draws, the body is possible. For example, two of many rods may overlap by accident in
-    one draw, and two other rods in the next draw.
+    The body is possible if no fault is common to all these draws. For example, two of many rods may overlap by accident
+    in one draw, and two other rods in the next draw.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}

@@ -1,8 +1,8 @@
 """Numerical integrals over a body, for random values of its symbols. They check exact integrals.
 
 The size of a cell is the square root of det(r_i . r_j), from the scalar products of the edges. The integral over each
-variable x uses Gauss's rule in t, where x = m - h cos(pi t), m is the midpoint of the interval and h is half of its
-length: square roots that vanish at an end of the interval are smooth in t.
+variable x uses Gauss's rule in t. Here x = m - h cos(pi t), m is the midpoint of the interval, and h is half of its
+length. Square roots that vanish at an end of the interval are smooth in t.
 Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
 """
 

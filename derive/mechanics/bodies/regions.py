@@ -79,8 +79,8 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether each of x, y and z is zero or ranges between opposite constants, so all coordinate planes are mirror
-        planes."""
+        """Whether each of x, y and z is zero or ranges between opposite constants, and the element contains no
+        variable; then all coordinate planes are mirror planes."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
@@ -123,7 +123,7 @@ class Region:
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
     """Symbols for coordinates, distinct from all given symbols and from each other as far as the names in `OTHERS`
-    allow: r, or else s."""
+    allow; for example r, or else s."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)

@@ -134,7 +134,7 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
             message = f"`{verb}`: a force without a potential energy acts along {q.symbol.name}"
             raise Rejected(Complaint("wrong-argument", message, help="use the equation of motion with this force"))
     if not found:
-        message = f"`{verb}`: with {' and '.join(f'`{each.key}`' for each in constants)} no coordinate remains"
+        message = f"`{verb}`: every coordinate has a constant momentum, so no coordinate remains"
         raise Rejected(Complaint("wrong-argument", message))
     return found
 
@@ -155,8 +155,9 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
 
     Steps derive the rates of the cyclic coordinates.
     Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
-    m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. With the rates
-    substituted, R is T - U - sum of p q_dot, plus the sum of e v . A over charges e in magnetic fields.
+    m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. For charges e in
+    magnetic fields, the sum of e A . dr/dq is added to dR/dq_dot, and its time derivative is added to dR/dq. With the
+    rates substituted, R is T - U - sum of p q_dot, plus the sum of e v . A.
     Outcomes: one (one momentum is constant), several.
     Errors: no momentum is given; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
     force outside L acts along a remaining coordinate; also the errors of `rates_by_momenta`.

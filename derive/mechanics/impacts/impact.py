@@ -346,7 +346,7 @@ class Impact:
 
     def _check_approach(self, speed: Expr) -> None:
         """Require that the two places approach each other along the normal, because surfaces can push but not pull. If
-        it is unknown whether they do, the page assumes that they approach each other."""
+        it is unknown whether the places approach each other, the page assumes that they do."""
         sign = 0 if is_zero(speed) else strict_sign_within(speed)
         if sign == 0:
             message = "the two places do not approach each other before this collision"
@@ -382,7 +382,7 @@ class Impact:
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):
-            message = "the rates before this impact do not keep a constraint of the system"
+            message = "the rates before this impact do not satisfy a constraint of the system"
             raise Rejected(Complaint("wrong-argument", message))
         kind = "angular momentum" if c.kind_of_force == "torque" else "momentum"
         letter = unknown(f"J_{c.force.name}", kind)

@@ -131,7 +131,8 @@ def coordinate(name: str, kind: str = "angle", positive: bool = False) -> Coordi
 def function_of_time(name: str, kind: str = "length", positive: bool = False) -> Prescribed:
     """Return a prescribed function of the time, such as the position X(t) of a shaken support, m.
 
-    name      the symbol of the function; for X, the rates are X_dot and X_ddot, in a script `X.rate()` and `X.rate(2)`
+    name      the symbol of the function, such as X; the rates are then X_dot and X_ddot, in a script `X.rate()` and
+              `X.rate(2)`
     kind      the kind of its values: `length`, `angle`, `force` and so on
     positive  whether its values are known to be positive, as for the length of a string
 

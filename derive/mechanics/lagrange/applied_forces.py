@@ -203,8 +203,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq; dr_i/dq is evaluated if the force acts on a point of a body, or if each is a
-    number."""
+    """Return the terms F_i dr_i/dq; the derivatives are evaluated if the force acts on a point of a body, or if each of
+    them is 0 or 1."""
     pairs = list(zip(load.force, load.place, load.slopes(q.symbol), strict=True))
     if (
         load.held
@@ -262,7 +262,8 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     q             a coordinate of this Lagrangian
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
     If forces without a potential energy act on the system, a step derives their generalized force Q.
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
+    further route is the energy identity.
     Outcomes: applied (forces without a potential energy act along q), kept (constraint forces act along q), both (both
     kinds act along q), free (neither kind acts along q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.

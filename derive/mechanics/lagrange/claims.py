@@ -189,8 +189,9 @@ def free_bodies(facts: Judged) -> int:
 
 
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
-    """Whether the sentence names the parts of the energy of a single body only if the system has no other mass. The
-    energy must have a term of the centre of mass, or the body must turn about a point at rest."""
+    """Whether the word `made` fits the system. Every word except "any" requires a single body and no particle. The word
+    "both" requires a rotation, and a centre of mass that moves. "axis", for motion in a plane, and "point", for motion
+    in space, require that the body turns about a point at rest."""
     system, made = facts.subject.body, facts.words["made"]
     if made == "any":
         return True

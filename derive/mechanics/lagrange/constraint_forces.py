@@ -54,7 +54,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
-MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence makes
+MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,8 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
     eliminated (from these equations, after other unknowns are eliminated), zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
-    for every coordinate. Also, the accelerations satisfy the constraints, differentiated as functions of t.
+    for every coordinate.
+    Check: the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are more than
     nine unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have
     to pull, or a string would have to push.
@@ -171,10 +172,10 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
     Keys: the symbols of the forces.
     Second route: d'Alembert's principle, as for `accelerations`.
-    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force and is
-    always negative; the sentence states the direction in which it acts), multiplier (the gradient of f with respect to
-    the position of the particle does not have length 1; the sentence states the length), isolated and eliminated (as
-    for `accelerations`), zero.
+    Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force on a
+    single body and is known to be negative; the sentence states the direction in which the force acts), multiplier (the
+    gradient of f with respect to the position of the particle does not have length 1; the sentence states the length),
+    isolated and eliminated (as for `accelerations`), zero.
     Errors: no constraint is enforced by a force; also the errors of `accelerations`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
@@ -357,7 +358,7 @@ class _Isolation:
 
     @property
     def formulas(self) -> dict[str, tuple[Relation, Relation]]:
-        """Return the substitutions for the sentence, each compared with its equation."""
+        """Return the substitutions for the sentence, each with the equation from which it follows."""
         found, rows = {}, self.problem.residuals_known
         done: dict[Symbol, Expr] = {}
         for n, each in enumerate(self._substituted, 1):
@@ -701,7 +702,7 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
         how = "contradict" if _contradict(problem.constraints) else "repeat"
         message = f"the constraints enforced by {names} {how} one another, so the forces are not determined"
         return Rejected(
-            Complaint("constraints", message, help="remove constraints that follow from the other constraints")
+            Complaint("constraints", message, help="remove constraints that follow from the others or contradict them")
         )
     bare = next((q.name for i, q in enumerate(problem.solved) if not any(matrix[i, :count])), None)
     what = f"no mass moves with {bare}" if bare else "the mass matrix is singular"

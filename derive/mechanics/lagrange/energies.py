@@ -317,7 +317,8 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
     """Return the word for the parts of the kinetic energy of a single body: "both" for the energy of the centre of mass
-    and that of the rotation about it, "axis" or "point" for the rotation about a fixed axis or point alone."""
+    and that of the rotation about it, "axis" or "point" for the rotation about a fixed axis or point alone. For any
+    other system, the word is "any"."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:
@@ -328,8 +329,8 @@ def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]
 def _lines_of_kinetic_energy(
     law: Callable[..., Expr], inputs: Mapping[str, Any], turnings: list[Turning], arranged: Callable[[Expr], Expr]
 ) -> Lines:
-    """Return the lines of a kinetic energy. If the sum with substituted values is already the result, this is one
-    line."""
+    """Return the lines of a kinetic energy. If the line with substituted values is already the result, it is not
+    written twice."""
     level = _level_of_values(turnings)
     values = explicit(law(*(value_behind(each) for each in inputs.values()))) if level else ZERO
     if level is Level.STANDARD and (result := arranged(values)) == values:
@@ -338,7 +339,7 @@ def _lines_of_kinetic_energy(
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the level at which the line with substituted values appears; None if there are no rotations, and so no
+    """Return the lowest level that shows the line with substituted values; None if there are no rotations, and so no
     such line. A line with columns or matrices appears only at full level."""
     if not turnings:
         return None
@@ -350,14 +351,15 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-LITTLE_LONGER = 2  # an energy in which each coordinate occurs once may be longer by this number, measured by `length`
+# An energy in which terms with the same coordinate are together may be longer by this number, measured by `length`.
+LITTLE_LONGER = 2
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta).
 
-    Each coordinate occurs once if this makes the energy only a little longer: (M - m) g x - M g l, not
-    M g (x - l) - m g x.
+    Terms with the same coordinate are put together if this makes the energy only a little longer: (M - m) g x - M g l,
+    not M g (x - l) - m g x.
     """
     collected = with_constants_together(value.expand(), moving)
     forms = [by_terms(value), by_terms(value.expand()), collected]
@@ -391,7 +393,8 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
 
     The height y of a particle or a centre of mass is measured from the origin. By convention U is zero for weights at
     the origin and for springs at their natural length.
-    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate.
+    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate. The
+    same is true for the time t in place of q.
     Outcomes: generic, zero.
     Source: Taylor, *Classical Mechanics*, section 4.2.
     """
@@ -451,12 +454,13 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     )
 
 
-FEW_SPRINGS, SHORT = 4, 6  # how many extensions a sentence names, and the greatest length of such an extension
+FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names, and their greatest length
 
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
-    """Return the extension of each spring for the sentence, length minus natural length, and the same from the force of
-    the spring. Return nothing if there are many springs, if an extension is long, or if a natural length is zero."""
+    """Return the extension of each spring for the sentence: as length minus natural length, and from the force of the
+    spring. Return an empty mapping if there are many springs. Also return an empty mapping if one extension is long,
+    contains a power, or contains no coordinate, or if one natural length is zero."""
     found: dict[str, tuple[Expr, Expr]] = {}
     for i, each in enumerate(springs, 1):
         constant = derivative(each.pull, each.distance)

@@ -79,7 +79,8 @@ def _constrained(of: Quantity) -> dict[str, str]:
 
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
-    """Return -lambda df/dt for each moving constraint, where df/dt is the rate of f at constant coordinates.
+    """Return -lambda df/dt for each moving constraint, where df/dt is the rate of f at constant coordinates; for a
+    constraint on rates, the terms without rates replace df/dt.
 
     The force of a fixed constraint does no work.
     """

@@ -1,7 +1,8 @@
 """Lagrange's equations: the Lagrangian, and the equation of motion for each coordinate.
 
 Second routes start from positions and forces (`derive.mechanics.model.dalembert`): a momentum is the sum of
-m v . dr/dq, and an equation of motion follows from d'Alembert's principle.
+m v . dr/dq over mass points, plus the sum of e A . dr/dq over charges e in magnetic fields. An equation of motion
+follows from d'Alembert's principle.
 """
 
 from __future__ import annotations
@@ -58,9 +59,9 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
     system   particles and bodies, with the forces on them
 
     The index of the symbol is also the index of the energies: T_2 and U_2 for "L_2".
-    Second route: the sum of q_dot dL/dq_dot, minus L, is the energy T + U. If a magnetic field acts, or if a position
-    or U depends explicitly on the time, the second route is instead: L + U - sum of q v . A is the kinetic energy of
-    the mass points.
+    Second route: if a magnetic field acts, or if a position or U depends explicitly on the time, L + U - sum of q v . A
+    is the kinetic energy of the mass points.
+    Check: in any other case, the sum of q_dot dL/dq_dot, minus L, is the energy T + U.
     Outcomes: generic, in_field (a charge is in a magnetic field).
     Errors: the argument is not a system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 2.7.
@@ -106,8 +107,8 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _subtracted(energy: Expr, moving: Collection[Symbol]) -> list[Expr]:
-    """Return the terms of minus the energy, those without coordinates last. A difference of constants before a
-    coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
+    """Return the terms of -U for a potential energy U; terms without coordinates are last. A difference of constants
+    before a coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
     terms = sorted(Add.make_args(energy), key=lambda term: not term.free_symbols & {*moving})
     return [_turned(term, moving) for term in terms]
 
@@ -151,7 +152,8 @@ def equation_of_motion(
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
+    further route is the energy identity.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
     Errors: L contains neither q nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.

@@ -62,7 +62,7 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle to which it belongs, or None for a place in space."""
+    """Return a place, and the body or particle to which the place belongs; for a place in space, None as the body."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):

@@ -83,7 +83,7 @@ class Constraint(Part):
         return [each for each in self.forces if each.of is not None]
 
     def sense(self, side: int) -> str:
-        """Return where the force on the first body points if the symbol of the force has the sign `side`.
+        """Return the direction of the force on the first body, if the symbol of the force has the sign `side`.
 
         The result is "up" or "down" if the force has a vertical component, otherwise "right" or "left". The result is
         empty if no force on a body is known, if the force is not in a plane, or if the sign of the component is

@@ -122,8 +122,8 @@ def contact(
     of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`. If a body
                carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
-    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. Needed
-               if the coordinates allow the body to leave the surface
+    normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. The
+               symbol is needed if the coordinates allow the body to leave the surface
     rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
                the coordinates alone keep the body on the surface. The friction is positive in the direction along the
                surface that has the free side on its left. In space, the friction has two components along axes in the
@@ -139,10 +139,10 @@ def contact(
     from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
     the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the plane is
-    then the distance of the centre of this rim minus R sqrt(1 - (n.e)^2). A cone that lies on its side must be held at
-    its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its centre must be
-    one radius from the curve, along the normal at the point of contact. The horizontal distance of this point from the
-    origin of the curve must be a coordinate.
+    then the distance of the centre of this rim from the plane, minus R sqrt(1 - (n.e)^2). A cone that lies on its side
+    must be held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its
+    centre must be one radius from the curve, along the normal at the point of contact. The horizontal distance of this
+    point from the origin of the curve must be a coordinate.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7; for a disc in
     space, Landau, Lifshitz, *Mechanics*, section 38.
     """

@@ -58,7 +58,7 @@ class Struck(Witness):
 
 
 def description_behind(quantity: Quantity) -> Described | None:
-    """The description of the system to which a quantity belongs, or None."""
+    """The description of the system to which a quantity belongs; None if there is no description."""
     return next((known for each in quantity.ancestors() if (known := each.fact(Described)) is not None), None)
 
 

@@ -213,7 +213,7 @@ class Charge(Part):
 def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     values = given.components if isinstance(given, Location) else given
     if not isinstance(values, tuple | list) or len(values) != count:
-        message = f"`{verb}` needs {count} components as its `{role}`, the number of components of its place"
+        message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
         raise Rejected(Complaint("wrong-argument", message))
     try:
         return tuple(as_expr(value) for value in values)

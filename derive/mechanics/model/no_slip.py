@@ -53,8 +53,8 @@ def no_slip(
     Each independent condition isolates a different rate. A condition can be integrated if all its terms are constants
     times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
-    If all conditions are satisfied, this particle has the velocity of the surface. Conversely, if the particle has this
-    velocity, each condition is satisfied.
+    If all conditions are satisfied, this particle has the velocity of the surface.
+    Check: conversely, if the particle has the velocity of the surface, each condition is satisfied.
     Errors: the body does not reach this place, or cannot roll there; the particle at the contact is always at rest; no
     condition isolates the rate of `fixes`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.

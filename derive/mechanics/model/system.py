@@ -267,8 +267,8 @@ class System:
     def __init__(self, *parts: PartOfSystem, name: str = ""):
         unknown = [part for part in parts if not isinstance(part, PartOfSystem)]
         if unknown:
-            made_of = "particles, placed bodies, a weight, springs and other forces, and constraints"
-            message = f"`System` needs {made_of}, not a {type(unknown[0]).__name__}"
+            made_of = "a particle, a placed body, a weight, a spring or another force, a constraint or a condition"
+            message = f"a part of a `System` must be {made_of}, not a {type(unknown[0]).__name__}"
             help_line = "place a body with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
         if name and not re.fullmatch(r"[a-z]+( [a-z]+)?", name):

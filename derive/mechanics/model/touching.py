@@ -149,8 +149,9 @@ def _own(placed: PlacedBody, *own: Expr) -> Location:
 def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location, Expr]) -> tuple[Location, Expr]:
     """Return the lower of the lowest points of two rims, each given with its distance from the plane.
 
-    If the distances are equal, the body touches the plane along the line between the two points. It must then be held
-    at one of them, and the other point is returned: a body that does not slip there slips nowhere on the line.
+    If the distances are equal, the body touches the plane along the line between the two points. The body must then be
+    held at one of these points, and the other point is returned: if the body does not slip at this other point, it
+    slips nowhere on the line.
     """
     difference = tidied(one[1] - other[1])
     sign = sign_known(difference)

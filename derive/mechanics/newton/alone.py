@@ -2,8 +2,8 @@
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
 second law for this body along this direction contains only forces that the description names. The forces that the
-coordinates replace, such as the tension of a string whose length they keep, do no work in such a displacement, so they
-have no component along the direction.
+coordinates replace do no work in such a displacement, so they have no component along the direction. An example is the
+tension of a string whose length the coordinates keep constant.
 
 Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7.
 """
@@ -173,7 +173,7 @@ def body_of(system: System, q: Symbol) -> Alone:
             if s not in taken and each.moves_with(s) and _moves_alone(each, s):
                 taken[s] = each
     if q not in taken:
-        why = "because they keep a connection whose force has no symbol"
+        why = "because the coordinates keep a connection whose force has no symbol"
         message = f"the coordinates do not let one body move with {q.name} while all others stay at rest, {why}"
         help_line = (
             "give each body coordinates of its own, and each string, rod, joint or contact a symbol for its force; "

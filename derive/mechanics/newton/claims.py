@@ -21,7 +21,7 @@ SLOPES = {"up_the_slope": 1, "down_the_slope": -1}
 
 
 def of_masses(several: bool, alike: bool = False) -> Predicate:
-    """Return a predicate that is true if both flags are right.
+    """Return a predicate that is true if both of these flags agree with the masses of the system.
 
     several   whether the system has several masses
     alike     whether another mass equals the mass of the body in the law

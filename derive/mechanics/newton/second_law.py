@@ -82,7 +82,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
 
 
 def at_rest_in(equation: Relation, system: System, at_rest: bool) -> Relation:
-    """The equation with all rates and accelerations zero, if the system is at rest."""
+    """The equation; for a system at rest, with all rates and accelerations zero."""
     still = {rate(q, n): ZERO for q in system.coordinates for n in (1, 2)}
     return Relation(equation.residual.xreplace(still), "=", ZERO) if at_rest else equation
 
@@ -94,7 +94,8 @@ def scope_of(system: System) -> Scope:
 
 
 def outcome_of(body: Alone, at_rest: bool) -> str:
-    """The outcome of a law of one body: whether the system has other bodies, and whether one has the same mass."""
+    """The outcome of a law of one body: whether the system has other bodies, and whether one of these has the same
+    mass."""
     masses = [each.mass for each in bodies_alone(body.system)]
     same = sum(is_zero(each - body.mass) for each in masses)
     found = "alone" if len(masses) == 1 else "alike" if same > 1 else "of_several"

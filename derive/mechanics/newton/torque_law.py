@@ -178,8 +178,8 @@ def _points_of_contact(body: Alone) -> list[About]:
 
 
 def _resting_point(body: Alone) -> Vector | None:
-    """The point of a body that is at rest in every motion, if one coordinate moves the body; None without such a
-    point."""
+    """The point of a body that is at rest in every motion, if only one coordinate moves the body; None if there is no
+    such point."""
     moving = [q for q in body.moving if body.moves_with(q)]
     if len(moving) != 1 or body.turn(moving[0]) == 0:
         return None
