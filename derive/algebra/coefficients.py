@@ -1,8 +1,8 @@
 """The coefficients of an expression that is a polynomial in some of its symbols.
 
 A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out.
-Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. For an
-expression with any other function the ring raises `Outside`.
+Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. The ring
+raises `Outside` for any other function, and for an angle that is not a sum of products of symbols and rational numbers.
 """
 
 from __future__ import annotations

@@ -18,7 +18,8 @@ LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tr
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Collect the terms by accelerations and by squares and products of rates; each of these has one coefficient."""
+    """Collect the terms by products of powers of rates and accelerations; each of these products has one
+    coefficient."""
     return by_rates(value, moving, 2)
 
 

@@ -1,6 +1,6 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
-proved          decided exactly, by `derive.algebra.normal_form`
+proved          decided exactly, in most cases by `derive.algebra.normal_form`
 sampled         both sides agree at random points, but no exact method decided
 refuted         the sides differ, or they cannot be compared
 definition      nothing is compared: the line defines a symbol

@@ -2,7 +2,7 @@
 given quantities.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
-(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three.
+(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three `Expr`.
 """
 
 from __future__ import annotations

@@ -243,8 +243,9 @@ def _relation(
 ) -> Shortened:
     """Rewrite both sides term by term; if the relation gives the value of a symbol, rewrite only the right side.
 
-    Divide an equation with zero on the right by the positive symbols that all terms on the left have in common. Divide
-    any other relation without a zero side by the common factor of both sides, unless it is an equation of motion.
+    Divide an equation with zero on the right by the positive numbers, symbols and powers that all terms on the left
+    have in common. Divide any other relation without a zero side by the common factor of both sides, unless it is an
+    equation of motion.
     """
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:

@@ -1,7 +1,7 @@
 """Decide exactly whether an expression is zero.
 
-Polynomials in symbols, sines and cosines have a normal form. All other expressions use a ring with additional letters
-for roots, absolute values and other functions.
+Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). An expression that this form does not
+decide uses a ring with additional letters for roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def is_identity(left: Expr, right: Expr) -> bool:
 
 @lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the predicates ask about the same expression
 def _vanishes_by_relations(expr: Expr) -> bool:
-    """Whether an expression that is not a polynomial in symbols, sines and cosines is zero; False means "not shown"."""
+    """Whether an expression that `trig_polynomials` cannot decide is zero; False means "not shown"."""
     try:
         expr = _with_common_angles(expr)
         return not expr.has(nan, zoo) and _is_zero(expr) and not any(map(_is_nothing, _divisors(expr)))

@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each symbol that may be negative and has no range is negative at one of them."""
+    """Two points: each symbol that may have either sign and has no range is negative at one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -235,7 +235,9 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-_LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
+# Largest product of an exponent and the bits of its base, four times as large for a whole exponent: a larger power would
+# hide the other terms of a sum. Also the largest argument of a function in `_GROWING`.
+_LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 # functions that lose no digits for any argument
@@ -250,7 +252,7 @@ class Values:
     """The values of expressions at one point, at mpmath's current precision; common parts are computed once."""
 
     def __init__(self, point: SamplePoint) -> None:
-        self.cancelled = False  # whether the terms of a sum cancelled to all digits, so the sum may be zero
+        self.cancelled = False  # whether the terms of a sum cancelled to almost all digits, so the sum may be zero
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():
             self.known[letter] = self._taken(value)
@@ -371,7 +373,7 @@ class Values:
 
 
 def _is_cancelled(total: Any, terms: list[Any]) -> bool:
-    """Whether the terms of a sum cancelled to all digits, so the sum may be zero."""
+    """Whether the terms of a sum cancelled to almost all digits, so the sum may be zero."""
     return _bits(total) < max(map(_bits, terms)) - int(mp.prec) + 30
 
 

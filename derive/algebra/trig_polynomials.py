@@ -26,7 +26,7 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # greatest number of products of terms in one question; slower methods decide longer questions
+WORK = 3_000_000  # greatest `cost` of a form; slower methods decide about longer expressions
 LONGEST, STEEPEST = 60, 8  # greatest number of operations in an angle, and highest power in an angle
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
@@ -152,7 +152,7 @@ class TrigRing(Ring):
         raise Outside
 
     def _root(self, square: Form, n: int) -> Form:
-        """A power of the square root of a form; raises `Outside` if the form may vanish."""
+        """A power of the square root of a form; raises `Outside` if the form may vanish or the power is too high."""
         if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
@@ -236,7 +236,8 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """Return the place of the letter whose `order`-th power equals `of`; add a new letter to the ring."""
+        """Return the place of the letter whose `order`-th power equals `of`; if the letter is new, add it to the
+        ring."""
         known = key in self.letters
         place = self.place(key)
         if not known:

@@ -76,7 +76,8 @@ def _is_inside(number: Expr, known: Range) -> bool:
 
 
 def existence(of: Quantity, solution: Relation) -> Relation | None:
-    """The condition under which the solution of an equation exists; None if it always exists, or for an inequality."""
+    """The condition under which the solution of an equation exists; None if it always exists, or for an inequality.
+    Rejects an equation whose solution never exists."""
     alone, solved = solution.sides
     exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
     if never:

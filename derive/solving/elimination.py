@@ -28,7 +28,7 @@ class Isolated:
     """The equations that give an unknown once the earlier unknowns are known.
 
     equations   the indices of these equations
-    eliminated  the other unknowns of these equations, except those in `earlier`
+    eliminated  the other unknowns of these equations that are not known before this unknown
     earlier     unknowns in these equations that are found before this unknown
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
     """

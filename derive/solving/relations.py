@@ -111,7 +111,7 @@ def border_of(condition: Relation) -> Relation | None:
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
-    """The relation between a value and zero, solved for a symbol; None if the relation cannot be solved."""
+    """The relation between a value and zero, solved for a symbol or another unknown; None if it cannot be solved."""
     try:
         return solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:

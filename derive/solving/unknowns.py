@@ -2,8 +2,8 @@
 cosine.
 
 An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). A substitution replaces the unknown
-wherever it occurs. If an equation also contains the symbol outside the unknown, the equation cannot be solved for this
-unknown.
+wherever it occurs. If an equation also contains the symbol outside the unknown, except in factors that can be split
+off, it cannot be solved for this unknown.
 """
 
 from __future__ import annotations
@@ -53,7 +53,8 @@ class ValueOf(Fact):
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The symbol of a given coordinate or quantity, or a given expression unchanged; rejects any other argument."""
+    """The symbol of a given coordinate or quantity; any other unknown, such as cos(theta), is returned unchanged.
+    Rejects an argument that is not an unknown."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found

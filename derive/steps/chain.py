@@ -159,7 +159,8 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return three values, for a result that may be approximate: a limit, a series, or derived from one.
+    """Return three values for a result that may be approximate, because it is a limit or a series or is derived from
+    one.
 
     The first value is the symbol of the exact expression that the result approximates, or None. The second value says
     whether the symbol of the result only approximately equals the first line. The third value is the evidence.
@@ -184,8 +185,8 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check; `found` is a pair of values to compare, or a verdict that was found
-    numerically."""
+    """Return the evidence of a route or a check; `found` is a pair of values to compare, or the verdict of a comparison
+    that the route itself makes."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

@@ -1,8 +1,8 @@
 """Trial numbers: the points at which predicates test a statement, and the tests that predicates have in common.
 
 A point gives each symbol a rational number. The numbers are in the ranges of their symbols, and they satisfy the
-assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at other
-points one symbol is large while another is small. Up to four symbols that may be negative take all combinations of
+assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at the
+other points each symbol has one of several sizes. Up to four symbols that may be negative take all combinations of
 signs.
 
 These tests are independent of verbs: verbs decide a sign by the assumptions on the symbols, and the checks of verbs use
