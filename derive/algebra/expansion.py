@@ -129,8 +129,8 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 def _without_what_dies(f: Expr) -> Expr:
     """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
 
-    All exponentials are written as powers of one decaying exponential, with negative powers for growing exponentials.
-    This decaying exponential is then set to zero.
+    All exponentials with a constant rate are written as powers of one decaying exponential, with negative powers for
+    growing exponentials. This decaying exponential is then set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}

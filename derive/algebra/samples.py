@@ -54,7 +54,7 @@ SamplePoint = Mapping[Expr, Expr]
 
 
 class Undefined(Exception):
-    """The expression has no value at this point: a division by zero, or an infinite value."""
+    """The expression has no value at this point, for example because of a division by zero or an infinite value."""
 
 
 class NoNumber(Exception):
@@ -235,8 +235,8 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-# Largest product of an exponent and the bits of its base, four times as large for a whole exponent: a larger power would
-# hide the other terms of a sum. Also the largest argument of a function in `_GROWING`.
+# Largest product of an exponent and the bits of its base, because a larger power would hide the other terms of a sum;
+# for whole exponents four times this number. Also the largest argument of a function in `_GROWING`.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

@@ -51,7 +51,7 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
     """Whether a value is in the range of a symbol, tested with numbers that satisfy the condition `exists`.
 
-    The result is None if the numbers disagree, or if no numbers can be tested.
+    The result is None if the numbers disagree, or if no numbers can be tested; it is True for a symbol without a range.
     """
     known, seen = range_of(letter), set()
     if known is None:

@@ -563,8 +563,8 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. A formula of the root without a
-        root sign replaces OMEGA.
+        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. If the formula of the root
+        contains no radical, it replaces OMEGA.
 
         The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
         nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).

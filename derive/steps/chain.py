@@ -179,7 +179,7 @@ def approximation_evidence(
     if len(found) == len(same):
         return (same[0].step.approximates if same else None), False, []
     claim = f"rests on the approximation `{next(q.key for q in found if q not in same)}`"
-    return None, True, [Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "as exact as that")]
+    return None, True, [Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "as exact as this approximation")]
 
 
 def route_evidence(

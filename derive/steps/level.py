@@ -43,7 +43,7 @@ class Display:
                       and outcome, and a step shown earlier has the same rule and kinds of lines
     each_worked_out   whether the lines of the page's level are shown even after a step with the same rule and kinds of
                       lines; by default, only the lines of the level `brief` are then shown
-    abbreviates       whether the symbol of the step replaces its root in later steps
+    abbreviates       whether the symbol of the step replaces, in later steps, the square root that is its value
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any

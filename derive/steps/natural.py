@@ -77,7 +77,8 @@ class NaturalQuantities:
     def formulas(self, formulas: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
         """Return, by role, the formulas of a sentence that become shorter in defined and proposed quantities.
 
-        A condition for a state must not contain the symbols of this state.
+        Results of earlier steps are not used, because a condition for a state must not contain the symbols of this
+        state.
         """
         found = {role: self._shortened(formula, self._constants) for role, (formula, _) in formulas.items()}
         return {role: short.value for role, short in found.items() if short is not None}
