@@ -20,7 +20,7 @@ from typing import NoReturn
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file: the line and column (counted from 1), the text of the line, and how many columns to underline.
+    """A place in a file: the line and column (the first is 1), the text of the line, and how many columns to underline.
 
     If the line is long, `text` is only a part of the line; `cut` is the number of columns left out before this part.
     """

@@ -84,8 +84,8 @@ class NaturalQuantities:
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
-        """Return a shorter form of a value or a condition in known quantities; None if there is none. A matrix, and a
-        value that contains coordinates or rates, such as an energy, is not rewritten."""
+        """Return a shorter form of a value or a condition in known quantities, or None. A matrix is not rewritten, and
+        neither is a value that contains coordinates or rates, such as an energy."""
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
         is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
         if not known or not (is_value or isinstance(value, Relation)):

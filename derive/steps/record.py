@@ -333,7 +333,7 @@ def defined_quantities() -> tuple[Quantity, ...]:
 
 
 def defined_as(value: Expr) -> Quantity | None:
-    """Return the quantity under `define:` that has this value; None if there is none."""
+    """Return the quantity under `define:` that has this value, or None."""
     return next((each for each in defined_quantities() if same_value(each.value, value)), None)
 
 

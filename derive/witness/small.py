@@ -153,7 +153,7 @@ def rest(claim: Claim) -> Verdict | None:
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether all generalized forces vanish in this state of rest; False if the system has constraints."""
+    """Whether all generalized forces vanish at this equilibrium; False if the system has constraints."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)
