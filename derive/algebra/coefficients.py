@@ -222,7 +222,7 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether some symbol appears in exactly one term, and there in its first power.
+    """Whether some symbol occurs in exactly one term, and its power in this term is 1.
 
     Such a sum is the product of the common factors of its terms and of one sum that cannot be factored.
     """

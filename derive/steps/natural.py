@@ -106,7 +106,7 @@ class NaturalQuantities:
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
-    """Yield those of the quantities and of their ancestors whose symbols may replace their values."""
+    """Yield the quantities, and their ancestors, whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
     return (quantity for quantity in ancestors if quantity.fact(NamesValue))
 

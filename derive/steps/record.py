@@ -259,7 +259,7 @@ def assumed() -> list[Relation]:
 
 
 def forget_words() -> None:
-    """State all assumptions after the statement of the problem, because no step states them in words."""
+    """Let the page state all assumptions after the statement of the problem, because no step states them in words."""
     run = current_run.get()
     if run is not None:
         run.in_words.clear()

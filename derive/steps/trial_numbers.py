@@ -145,8 +145,8 @@ def sign_as_set(value: Expr, point: Point) -> set[int | None]:
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
     """Whether a statement is true at each point where it has a meaning, and has a meaning at one point at least.
 
-    is_so   a function of a point: whether the statement is true there. If the statement has no meaning at the point,
-            the function returns None, or raises `Undefined` or `NoNumber`
+    is_so   a function that returns whether the statement is true at a point. If the statement has no meaning at the
+            point, the function returns None, or raises `Undefined` or `NoNumber`
     """
     found = _judged(points, is_so)
     return bool(found) and all(found)
