@@ -251,7 +251,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
     """Tidy a coefficient times a number. The factor of sines and cosines stays separate from the rest of the
-    coefficient if its tidy form contains no sum."""
+    coefficient if the tidy form of this factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):

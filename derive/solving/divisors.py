@@ -16,7 +16,7 @@ from derive.steps.step import is_zero
 
 
 def may_vanish(*values: Expr) -> Relation | None:
-    """The condition for dividing by these values: the factors that may vanish are not zero. None if no factor may
+    """The condition for dividing by these values: their factors that may vanish are not zero. None if no factor may
     vanish."""
     factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
     unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
