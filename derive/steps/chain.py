@@ -165,9 +165,9 @@ def approximation_evidence(
     The first value is the symbol of the exact expression that the result approximates, or None. The second value says
     whether the symbol of the result only approximately equals the first line. The third value is the evidence.
 
-    The symbol of a limit or a series must differ from that of the exact expression. If a result has the same symbol as
-    an approximate parent, both approximate the same exact expression. Any other result that is derived from an
-    approximate result is itself only approximate.
+    The symbol of a limit or a series must differ from that of the exact expression. If all approximate parents of a
+    result are limits or series with the symbol of the result, the result approximates the same exact expression. Any
+    other result that is derived from an approximate result is itself only approximate.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):

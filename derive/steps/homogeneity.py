@@ -42,8 +42,8 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, or KeyError for a name
-    without a known dimension."""
+    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, KeyError for a name
+    without a known dimension, or TypeError for an expression without a rule."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
