@@ -69,7 +69,7 @@ class Shortened:
 
 def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
     """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no form is
-    shorter than the value.
+    shorter than the value, or if the value is longer than `LONGEST`.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates
