@@ -1,9 +1,9 @@
 """Points at which two expressions are compared, and the values of expressions there.
 
 A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
-seed is computed from the expressions, so each run has the same points for the same expressions. mpmath computes the
-values with enough digits to exclude rounding errors. A difference counts only if more digits confirm it; a difference
-that shrinks as digits are added counts as zero.
+seed of the random numbers is computed from the expressions, so each run has the same points for the same expressions.
+mpmath computes the values with enough digits to exclude rounding errors. A difference counts only if more digits
+confirm it; a difference that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations

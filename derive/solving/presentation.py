@@ -136,7 +136,8 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def by_one_square(value: Expr) -> Expr:
-    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign."""
+    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign. A value
+    without sines and cosines is returned unchanged."""
     if not value.has(sin, cos):
         return value
     if value.is_Add:
