@@ -172,7 +172,8 @@ class TrigRing(Ring):
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
     def angle(self, angle: Expr) -> Expr:
-        """A representative of the angle, the same for equal angles; raises `Outside` if no representative is known."""
+        """A representative of the angle, the same for angles that are recognised as equal; raises `Outside` if no
+        representative is known."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside

@@ -106,7 +106,7 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # number of symbols up to which squares are completed
+MOST_LETTERS = 4  # number of symbols up to which squares with linear terms in them are completed
 LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which squares are completed
 
 

@@ -248,7 +248,7 @@ def same_value(one: Any, other: Any) -> bool:
 
 
 def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
-    """Reject a quantity that is not of this kind, such as a tensor in place of a vector."""
+    """Reject an argument that is not a quantity of this kind, such as a tensor in place of a vector."""
     if isinstance(quantity, Quantity) and quantity.step.kind == kind:
         return
     got = (

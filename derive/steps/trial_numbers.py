@@ -29,7 +29,7 @@ from derive.steps.record import assumed
 
 Point: TypeAlias = Mapping[Any, Expr]
 
-TRIED = 24  # points at which a statement is tested
+TRIED = 24  # largest number of points at which a statement is tested
 DRAWN = 240  # largest number of points that are drawn to find points that satisfy the conditions
 PAIRS, HALVINGS = 4, 10  # pairs of points, one on each side of a border; number of halvings of their distance
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
