@@ -164,7 +164,8 @@ def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -
 
 @lru_cache(maxsize=4096)
 def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tuple[Symbol, Expr], ...]:
-    """Return each symbol of a formula with its value, if the equation name = formula has one solution for it."""
+    """Return each symbol of a formula that is not in `kept`, with its value, if the equation name = formula has one
+    solution for it."""
     left, right = name, value
     for sign in (1, -1):
         if function := INVERSES.get(type(sign * value)):

@@ -183,7 +183,8 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """Split off the factors that contain the symbol of the unknown but not the unknown itself.
+    """Split off the factors that contain the symbol of the unknown but not the unknown itself. If the remaining product
+    does not contain the unknown either, nothing is split off.
 
     If the unknown is cos(theta), sin(theta)(a cos(theta) - b) is split into a cos(theta) - b and the factor sin(theta).
     """

@@ -307,7 +307,8 @@ def landing(claim: Claim) -> Verdict | None:
 
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
-    """Yield states in which the force of the constraint vanishes, and the dynamics of the system without constraints.
+    """Yield trials, each with a state in which the force of the constraint vanishes and with the dynamics of the system
+    without constraints.
 
     fact   the flight: the position where it begins, and the motion before it
     """
