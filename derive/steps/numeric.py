@@ -320,9 +320,9 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether the number of an answer is clearer unchanged than in decimals: a rational number, pi/2, the square root
-    of an integer, or 2 pi in front of symbols; for a vector, also the square roots of rational numbers, such as
-    1/sqrt(2)."""
+    """Whether the number of an answer, alone or in front of symbols, is clearer unchanged than in decimals. Such a
+    number is rational, a rational multiple of pi, or the square root of an integer; in a vector it may also be the
+    square root of a rational number, such as 1/sqrt(2)."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) or (entry**2).is_Rational for entry in value)

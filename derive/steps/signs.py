@@ -124,8 +124,8 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether a factor is an even power of a real symbol that does not vanish: the factor is in a denominator, or the
-    page assumes that the symbol does not vanish."""
+    """Whether a factor is an even power of a real symbol that does not vanish, because the factor is in a denominator
+    or because the page assumes so."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 

@@ -68,7 +68,7 @@ def substitution(claim: Claim) -> Verdict | None:
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Test whether the described system has a state with all given values.
+    """Test whether the described system has a state with all given values of coordinates and rates.
 
     If the given rates contradict a constraint, the claim is refuted.
     """
