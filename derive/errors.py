@@ -149,7 +149,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that was probably meant, if there is one.
+    """Return the candidate that was probably meant, or None.
 
     At most one letter in three may be wrong; in a name of two letters, one letter may be wrong.
     """

@@ -261,7 +261,8 @@ def _number_in_front(form: Form) -> tuple[Rational, Form]:
 
 
 def _denested(base: Expr) -> Expr | None:
-    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign."""
+    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign;
+    None if it is not found."""
     found = sqrtdenest(sqrt(base))
     if isinstance(found, Pow) or found.is_nonnegative is not True:
         return None

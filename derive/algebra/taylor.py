@@ -93,8 +93,8 @@ def arithmetic_along(
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the
-    place."""
+    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the place.
+    Raises `NoSeries` if they are not found."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:

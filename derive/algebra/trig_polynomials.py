@@ -181,7 +181,7 @@ class TrigRing(Ring):
 
     def multiple(self, number: Rational, angle: object) -> int:
         """How many parts of the angle make up `number` times the angle; `units` says into how many parts each angle is
-        divided."""
+        divided. Raises `Finer` if the angle must be divided into more parts."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -196,7 +196,8 @@ class TrigRing(Ring):
 
     def one_over(self, form: Form) -> Form:
         """The reciprocal of a form. A sum is the product of its last monomial and a remaining factor. The reciprocal of
-        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor)."""
+        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor). Raises `Outside` if the
+        form may be zero."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)

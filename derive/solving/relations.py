@@ -134,7 +134,8 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown u.
+    """The relation between a difference and zero, solved for an unknown u. Rejects a difference that cannot be solved
+    for u.
 
     If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
     negative, the square root of both sides is then taken.
@@ -165,7 +166,7 @@ def without_square(condition: Relation) -> Relation:
 
 
 def _without_sign(value: Expr) -> Expr | None:
-    """The first factor whose sign is unknown."""
+    """The first factor whose sign is unknown, or None."""
     return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
 
 

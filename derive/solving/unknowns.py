@@ -72,7 +72,7 @@ def _letter_within(unknown: Any) -> Symbol | None:
 
 
 def letter_of(unknown: Expr) -> Symbol:
-    """The symbol in an unknown, such as theta in cos(theta)."""
+    """The symbol in an unknown, such as theta in cos(theta); rejects any other expression."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
         raise Rejected(Complaint("wrong-argument", f"{unknown} is neither a symbol nor a function of a symbol"))
@@ -125,7 +125,8 @@ def is_number(quantity: Quantity) -> bool:
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged."""
+    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged. Rejects
+    any other value that is not an equation."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)

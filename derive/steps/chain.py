@@ -186,7 +186,7 @@ def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
     """Return the evidence of a route or a check; `found` is a pair of values to compare, or the verdict of a comparison
-    that the route itself makes."""
+    that the route itself makes. Raise `Unverified` if the values disagree or the verdict is a refutation."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

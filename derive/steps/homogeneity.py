@@ -189,7 +189,7 @@ def _free(expr: Any) -> set[Basic]:
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
     """Return the common dimension of the lines of a step; None if no line has one. Relations, and lines that fit any
-    dimension, are left out."""
+    dimension, are left out. Raise `Inhomogeneous` if the dimensions differ."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)

@@ -190,7 +190,7 @@ def handed_on_by(kind: type[Any], predicate: Naming) -> None:
 
 
 def wrongly_handed_on(facts: Judged, handed_on: Sequence[Any]) -> Any | None:
-    """Return the first fact that does not fit the step that returns it."""
+    """Return the first fact that does not fit the step that returns it, or None."""
     return next((f for f in handed_on if (judge := _HANDED_ON.get(type(f))) and not judge(facts, f)), None)
 
 

@@ -49,8 +49,8 @@ def sign_known(value: Expr) -> int | None:
 
 
 def sign_beside_root(value: Expr) -> int | None:
-    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with
-    Q^2 D.
+    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with Q^2
+    D. None if the sign is still unknown.
 
     The caller knows that the square roots are real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2
     is greater, P + Q sqrt(D) has the sign of P. The root may be a product of square roots.
