@@ -1,4 +1,7 @@
-"""Tests of statements that hold at each instant of a motion: equations of motion, multipliers, conserved quantities."""
+"""Tests of statements that hold at each instant of a motion: equations of motion, multipliers, conserved quantities.
+
+A test returns None if nothing could be tested.
+"""
 
 from __future__ import annotations
 

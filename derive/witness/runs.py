@@ -1,5 +1,5 @@
 """Motions simulated from their start: speeds by energy conservation, loss of contact, slipping, free flights,
-solutions and periods.
+solutions and periods. A test returns None if nothing could be tested.
 
 SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds when an event occurs:
 Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.

@@ -1,4 +1,5 @@
-"""Tests of equilibria and of small motions about them: stability, frequencies and decay.
+"""Tests of equilibria and of small motions about them: stability, frequencies and decay. A test returns None if nothing
+could be tested.
 
 The described system is linearised numerically on the manifold of its constraints. The known momenta of cyclic
 coordinates are constant. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some
