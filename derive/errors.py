@@ -2,9 +2,9 @@
 
     DeriveError                 the base class; most other exceptions are internal errors
     ├── Rejected                errors in a file of the author; as many as possible at once
-    ├── Unverified              a check does not confirm a result: its lines or its second route disagree
+    ├── Unverified              a check does not confirm a step, a part of a system or a figure
     ├── BuildFailed             TeX, the disk, a time limit or the system stopped the work
-    └── Misused                 the command line itself was wrong (exit code 2)
+    └── Misused                 the command line, or a call in a notebook, is wrong (exit code 2)
 
 A `Complaint` is one error as data; only `shown()` turns it into text. `OutOfTime` is not a `DeriveError`, so that code
 which handles rejected input does not catch it and continue.
@@ -20,7 +20,7 @@ from typing import NoReturn
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file: the line and column (counted from 1), the text of the line, and how many columns to underline.
+    """A place in a file: the line and column (both from 1), the text of the line, and how many columns to underline.
 
     If the line is long, `text` is only a part of the line; `cut` is the number of columns left out before this part.
     """
@@ -149,7 +149,7 @@ def during(what: Callable[[], str]) -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that was probably meant, if there is one.
+    """Return the candidate that was probably meant, or None.
 
     At most one letter in three may be wrong; in a name of two letters, one letter may be wrong.
     """

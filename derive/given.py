@@ -2,5 +2,5 @@
 `require` for conditions between these quantities."""
 
 from derive.algebra.direction import Direction as Direction
-from derive.algebra.kinds import *  # an annotation for each kind, such as `Mass`
+from derive.algebra.kinds import *  # annotations for the usual kinds, such as `Mass`
 from derive.course.requirement import require as require

@@ -92,7 +92,8 @@ class Opened:
         return tuple(dict.fromkeys(step.key for step in steps))
 
     def answer(self, key: str) -> Answer:
-        """Return the result with this key: the answer to a part, or the result of any other step."""
+        """Return the result with this key: the answer to a part, or the result of any other step. Raise `Misused` for
+        an unknown key."""
         derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:
@@ -111,7 +112,7 @@ class Opened:
         )
 
     def drawing(self, key: str) -> Drawn:
-        """Return the drawing with this key, as the page shows it."""
+        """Return the drawing with this key, as the page shows it; raise `Misused` for an unknown key."""
         name = f"{self._problem.id.rpartition('/')[2]}-{key}.svg"
         if name not in self._drawings:
             keys = [file.partition("-")[2].removesuffix(".svg") for file in self._drawings]

@@ -1,8 +1,8 @@
 """The coefficients of an expression that is a polynomial in some of its symbols.
 
 A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out.
-Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. For an
-expression with any other function the ring raises `Outside`.
+Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. The ring
+raises `Outside` for any other function, and for an angle that is not a sum of products of symbols and rational numbers.
 """
 
 from __future__ import annotations
@@ -222,7 +222,7 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether some symbol appears in exactly one term, and there in its first power.
+    """Whether some symbol occurs in exactly one term, and its power in this term is 1.
 
     Such a sum is the product of the common factors of its terms and of one sum that cannot be factored.
     """

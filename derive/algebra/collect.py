@@ -18,7 +18,8 @@ LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tr
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Collect the terms by accelerations and by squares and products of rates; each of these has one coefficient."""
+    """Collect the terms by products of powers of rates and accelerations; each of these products has one
+    coefficient."""
     return by_rates(value, moving, 2)
 
 
@@ -250,7 +251,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
     """Tidy a coefficient times a number. The factor of sines and cosines stays separate from the rest of the
-    coefficient if its tidy form contains no sum."""
+    coefficient if the tidy form of this factor contains no sum."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):

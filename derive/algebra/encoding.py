@@ -34,7 +34,8 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 
 def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
-    """Encode an expression as data for JSON; `name` returns the name of a dummy symbol."""
+    """Encode an expression as data for JSON; `name` returns the name of a dummy symbol. Raises TypeError for an object
+    without an encoding."""
     if expr is None:
         return ["None"]
     if name and isinstance(expr, Dummy):
@@ -140,7 +141,8 @@ def _is_small(size: Any) -> bool:
 
 
 def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
-    """Encode records of these classes, and the values in them, as lists, mappings and plain values."""
+    """Encode records of these classes, and the values in them, as lists, mappings and plain values. Raises TypeError
+    for a value without an encoding."""
     if isinstance(value, Basic | MatrixBase):
         return {"expr": encoded(value)}
     if isinstance(value, tuple | list):

@@ -1,6 +1,6 @@
 """Whether two expressions are equal or two relations equivalent, and how this was decided.
 
-proved          decided exactly, by `derive.algebra.normal_form`
+proved          decided exactly, in most cases by `derive.algebra.normal_form`
 sampled         both sides agree at random points, but no exact method decided
 refuted         the sides differ, or they cannot be compared
 definition      nothing is compared: the line defines a symbol
@@ -350,7 +350,7 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
     """Rewrite strict inequalities n/d > 0 as n d > 0. The two inequalities are equivalent, because neither is true
-    where d vanishes."""
+    where d vanishes. None if an inequality is not strict, or if no denominator has a symbol."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -372,7 +372,7 @@ def _never_vanishes(factor: Expr) -> bool:
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
     """Look for a point where `right` is zero and `left` is not. To find one, `right` = 0 is solved for a symbol in
-    which it is linear."""
+    which it is linear. None if no such point is found."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     curved = {letter for part in right.atoms(Pow, Function) for letter in part.free_symbols}
     for letter in sorted(right.free_symbols - curved, key=lambda s: (not str(s).endswith("dot"), str(s))):
@@ -440,7 +440,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
     """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions. These
-    derivatives show a common factor that is hidden in sin(2 x) or in a fractional power."""
+    derivatives show a common factor that is hidden in sin(2 x) or in a fractional power. None if this ratio is not
+    found."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

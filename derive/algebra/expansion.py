@@ -105,7 +105,7 @@ class FirstOrder(ScalarNode):
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
     """The terms up to this power of the small quantity, as power -> coefficient; only the leading term if no power is
-    given."""
+    given. Raises `NoExpansion` if there is no expansion in powers."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)
@@ -127,10 +127,11 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 
 
 def _without_what_dies(f: Expr) -> Expr:
-    """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t).
+    """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t). Raises
+    `NoExpansion` if this is not possible.
 
-    All exponentials are written as powers of one decaying exponential, with negative powers for growing exponentials.
-    This decaying exponential is then set to zero.
+    All exponentials with a constant rate are written as powers of one decaying exponential, with negative powers for
+    growing exponentials. This decaying exponential is then set to zero.
     """
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
@@ -195,7 +196,8 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
-    """The nonzero Taylor coefficients by their powers, and the lowest of these powers.
+    """The nonzero Taylor coefficients by their powers, and the lowest of these powers. Raises `NoExpansion` if a
+    coefficient is infinite or undefined.
 
     The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later.
     """

@@ -3,8 +3,8 @@
 An absolute value is split into absolute values of irreducible factors. A root is split in the same way, as far as the
 signs of the factors allow it. Each such root or absolute value becomes a new letter, which is a variable of the ring
 with a relation, r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term
-of the exponent, exp(u + v) = exp u exp v. For any other function, only one property is used: equal arguments give equal
-values.
+of the exponent, exp(u + v) = exp u exp v. Trigonometric and hyperbolic functions, signs and logarithms are rewritten
+first. For any other function, only one property is used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -261,7 +261,8 @@ def _number_in_front(form: Form) -> tuple[Rational, Form]:
 
 
 def _denested(base: Expr) -> Expr | None:
-    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign."""
+    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign;
+    None if it is not found."""
     found = sqrtdenest(sqrt(base))
     if isinstance(found, Pow) or found.is_nonnegative is not True:
         return None

@@ -106,8 +106,8 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
 
 @lru_cache(maxsize=1024)
 def _odd_powers(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd: sin^3 u = (1 - cos^2 u) sin u, with the substitution
-    c = cos u."""
+    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd: sin^3 u = (1 - cos^2 u) sin u, and c = cos u is
+    substituted. None for any other product."""
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
     angle = next((f.args[0] for f in powers if isinstance(f, sin | cos)), None)
     if angle is None or powers.keys() - {sin(angle), cos(angle)}:
@@ -128,7 +128,8 @@ def _of_powers(c: Expr, n: Integer, half: Integer) -> Expr:
 
 
 def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of x^n f(m x + c), where f is a sine, a cosine or an exponential."""
+    """The antiderivative of x^n f(m x + c), where f is a sine, a cosine or an exponential; None for any other
+    product."""
     f, n = inside, 0
     for part in Mul.make_args(inside):
         base, exponent = part.as_base_exp()
@@ -157,9 +158,10 @@ def _term(outside: Expr, inside: Expr, x: Symbol, lower: Expr, upper: Expr, oute
 
 def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: Expr, outer: Limits) -> Expr | None:
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: the substitution y = w sin u gives w^(m+k+1) times a number.
+    None for any other integral.
 
-    This substitution requires w >= 0, because otherwise the root is not w cos u. The limits of the outer integrals must
-    show that w >= 0.
+    This substitution requires w >= 0, because otherwise the root is not w cos u. It must be known that w >= 0 between
+    the limits of the outer integrals.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
@@ -194,8 +196,8 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
     """Whether it is known that w >= 0 between the limits.
 
-    This is known in three cases: it follows from the assumptions of the symbols in w; or w is a square root; or w is
-    linear in one variable of integration and non-negative at both limits of this variable.
+    This is known in three cases: it follows from the assumptions of the symbols in w; or w is a square root; or w
+    contains only one variable of integration, is linear in it, and is non-negative at both limits of this variable.
     """
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True

@@ -2,7 +2,7 @@
 given quantities.
 
 An author writes a kind under `symbols:` (`M: mass`). A script annotates parameters of `solve()` with a kind
-(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three.
+(`mass: Mass`); for a type checker the annotation is SymPy's `Expr`, or a tuple of three `Expr`.
 """
 
 from __future__ import annotations
@@ -108,7 +108,8 @@ def plural(kind: str) -> str:
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:
-    """The first kind in `KINDS` with that dimension: energy before torque, angular speed before frequency."""
+    """The first kind in `KINDS` with that dimension: energy before torque, angular speed before frequency. None if no
+    kind has it."""
     return next((name for name, kind in KINDS.items() if kind.dimension == dimension), None)
 
 
@@ -219,7 +220,8 @@ ANNOTATIONS: Mapping[str, Asked] = {
 
 
 def asked_by_annotation(annotation: Any) -> Asked | None:
-    """The type that a parameter's annotation specifies; the annotation may be a string."""
+    """The type that a parameter's annotation specifies; the annotation may be a string. None if it specifies no
+    type."""
     if isinstance(annotation, str):
         return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
     return DIRECTION if annotation is Direction else _asked(annotation)

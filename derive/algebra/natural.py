@@ -69,7 +69,7 @@ class Shortened:
 
 def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
     """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no form is
-    shorter than the value.
+    shorter than the value, or if the value is longer than `LONGEST`.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates
@@ -164,7 +164,8 @@ def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -
 
 @lru_cache(maxsize=4096)
 def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tuple[Symbol, Expr], ...]:
-    """Return each symbol of a formula with its value, if the equation name = formula has one solution for it."""
+    """Return each symbol of a formula that is not in `kept`, with its value, if the equation name = formula has one
+    solution for it."""
     left, right = name, value
     for sign in (1, -1):
         if function := INVERSES.get(type(sign * value)):
@@ -243,8 +244,9 @@ def _relation(
 ) -> Shortened:
     """Rewrite both sides term by term; if the relation gives the value of a symbol, rewrite only the right side.
 
-    Divide an equation with zero on the right by the positive symbols that all terms on the left have in common. Divide
-    any other relation without a zero side by the common factor of both sides, unless it is an equation of motion.
+    Divide an equation with zero on the right by the positive numbers, symbols and powers that all terms on the left
+    have in common. Divide any other relation without a zero side by the common factor of both sides, unless it is an
+    equation of motion.
     """
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:

@@ -1,7 +1,7 @@
 """Decide exactly whether an expression is zero.
 
-Polynomials in symbols, sines and cosines have a normal form. All other expressions use a ring with additional letters
-for roots, absolute values and other functions.
+Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). An expression that this form does not
+decide uses a ring with additional letters for roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def is_identity(left: Expr, right: Expr) -> bool:
 
 @lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the predicates ask about the same expression
 def _vanishes_by_relations(expr: Expr) -> bool:
-    """Whether an expression that is not a polynomial in symbols, sines and cosines is zero; False means "not shown"."""
+    """Whether an expression that `trig_polynomials` cannot decide is zero; False means "not shown"."""
     try:
         expr = _with_common_angles(expr)
         return not expr.has(nan, zoo) and _is_zero(expr) and not any(map(_is_nothing, _divisors(expr)))
@@ -101,7 +101,8 @@ def _hides_angles(expr: Expr) -> bool:
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """If an expression hides angles (`_hides_angles`), expand its sines and cosines in terms of the smallest angles."""
+    """If an expression hides angles (`_hides_angles`), write it in sines and cosines of the angles of
+    `_smallest_angles`."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
@@ -126,7 +127,7 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
     """Group the terms of the angles, so that all ratios in a group are rational. For each group, return the largest
-    angle of which all its terms are whole multiples, and a dummy symbol for this angle."""
+    angle of which all terms of the group are whole multiples, and a dummy symbol for this angle."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

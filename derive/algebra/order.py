@@ -41,6 +41,8 @@ class Order:
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
         """Return these relations and a further one: the difference is greater than zero, or greater than or equal to
         zero if the relation is not strict. Raise `Contradiction` if the further relation contradicts these relations.
+        The further relation is left out if the sign of the difference is already known, or if the relation is not
+        strict and no symbol can be replaced.
         """
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
@@ -88,8 +90,8 @@ class Order:
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
         """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amount of a
-        replaced symbol is first the absolute value of its number at the point. While the resulting values do not fit,
-        each amount is divided by 8."""
+        replaced symbol is first the absolute value of its number at the point. While the resulting values do not fit
+        their symbols (`fits`), each amount is divided by 8."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]

@@ -68,7 +68,7 @@ class Prescribed(Symbol):
         return dimension_of_kind(self.sort) / dimension_of_kind("time") ** self.order
 
     def rate(self, order: int = 1) -> Prescribed:
-        """The derivative of this order with respect to the time."""
+        """The derivative of this order with respect to the time; rejects an order that is too high."""
         if self.order + order >= len(RATES):
             message = f"a derivative of {self.function.name} would be of a higher order than {len(RATES) - 1}"
             raise Rejected(Complaint("too-many-rates", message))

@@ -245,7 +245,8 @@ def _sign_between(least: Expr, greatest: Expr) -> int | None:
 
 
 def _sign_of_sum(total: Expr) -> int | None:
-    """The sign of a sum, from the common sign of its terms or from the bounds between which it lies."""
+    """The sign of a sum, from the common sign of its terms or from the bounds between which it lies. None if the sign
+    is unknown."""
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]
@@ -265,7 +266,8 @@ def _is_nonnegative(term: Expr) -> bool:
 
 
 def _sign_by_squares(total: Add) -> int | None:
-    """The sign of a sum with sines or cosines that has the same sign for all angles, such as m + M - m cos^2."""
+    """The sign of a sum with sines or cosines that has the same sign for all angles, such as m + M - m cos^2. None if
+    the sign is unknown."""
     if not total.has(sin, cos) or total.count_ops() > LARGEST:
         return None
     for squares in (total, TR5(total.expand()), TR6(total.expand())):
@@ -289,7 +291,8 @@ def _have_sine_and_cosine(terms: Sequence[Expr]) -> bool:
 
 
 def _sign_as_product(total: Add) -> int | None:
-    """The sign of a sum or difference of two sines or two cosines with the same factor, from its form as a product."""
+    """The sign of a sum or difference of two sines or two cosines with the same factor, from its form as a product.
+    None if the sign is unknown."""
     if len(total.args) != 2:
         return None
     (factor, one), (other_factor, other) = (term.as_independent(sin, cos, as_Add=False) for term in total.args)
@@ -306,7 +309,8 @@ def _sign_as_product(total: Add) -> int | None:
 
 
 def _sign_of_function(function: Expr) -> int | None:
-    """The sign of a sine, cosine or tangent, if its angle stays within a range in which this sign is constant."""
+    """The sign of a sine, cosine or tangent, if its angle stays within a range in which this sign is constant. None if
+    the sign is unknown."""
     ends = _ends(function.args[0])
     if ends is None or not (ends[0].is_finite and ends[1].is_finite):
         return None

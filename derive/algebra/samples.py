@@ -1,9 +1,9 @@
 """Points at which two expressions are compared, and the values of expressions there.
 
 A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
-seed is computed from the expressions, so each run has the same points for the same expressions. mpmath computes the
-values with enough digits to exclude rounding errors. A difference counts only if more digits confirm it; a difference
-that shrinks as digits are added counts as zero.
+seed of the random numbers is computed from the expressions, so each run has the same points for the same expressions.
+mpmath computes the values with enough digits to exclude rounding errors. A difference counts only if more digits
+confirm it; a difference that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ SamplePoint = Mapping[Expr, Expr]
 
 
 class Undefined(Exception):
-    """The expression has no value at this point: a division by zero, or an infinite value."""
+    """The expression has no value at this point, for example because of a division by zero or an infinite value."""
 
 
 class NoNumber(Exception):
@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each symbol that may be negative and has no range is negative at one of them."""
+    """Two points: each symbol that may have either sign and has no range is negative at one of them."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -235,7 +235,9 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-_LARGEST = 300  # largest exponent that is evaluated: a larger power would hide the other terms of a sum
+# Largest product of an exponent and the bits of its base, because a larger power would hide the other terms of a sum;
+# for whole exponents four times this number. Also the largest argument of a function in `_GROWING`.
+_LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 # functions that lose no digits for any argument
@@ -250,7 +252,7 @@ class Values:
     """The values of expressions at one point, at mpmath's current precision; common parts are computed once."""
 
     def __init__(self, point: SamplePoint) -> None:
-        self.cancelled = False  # whether the terms of a sum cancelled to all digits, so the sum may be zero
+        self.cancelled = False  # whether the terms of a sum cancelled to almost all digits, so the sum may be zero
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():
             self.known[letter] = self._taken(value)
@@ -371,7 +373,7 @@ class Values:
 
 
 def _is_cancelled(total: Any, terms: list[Any]) -> bool:
-    """Whether the terms of a sum cancelled to all digits, so the sum may be zero."""
+    """Whether the terms of a sum cancelled to almost all digits, so the sum may be zero."""
     return _bits(total) < max(map(_bits, terms)) - int(mp.prec) + 30
 
 

@@ -23,7 +23,7 @@ WIDTH = 24  # bits for the power of a letter and the sign of the power
 PARTS = 64  # the largest number of equal parts into which an angle may be divided
 FARTHEST = 2 ** (WIDTH - 2) // PARTS  # highest power of a letter
 HIGHEST = 60  # highest power of a sum, and highest multiple of an angle
-WORK = 200_000  # greatest number of products of two terms that are computed for one expression
+WORK = 200_000  # greatest `cost` of a form
 LETTERS = 120  # a ring with more letters, or with more forms than `FORMS`, is replaced by an empty one
 FORMS = 20_000
 

@@ -104,7 +104,8 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
 
 
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
-    """The terms of the integral of dq/sqrt(f) from 0 to A, up to this power of the amplitude A."""
+    """The terms of the integral of dq/sqrt(f) from 0 to A, up to this power of the amplitude A. Raises `NoExpansion` if
+    they are not found."""
     inside = reduced_square(f, q, amplitude, order)
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:
@@ -130,7 +131,7 @@ def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Ex
 
 
 def _divided(coefficient: Expr, f: Expr) -> Expr:
-    """Divide a coefficient by cos^2 u."""
+    """Divide a coefficient by cos^2 u; raises `NoExpansion` if this is not possible."""
     c = Dummy("c")
     written = coefficient.xreplace({cos(ANGLE): c})
     try:

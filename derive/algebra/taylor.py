@@ -45,7 +45,7 @@ Series = tuple[Expr, ...]
 
 
 class NoSeries(Exception):
-    """The formula has a function without a series rule here, or a symbol whose series is too short."""
+    """No rule of this module gives the series of the formula, or the series of a symbol is too short."""
 
 
 def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> Series:
@@ -93,8 +93,8 @@ def arithmetic_along(
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the
-    place."""
+    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the place.
+    Raises `NoSeries` if they are not found."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:
@@ -174,7 +174,7 @@ class _Arithmetic:
 
     def _prescribed(self, function: Prescribed) -> Series:
         """The series X + X_dot s + X_ddot s^2/2 + ... if the series of the time is t + s; a constant if the time has no
-        series. Raises `NoSeries` for any other series of the time."""
+        series. Raises `NoSeries` for any other series of the time, and if X has too few rates for the order."""
         times = self._letters.get(TIME)
         if times is None:
             return self._constant(function)

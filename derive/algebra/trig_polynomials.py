@@ -26,7 +26,7 @@ from sympy import Add, Expr, I, Mul, Pow, Rational, S, Symbol, cos, cyclotomic_p
 
 from derive.algebra.sparse_polynomials import PARTS, WIDTH, Form, Outside, Ring, Terms
 
-WORK = 3_000_000  # greatest number of products of terms in one question; slower methods decide longer questions
+WORK = 3_000_000  # greatest `cost` of a form; slower methods decide about longer expressions
 LONGEST, STEEPEST = 60, 8  # greatest number of operations in an angle, and highest power in an angle
 ONES, HALF = (1 << WIDTH) - 1, 1 << (WIDTH - 1)
 
@@ -152,7 +152,7 @@ class TrigRing(Ring):
         raise Outside
 
     def _root(self, square: Form, n: int) -> Form:
-        """A power of the square root of a form; raises `Outside` if the form may vanish."""
+        """A power of the square root of a form; raises `Outside` if the form may vanish or the power is too high."""
         if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
@@ -172,7 +172,8 @@ class TrigRing(Ring):
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
     def angle(self, angle: Expr) -> Expr:
-        """A representative of the angle, the same for equal angles; raises `Outside` if no representative is known."""
+        """A representative of the angle, the same for angles that are recognised as equal; raises `Outside` if no
+        representative is known."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
@@ -180,7 +181,7 @@ class TrigRing(Ring):
 
     def multiple(self, number: Rational, angle: object) -> int:
         """How many parts of the angle make up `number` times the angle; `units` says into how many parts each angle is
-        divided."""
+        divided. Raises `Finer` if the angle must be divided into more parts."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -195,7 +196,8 @@ class TrigRing(Ring):
 
     def one_over(self, form: Form) -> Form:
         """The reciprocal of a form. A sum is the product of its last monomial and a remaining factor. The reciprocal of
-        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor)."""
+        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor). Raises `Outside` if the
+        form may be zero."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
@@ -236,7 +238,8 @@ class TrigRing(Ring):
         return form
 
     def related_letter(self, key: object, order: int, of: Form) -> int:
-        """Return the place of the letter whose `order`-th power equals `of`; add a new letter to the ring."""
+        """Return the place of the letter whose `order`-th power equals `of`; if the letter is new, add it to the
+        ring."""
         known = key in self.letters
         place = self.place(key)
         if not known:

@@ -24,7 +24,7 @@ _OF_CLAIMS = ("lines", "routes", "checks")
 
 
 def check_table(outcomes: Iterable[tuple[str, Outcome]]) -> str:
-    """Return a line for each problem, with headings that say what each column counts."""
+    """Return headings, a line for each problem, and a legend that says what the columns count."""
     return f"{table([HEADING, *(_row(problem, outcome) for problem, outcome in outcomes)])}\n\n{LEGEND}"
 
 

@@ -1,4 +1,5 @@
-"""The run of a command: an error that stops the command is reported in a few lines and without a traceback."""
+"""The run of a command: an error that stops the command is reported in a few lines; only DERIVE_DEBUG=1 adds a
+traceback."""
 
 from __future__ import annotations
 
@@ -43,7 +44,7 @@ COMMANDS = {
 
 
 def exit_code(arguments: argparse.Namespace) -> int:
-    """Run a command and return its exit code; report an error in a few lines, without a traceback."""
+    """Run a command and return its exit code; report an error that stops the command."""
     try:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:  # a signal that is ignored, as under `nohup`, stays ignored

@@ -51,7 +51,7 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
     """Whether a value is in the range of a symbol, tested with numbers that satisfy the condition `exists`.
 
-    The result is None if the numbers disagree, or if no numbers can be tested.
+    The result is None if the numbers disagree, or if no numbers can be tested; it is True for a symbol without a range.
     """
     known, seen = range_of(letter), set()
     if known is None:
@@ -76,7 +76,8 @@ def _is_inside(number: Expr, known: Range) -> bool:
 
 
 def existence(of: Quantity, solution: Relation) -> Relation | None:
-    """The condition under which the solution of an equation exists; None if it always exists, or for an inequality."""
+    """The condition under which the solution of an equation exists; None if it always exists, or for an inequality.
+    Rejects an equation whose solution never exists."""
     alone, solved = solution.sides
     exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
     if never:

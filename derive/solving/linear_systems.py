@@ -224,7 +224,8 @@ class LinearSystem:
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:
-        """The irreducible factors of the determinant, a polynomial of the given degree, each with its power."""
+        """The irreducible factors of the determinant, a polynomial of the given degree, each with its power. Rejects a
+        determinant that is not such a polynomial."""
         try:
             found = Poly(determinant, root).factor_list()[1]
         except PolynomialError:
@@ -551,7 +552,7 @@ class Gyroscopic(LinearSystem):
         return [CharacteristicRoot(root_of(-square if sign == -1 else square), sign, factor) for square, sign in both]
 
     def _sign_of_square(self, square: Expr, factor: Factor) -> int | None:
-        """The sign of one root of a z^2 + b z + c, where z = omega^2.
+        """The sign of one root of a z^2 + b z + c, where z = omega^2. None if the sign is unknown.
 
         Both roots are positive if all `needs` are positive; exactly one root is positive if a c < 0.
         """
@@ -563,8 +564,8 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. A formula of the root without a
-        root sign replaces OMEGA.
+        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. If the formula of the root
+        contains no radical, it replaces OMEGA.
 
         The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
         nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
@@ -616,7 +617,8 @@ class Damped(LinearSystem):
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors of the determinant, each linear or quadratic in s; the factor s comes first."""
+        """The factors of the determinant, each linear or quadratic in s; the factor s comes first. Rejects a
+        determinant with any other factor."""
         size = self.mass.shape[0]
         _check_size(size, size <= LARGEST_WITH_RATES, "with drag")
         found = [Factor.of(*each) for each in self._factored(determinant_of(self.at(S)), S, 2 * size)]

@@ -106,7 +106,7 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # number of symbols up to which squares are completed
+MOST_LETTERS = 4  # number of symbols up to which squares with linear terms in them are completed
 LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which squares are completed
 
 
@@ -136,7 +136,8 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def by_one_square(value: Expr) -> Expr:
-    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign."""
+    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign. A value
+    without sines and cosines is returned unchanged."""
     if not value.has(sin, cos):
         return value
     if value.is_Add:

@@ -111,7 +111,7 @@ def border_of(condition: Relation) -> Relation | None:
 
 
 def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Relation | None:
-    """The relation between a value and zero, solved for a symbol; None if the relation cannot be solved."""
+    """The relation between a value and zero, solved for a symbol or another unknown; None if it cannot be solved."""
     try:
         return solved_for_unknown(of, tidied(value), mark, unknown_of("where", letter))
     except Rejected:
@@ -134,7 +134,8 @@ def number_of(of: Quantity) -> Expr:
 
 
 def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr) -> Relation:
-    """The relation between a difference and zero, solved for an unknown u.
+    """The relation between a difference and zero, solved for an unknown u. Rejects a difference that cannot be solved
+    for u.
 
     If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
     negative, the square root of both sides is then taken.
@@ -165,7 +166,7 @@ def without_square(condition: Relation) -> Relation:
 
 
 def _without_sign(value: Expr) -> Expr | None:
-    """The first factor whose sign is unknown."""
+    """The first factor whose sign is unknown, or None."""
     return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
 
 

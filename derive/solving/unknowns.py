@@ -2,8 +2,8 @@
 cosine.
 
 An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). A substitution replaces the unknown
-wherever it occurs. If an equation also contains the symbol outside the unknown, the equation cannot be solved for this
-unknown.
+wherever it occurs. If an equation also contains the symbol outside the unknown, except in factors that can be split
+off, it cannot be solved for this unknown.
 """
 
 from __future__ import annotations
@@ -53,7 +53,8 @@ class ValueOf(Fact):
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The symbol of a given coordinate or quantity, or a given expression unchanged; rejects any other argument."""
+    """The symbol of a given coordinate or quantity; any other unknown, such as cos(theta), is returned unchanged.
+    Rejects an argument that is not an unknown."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
@@ -71,7 +72,7 @@ def _letter_within(unknown: Any) -> Symbol | None:
 
 
 def letter_of(unknown: Expr) -> Symbol:
-    """The symbol in an unknown, such as theta in cos(theta)."""
+    """The symbol in an unknown, such as theta in cos(theta); rejects any other expression."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
         raise Rejected(Complaint("wrong-argument", f"{unknown} is neither a symbol nor a function of a symbol"))
@@ -124,7 +125,8 @@ def is_number(quantity: Quantity) -> bool:
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged."""
+    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged. Rejects
+    any other value that is not an equation."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
@@ -182,7 +184,8 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """Split off the factors that contain the symbol of the unknown but not the unknown itself.
+    """Split off the factors that contain the symbol of the unknown but not the unknown itself. If the remaining product
+    does not contain the unknown either, nothing is split off.
 
     If the unknown is cos(theta), sin(theta)(a cos(theta) - b) is split into a cos(theta) - b and the factor sin(theta).
     """

@@ -61,7 +61,7 @@ class Unsolved(Exception):
 class Zero:
     """A value of the coordinate at which the force vanishes.
 
-    exists   the condition under which this value is real; None if it is always real
+    exists   the condition under which this value is real and in the range of the coordinate; None if it always is
     """
 
     value: Expr
@@ -69,7 +69,8 @@ class Zero:
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros; for an angle only zeros with -pi < q <= pi, for a positive coordinate only positive zeros."""
+    """All real zeros; for an angle only zeros with -pi < q <= pi, for a positive coordinate only positive zeros. Raises
+    `Unsolved` if a factor cannot be solved."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
@@ -338,7 +339,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a zero, whose sign is given, if the coordinate can have this value; otherwise return nothing.
 
     A positive coordinate can have a positive value only. If the sign is unknown, the zero gets the condition that its
-    value is positive.
+    value is positive; raise `Unsolved` if it already has a condition.
     """
     if not q.is_positive:
         return [zero]

@@ -159,14 +159,15 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return three values, for a result that may be approximate: a limit, a series, or derived from one.
+    """Return three values for a result that may be approximate, because it is a limit or a series or is derived from
+    one.
 
     The first value is the symbol of the exact expression that the result approximates, or None. The second value says
     whether the symbol of the result only approximately equals the first line. The third value is the evidence.
 
-    The symbol of a limit or a series must differ from that of the exact expression. If a result has the same symbol as
-    an approximate parent, both approximate the same exact expression. Any other result that is derived from an
-    approximate result is itself only approximate.
+    The symbol of a limit or a series must differ from that of the exact expression. If all approximate parents of a
+    result are limits or series with the symbol of the result, the result approximates the same exact expression. Any
+    other result that is derived from an approximate result is itself only approximate.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
@@ -178,14 +179,14 @@ def approximation_evidence(
     if len(found) == len(same):
         return (same[0].step.approximates if same else None), False, []
     claim = f"rests on the approximation `{next(q.key for q in found if q not in same)}`"
-    return None, True, [Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "as exact as that")]
+    return None, True, [Evidence(claim, Compared.LINES, Grade.APPROXIMATION, "as exact as this approximation")]
 
 
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check; `found` is a pair of values to compare, or a verdict that was found
-    numerically."""
+    """Return the evidence of a route or a check; `found` is a pair of values to compare, or the verdict of a comparison
+    that the route itself makes. Raise `Unverified` if the values disagree or the verdict is a refutation."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

@@ -148,7 +148,8 @@ def always_sign(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts:
 
 
 def _sign_in_ranges(value: Expr) -> int | None:
-    """Return the sign that follows from the ranges of the symbols, if trial numbers confirm this sign."""
+    """Return the sign that follows from the ranges of the symbols, if trial numbers confirm this sign; otherwise
+    None."""
     sign = strict_sign_within(value)
     return sign if sign is not None and signs_of(value) == {sign} else None
 

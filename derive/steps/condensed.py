@@ -22,7 +22,8 @@ def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
     """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
     each new line equals the line that it replaces.
 
-    A result may contain names that the step itself does not contain, such as the name of a defined quantity.
+    A result may contain names that the step itself does not contain, such as the name of a defined quantity. These
+    names are added to the step with their values.
     """
     if not known:
         return step

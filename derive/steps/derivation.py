@@ -44,7 +44,7 @@ class Derivation:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
-        """Return the steps with the requested keys, or the steps that replace them; no step appears twice."""
+        """Return the steps that the requested names ask for, or the steps that replace them; no step appears twice."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:

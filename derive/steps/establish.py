@@ -372,8 +372,8 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
 
 
 def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
-    """Reject a symbol for the result that already occurs in the result with another meaning, or that is the symbol of
-    two components."""
+    """Reject a result that contains its own symbol or, if its left side is an expression, a name in `means`. Also
+    reject two components with the same symbol."""
     letters = {symbol} if isinstance(symbol, Symbol) else set(means)
     if isinstance(symbol, MatrixBase) and len(set(symbol)) < len(symbol):
         raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have the same name"))

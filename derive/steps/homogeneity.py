@@ -42,8 +42,8 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, or KeyError for a name
-    without a known dimension."""
+    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, KeyError for a name
+    without a known dimension, or TypeError for an expression without a rule."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
@@ -189,7 +189,7 @@ def _free(expr: Any) -> set[Basic]:
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
     """Return the common dimension of the lines of a step; None if no line has one. Relations, and lines that fit any
-    dimension, are left out."""
+    dimension, are left out. Raise `Inhomogeneous` if the dimensions differ."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)

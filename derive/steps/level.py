@@ -39,11 +39,12 @@ class Display:
     first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
     only_explains     whether the step only explains the steps that use it, so that it is left out if the problem words
                       these steps itself
-    result_again      up to this level, only the result is shown if the step shown directly before has the same rule
-                      and outcome, and a step shown earlier has the same rule and kinds of lines
+    result_again      up to this level, only the result is shown if two conditions are satisfied: the step shown
+                      directly before has the same rule and outcome, and a step shown earlier has the same rule and
+                      kinds of lines
     each_worked_out   whether the lines of the page's level are shown even after a step with the same rule and kinds of
                       lines; by default, only the lines of the level `brief` are then shown
-    abbreviates       whether the symbol of the step replaces its root in later steps
+    abbreviates       whether the symbol of the step replaces, in later steps, the square root that is its value
     names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
                       needs no left side
     repeats           the key of the equation that the step repeats, if any

@@ -110,7 +110,8 @@ class Memory:
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
 
     def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
-        """Return everything that a call added to the record, as text, with the objects that it made."""
+        """Return as text: the questions of a call, everything that it added to the record, its result, and the objects
+        that it made."""
         assert run.call is not None
         steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
         conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])
@@ -125,8 +126,8 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read what a call added to the record. Return None if this is not stored, or if a question now has a different
-        answer."""
+        """Read what a call added to the record, and its result. Return None if this is not stored or cannot be read, or
+        if a question now has a different answer."""
         kept = self.store.get(key)
         if kept is None:
             return None

@@ -77,14 +77,15 @@ class NaturalQuantities:
     def formulas(self, formulas: Mapping[str, tuple[Any, Any]]) -> dict[str, Any]:
         """Return, by role, the formulas of a sentence that become shorter in defined and proposed quantities.
 
-        A condition for a state must not contain the symbols of this state.
+        Results of earlier steps are not used, because a condition for a state must not contain the symbols of this
+        state.
         """
         found = {role: self._shortened(formula, self._constants) for role, (formula, _) in formulas.items()}
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
-        """Return a shorter form of a value or a condition in known quantities; None if there is none. A matrix, and a
-        value that contains coordinates or rates, such as an energy, is not rewritten."""
+        """Return a shorter form of a value or a condition in known quantities, or None. A matrix is not rewritten, and
+        neither is a value that contains coordinates or rates, such as an energy."""
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
         is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
         if not known or not (is_value or isinstance(value, Relation)):
@@ -105,7 +106,7 @@ class NaturalQuantities:
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
-    """Yield those of the quantities and of their ancestors whose symbols may replace their values."""
+    """Yield the quantities, and their ancestors, whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
     return (quantity for quantity in ancestors if quantity.fact(NamesValue))
 

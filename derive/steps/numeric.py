@@ -320,9 +320,9 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether the number of an answer is clearer unchanged than in decimals: a rational number, pi/2, the square root
-    of an integer, or 2 pi in front of symbols; for a vector, also the square roots of rational numbers, such as
-    1/sqrt(2)."""
+    """Whether the number of an answer, alone or in front of symbols, is clearer unchanged than in decimals. Such a
+    number is rational, a rational multiple of pi, or the square root of an integer; in a vector it may also be the
+    square root of a rational number, such as 1/sqrt(2)."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) or (entry**2).is_Rational for entry in value)
@@ -421,9 +421,10 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    The result is None if the letters are in a sum, which has no common number in front, or if the number in front is
-    rational. It is also None if this number is a product of roots and pi, whose size is easy to see, or if the answer
-    ends with a line in other letters, such as sqrt(2) omega_0.
+    The result is None for a relation, for a value without letters, and for a vector unless `of_vectors` is true. It is
+    also None if the letters are in a sum, which has no common number in front, or if the number in front is rational.
+    Unless `of_vectors` is true, it is None for a product of roots and pi, whose size is easy to see. It is None, too,
+    if the answer ends with a line in other letters, such as sqrt(2) omega_0.
 
     answer       a quantity, usually a scalar with letters
     figures      the number of significant figures

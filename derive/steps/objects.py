@@ -172,7 +172,7 @@ class Objects:
 
     def read(self, data: Any, told: list[str] | None = None) -> Any:
         """Return the value that the data describes, and add the names of the objects in it to `told`. Raise
-        `NoDescription` if the data does not describe a value."""
+        `NoDescription`, ValueError, TypeError or KeyError if the data does not describe a value."""
         told = [] if told is None else told
         if isinstance(data, list):
             return tuple(self.read(each, told) for each in data)

@@ -259,7 +259,7 @@ def assumed() -> list[Relation]:
 
 
 def forget_words() -> None:
-    """State all assumptions after the statement of the problem, because no step states them in words."""
+    """Let the page state all assumptions after the statement of the problem, because no step states them in words."""
     run = current_run.get()
     if run is not None:
         run.in_words.clear()
@@ -333,7 +333,7 @@ def defined_quantities() -> tuple[Quantity, ...]:
 
 
 def defined_as(value: Expr) -> Quantity | None:
-    """Return the quantity under `define:` that has this value; None if there is none."""
+    """Return the quantity under `define:` that has this value, or None."""
     return next((each for each in defined_quantities() if same_value(each.value, value)), None)
 
 

@@ -3,9 +3,9 @@
 A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by this outcome. For
 each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
 
-Predicates are in the file `claims.py` of the folder of their rule, or in `derive/steps/claims.py`. They may use the
-facts of a result and the descriptions of bodies and systems. They use no module that defines rules, with one exception:
-the module for coordinates as functions of the time.
+Predicates are in the files `claims.py` of the folders of verbs, or in `derive/steps/claims.py`. They may use the facts
+of a result and the descriptions of bodies and systems. They use no module of a verb, with one exception: the module for
+coordinates as functions of the time.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class Quote:
 class Rule:
     """A law that makes steps.
 
-    name        the folder and the function of the verb: "lagrange.lagrangian"
+    name        the topic, usually the folder of the verb, and the default key of a step: "lagrange.lagrangian"
     source      the book and the section that state it
     outcomes    outcome -> the predicate that must be true of the result
     evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
@@ -190,7 +190,7 @@ def handed_on_by(kind: type[Any], predicate: Naming) -> None:
 
 
 def wrongly_handed_on(facts: Judged, handed_on: Sequence[Any]) -> Any | None:
-    """Return the first fact that does not fit the step that returns it."""
+    """Return the first fact that does not fit the step that returns it, or None."""
     return next((f for f in handed_on if (judge := _HANDED_ON.get(type(f))) and not judge(facts, f)), None)
 
 

@@ -49,8 +49,8 @@ def sign_known(value: Expr) -> int | None:
 
 
 def sign_beside_root(value: Expr) -> int | None:
-    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with
-    Q^2 D.
+    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with Q^2
+    D. None if the sign is still unknown.
 
     The caller knows that the square roots are real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2
     is greater, P + Q sqrt(D) has the sign of P. The root may be a product of square roots.
@@ -124,8 +124,8 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether a factor is an even power of a real symbol that does not vanish: the factor is in a denominator, or the
-    page assumes that the symbol does not vanish."""
+    """Whether a factor is an even power of a real symbol that does not vanish, because the factor is in a denominator
+    or because the page assumes so."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 

@@ -55,8 +55,8 @@ class Step:
     in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 
     The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
-    key of the exact equation. `about` is true if the step is derived from such a limit or series; the symbol of the
-    step then only approximately equals the first line.
+    key of the exact equation. `about` is true if the step is derived from such a limit or series without having the
+    same symbol; its own symbol then only approximately equals the first line.
 
     Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of the theorems that state the law of the step.
@@ -111,8 +111,8 @@ class Step:
 class Fact:
     """Data that a quantity carries in addition to its value, for the verbs that need such data.
 
-    Each kind of fact is a frozen dataclass, in the module of the verb whose results carry it or in `facts.py` of the
-    same folder. The text `missing` completes the message about a quantity without such a fact.
+    Each kind of fact is a frozen dataclass, in the module of a verb whose results carry it, in a file `facts.py`, or in
+    a module that several verbs use. The text `missing` completes the message about a quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
@@ -248,7 +248,7 @@ def same_value(one: Any, other: Any) -> bool:
 
 
 def require_kind(verb: str, role: str, quantity: Any, kind: str) -> None:
-    """Reject a quantity that is not of this kind, such as a tensor in place of a vector."""
+    """Reject an argument that is not a quantity of this kind, such as a tensor in place of a vector."""
     if isinstance(quantity, Quantity) and quantity.step.kind == kind:
         return
     got = (

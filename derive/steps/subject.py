@@ -129,7 +129,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name by which a message calls a body, a point, an axis or a value."""
+    """Return the name by which a message calls a body, a point, an axis or a value; an empty text for a long value."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

@@ -1,5 +1,5 @@
-"""Check the symbol of a result: it is a letter whose indices are not empty, and it denotes the same kind of
-value as the result: a scalar, a vector or a tensor."""
+"""Check the symbol of a result: each name in it is a letter whose indices are not empty, and the symbol denotes the
+same kind of value as the result: a scalar, a vector or a tensor."""
 
 from __future__ import annotations
 

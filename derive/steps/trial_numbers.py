@@ -1,8 +1,8 @@
 """Trial numbers: the points at which predicates test a statement, and the tests that predicates have in common.
 
 A point gives each symbol a rational number. The numbers are in the ranges of their symbols, and they satisfy the
-assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at other
-points one symbol is large while another is small. Up to four symbols that may be negative take all combinations of
+assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at the
+other points each symbol has one of several sizes. Up to four symbols that may be negative take all combinations of
 signs.
 
 These tests are independent of verbs: verbs decide a sign by the assumptions on the symbols, and the checks of verbs use
@@ -29,7 +29,7 @@ from derive.steps.record import assumed
 
 Point: TypeAlias = Mapping[Any, Expr]
 
-TRIED = 24  # points at which a statement is tested
+TRIED = 24  # largest number of points at which a statement is tested
 DRAWN = 240  # largest number of points that are drawn to find points that satisfy the conditions
 PAIRS, HALVINGS = 4, 10  # pairs of points, one on each side of a border; number of halvings of their distance
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
@@ -145,8 +145,8 @@ def sign_as_set(value: Expr, point: Point) -> set[int | None]:
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
     """Whether a statement is true at each point where it has a meaning, and has a meaning at one point at least.
 
-    is_so   a function of a point: whether the statement is true there. If the statement has no meaning at the point,
-            the function returns None, or raises `Undefined` or `NoNumber`
+    is_so   a function that returns whether the statement is true at a point. If the statement has no meaning at the
+            point, the function returns None, or raises `Undefined` or `NoNumber`
     """
     found = _judged(points, is_so)
     return bool(found) and all(found)

@@ -1,4 +1,7 @@
-"""Tests of statements that hold at each instant of a motion: equations of motion, multipliers, conserved quantities."""
+"""Tests of statements that hold at each instant of a motion: equations of motion, multipliers, conserved quantities.
+
+A test returns None if nothing could be tested.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +71,7 @@ def substitution(claim: Claim) -> Verdict | None:
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Test whether the described system has a state with all given values.
+    """Test whether the described system has a state with all given values of coordinates and rates.
 
     If the given rates contradict a constraint, the claim is refuted.
     """

@@ -172,7 +172,7 @@ class Dynamics:
         return matrix, forces
 
     def response(self, state: State) -> Response:
-        """The accelerations and multipliers in a state; raises `Singular` if they are not determined."""
+        """The accelerations and multipliers in a state; raises `Singular` if the accelerations are not determined."""
         at = self.placed(state)
         if self._lagrangian is not None:
             matrix, forces = self._of_lagrangian(state, self._lagrangian)

@@ -25,7 +25,7 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Around(Fact):
-    """The equilibrium about which an equation holds to first order: the values of the coordinates there.
+    """The equilibrium about which an equation holds to first order, given by the values of the coordinates.
 
     exists      the condition under which the equilibrium exists
     displaced   symbol of a displacement -> the displaced coordinate

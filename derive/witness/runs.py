@@ -1,5 +1,5 @@
 """Motions simulated from their start: speeds by energy conservation, loss of contact, slipping, free flights,
-solutions and periods.
+solutions and periods. A test returns None if nothing could be tested.
 
 SciPy integrates the accelerations of the described system (Dormand and Prince, order 8) and finds when an event occurs:
 Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, sections II.5 and II.6.
@@ -309,7 +309,8 @@ def landing(claim: Claim) -> Verdict | None:
 
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
-    """Yield states in which the force of the constraint vanishes, and the dynamics of the system without constraints.
+    """Yield trials, each with a state in which the force of the constraint vanishes and with the dynamics of the system
+    without constraints.
 
     fact   the flight: the position where it begins, and the motion before it
     """

@@ -1,4 +1,5 @@
-"""Tests of equilibria and of small motions about them: stability, frequencies and decay.
+"""Tests of equilibria and of small motions about them: stability, frequencies and decay. A test returns None if nothing
+could be tested.
 
 The described system is linearised numerically on the manifold of its constraints. The known momenta of cyclic
 coordinates are constant. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some
@@ -153,7 +154,7 @@ def rest(claim: Claim) -> Verdict | None:
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether all generalized forces vanish in this state of rest; False if the system has constraints."""
+    """Whether all generalized forces vanish at this equilibrium; False if the system has constraints."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)

@@ -133,7 +133,8 @@ class Tape:
         return {node for node in self._nodes if isinstance(node, Symbol)} - set(self.inputs)
 
     def bound(self, numbers: Mapping[Symbol, float]) -> Compiled:
-        """Substitute a number for each constant, and return the operations that remain."""
+        """Substitute a number for each constant, and return the operations that remain. Raises `NotComputable` if a
+        constant has no number."""
         values: list[complex | None] = []
         varying: list[tuple[int, Callable[..., Any], tuple[int, ...]]] = []
         inputs = set(self._of_inputs)

@@ -184,7 +184,8 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Return a state near `state` that satisfies the conditions and the given values.
+        """Return a state near `state` that satisfies the conditions and the given values. Raise `Contradiction` if none
+        is found.
 
         Newton's method, with the smallest changes, finds the coordinates and, where needed, the time. Then it finds
         the rates.
