@@ -103,8 +103,6 @@ class Expanded(Ring):
         if not isinstance(expr, sin | cos):
             raise Outside
         angle = expr.args[0]
-        if angle.is_Symbol:
-            return self.letter(expr)
         if not all(part.is_Symbol or part.is_Rational for term in Add.make_args(angle) for part in Mul.make_args(term)):
             raise Outside
         return self.letter(expr)

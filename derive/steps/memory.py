@@ -137,7 +137,7 @@ class Memory:
                 self.objects.enter(*line.split("\t"))
             (questions, *left), found = map(self.objects.read, json.loads(last))
             same = all(self._data(QUESTIONS[name](*about)) == self._data(answer) for name, about, answer in questions)
-        except (NoDescription, TypeError, ValueError, RecursionError):
+        except (NoDescription, LookupError, TypeError, ValueError, RecursionError):  # damaged, or of another version
             return None
         return (*left, found) if same else None
 
