@@ -245,8 +245,8 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Return the reader of a mapping with the keys of a record. `called` is the name of the value in the error for a
-    value that is not a mapping."""
+    """Return the reader of a mapping with the keys of a record. If a value is not a mapping, the error calls it
+    `called`, in which `{}` stands for its name."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

@@ -339,7 +339,8 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a zero, whose sign is given, if the coordinate can have this value; otherwise return nothing.
 
     A positive coordinate can have a positive value only. If the sign is unknown, the zero gets the condition that its
-    value is positive; raise `Unsolved` if it already has a condition.
+    value is positive, and `Unsolved` is raised if the zero already has a condition. A value such as l^2 needs no
+    condition: its letters are assumed not to vanish.
     """
     if not q.is_positive:
         return [zero]

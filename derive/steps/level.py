@@ -32,7 +32,7 @@ class Level(StrEnum):
 
 @dataclass(frozen=True)
 class Display:
-    """The manner in which a page shows a step below the level `full`, as the rule of the step specifies.
+    """How a page below the level `full` shows a step, as the rule of the step specifies.
 
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before this one may state the result of this step

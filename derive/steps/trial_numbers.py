@@ -2,8 +2,8 @@
 
 A point gives each symbol a rational number. The numbers are in the ranges of their symbols, and they satisfy the
 assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at the
-other points each symbol has one of several sizes. Up to four symbols that may be negative take all combinations of
-signs.
+other points each symbol has one of several sizes. If at most four symbols may be negative, the points have all
+combinations of their signs.
 
 These tests are independent of verbs: verbs decide a sign by the assumptions on the symbols, and the checks of verbs use
 other points. A statement is accepted only if it is true at each point where it has a meaning, and if there is such a

@@ -251,8 +251,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-# The motion before a flight begins at this fraction of the distance between its given start and the beginning of the
-# flight, because the given start may be an equilibrium.
+# The simulated motion that leads to a flight starts after this fraction of the distance from its given start to the
+# beginning of the flight, because the given start may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of trial numbers; they satisfy the conditions of the flight, so the force vanishes
 # The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value. The

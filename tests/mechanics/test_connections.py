@@ -228,7 +228,7 @@ parts:
         ("{sliding: mu, direction: [1, 0]}", "{sliding: mu}", "needs the direction"),
         ("{sliding: mu, direction: [1, 0]}", "{sliding: mu, direction: [0, 1]}", "must be along the surface"),
         ("{sliding: mu, direction: [1, 0]}", "{direction: [1, 0]}", "needs one of `rolling`, `sliding` and `static`"),
-        ("{sliding: mu, direction: [1, 0]}", "rolling", "a friction force must prevent slipping"),
+        ("{sliding: mu, direction: [1, 0]}", "rolling", "rolling needs a friction force with a symbol"),
         ("{sliding: mu, direction: [1, 0]}", "{static: mu}", "needs the symbol of its force"),
         ("{sliding: mu, direction: [1, 0]}", "{rolling: F, force: G}", "`force` is the symbol of the static friction"),
         ("{sliding: mu, direction: [1, 0]}", "{static: mu, rolling: F}", "needs one of"),
@@ -537,7 +537,7 @@ ROLLING = problem(trial_called("disc-floor-in space"))
         ("{through: [0, 0, 0], normal: [0, 0, 1]}", "{centre: [0, 0, -R], radius: R}", "is known only for a plane"),
         ("{x: theta}, {z: psi}", "{z: psi}", "lies flat on the plane"),
         ("symbols: {m: mass", "symbols: {F_x: force, m: mass", "`F_x` already denotes something else"),
-        ("{rolling: F}", "rolling", "a friction force must prevent slipping"),
+        ("{rolling: F}", "rolling", "rolling needs a friction force with a symbol"),
         (
             "shape: disc",
             "shape: cylinder, height: a",

@@ -18,7 +18,7 @@ from derive.mechanics.impacts import momentum_laws
 from derive.mechanics.newton import alone, second_law, torque_law
 from derive.mechanics.newton import energy as by_energy
 from derive.mechanics.newton.alone import Alone, Force
-from derive.mechanics.newton.claims import direction, same_equation
+from derive.mechanics.newton.claims import constraint_forces_do_no_work, direction, same_equation
 from derive.mechanics.newton.directions import Direction
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
@@ -521,3 +521,12 @@ def test_a_part_may_have_its_own_method(tmp_path: Path) -> None:
         ("answer: equations_of_motion\n", "answer: equations_of_motion\n    method: newton\n"),
     )
     assert solved(tmp_path, text)["motion_r"].step.rule == "newton.second_law"
+
+
+def test_the_force_of_a_moving_constraint_may_do_work() -> None:
+    """x = v t has the condition x_dot - v on the velocities, which does not contain the time."""
+    x_dot, v = symbols("x_dot v", real=True)
+    inputs = {"letters": ("N",), "rates": (x_dot,)}
+    fixed, moving = (Judged(x_dot, {**inputs, "velocities": (each,)}, {}) for each in (2 * x_dot, x_dot - v))
+    assert constraint_forces_do_no_work(fixed)
+    assert not constraint_forces_do_no_work(moving)

@@ -138,8 +138,8 @@ def body_at(place: Any, stated: Any = None) -> Any:
 
 
 def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
-    """The matrix of successive rotations. Each rotation is about a body axis in its direction after the earlier
-    rotations."""
+    """The matrix of successive rotations. Each rotation is about a body axis, which the earlier rotations have
+    already turned."""
     whole = turn_about(0, Integer(0))
     for i, angle in turns:
         whole = ImmutableDenseMatrix(whole * turn_about(i, angle))

@@ -270,7 +270,7 @@ def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Pa
         found = no_slip(touch.of, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
     if not isinstance(rolling, str):
-        message = "the coordinates allow the body to leave the surface, so a friction force must prevent slipping"
+        message = "the coordinates allow the body to leave the surface, so rolling needs a friction force with a symbol"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the friction, `{rolling: F}`"))
     return _sticking(touch, rolling, direction)
 

@@ -179,9 +179,13 @@ def no_constraint_force(facts: Judged) -> bool:
 
 
 def constraint_forces_do_no_work(facts: Judged) -> bool:
-    """Whether constraint forces act, and no constraint depends on the time. The force of a constraint then has no
-    power for any velocities that this constraint allows."""
-    return bool(facts.inputs["letters"]) and not any(map(depends_on_time, facts.inputs["velocities"]))
+    """Whether constraint forces act, and each condition on the velocities is linear in the rates of the coordinates,
+    without other terms and without the time. The force of a constraint then has no power for any velocities that this
+    constraint allows."""
+    still = dict.fromkeys(facts.inputs["rates"], Integer(0))
+    conditions = [explicit(each) for each in facts.inputs["velocities"]]
+    homogeneous = all(is_zero(each.xreplace(still)) and not depends_on_time(each) for each in conditions)
+    return bool(facts.inputs["letters"]) and homogeneous
 
 
 def rate_of_the_energy(facts: Judged, outcome: str) -> bool:

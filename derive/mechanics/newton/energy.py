@@ -69,6 +69,7 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
         phrase_data=PhraseData(
             outcome_data={
                 "velocities": tuple(each.velocity(moving) for each in system.constraints),
+                "rates": tuple(rate(q) for q in moving),
                 "letters": tuple(each.force for each in system.constraints),
             }
         ),

@@ -245,7 +245,8 @@ class ContactKeys(Record):
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body that touches the surface, `ladder` for `ladder.end`; empty for a place."""
+        """Return the name of the body that touches the surface, `ladder` for `ladder.end`, or the name of a place;
+        empty for a place given by its components."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
