@@ -378,7 +378,8 @@ def _overlap(one: Extent, other: Extent) -> bool:
 
 
 def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
-    """Yield the curves; a path has an arrowhead, and dots at its start and at its end."""
+    """Yield the lines of a panel except its axes: curves, surfaces, branches, and bifurcations with their dots. A path
+    has an arrowhead, and dots at its start and at its end."""
     for line in panel.lines:
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield Stroke(spots, pen)
