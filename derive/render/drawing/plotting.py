@@ -353,7 +353,7 @@ def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[Named
     dot. Also return whether the extremum is a minimum.
 
     If a name would cover another, the names are only the values, without the words "minimum" and "maximum". If this
-    does not help, there are no names; the caption has the values of all extrema.
+    does not help, there are no names; the alternative text has the values of all extrema.
     """
     for k in (0, 1):
         found = [_beside_dot(*turn[:2], turn[2][k], frame, writing) for turn in panel.turns]
