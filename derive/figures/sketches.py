@@ -189,8 +189,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return the time at which a system with a prescribed rotation in space is drawn; an empty mapping for any
-        other system."""
+        """Return the time at which a system is drawn if it has the prescribed rotation of `_rate_round`; an empty
+        mapping for any other system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -214,7 +214,8 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        # the drawing of an impact omits angles and distances that are zero at the impact or change just before it
+        # the drawing of an impact omits angles and distances that are zero at the impact, and distances that change
+        # just before it
         if self.impact is not None:
             found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
             found += impact_marks(self.system, self.impact)
@@ -249,14 +250,14 @@ class _Scene:
         return () if self._touching_bodies() else contact_marks(self.system)
 
     def _axis_of_table(self) -> list[Mark]:
-        """Return the vertical axis of the prescribed rotation in space; an empty list without such a rotation."""
+        """Return the vertical axis of the prescribed rotation of `_rate_round`; an empty list if there is none."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
 
     def is_thing(self, mark: Mark) -> bool:
-        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or a line to a particle that
-        is drawn in place of a rod."""
+        """Whether a mark shows a thing: a part of the system, its surroundings, a point, or a line that is drawn to a
+        particle in place of a rod."""
         if isinstance(mark, Line):
             return mark.pen == "edge"
         if isinstance(mark, ConnectionMark):
@@ -337,8 +338,9 @@ class _Scene:
                 yield ConnectionMark(column_of(at), column_of(ahead))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curves of a point along its coordinates, except straight lines and wires. In space, if only one
-        component of the position varies, yield dashed lines for this component instead."""
+        """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
+        contains as many coordinates as it has components. In space, if the position contains only one coordinate, and
+        this coordinate is a component, yield dashed lines for this component."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
@@ -352,7 +354,7 @@ class _Scene:
 
     def _two_bodies(self) -> Iterable[Mark]:
         """For two particles in a plane, yield the components of their relative position, and the axes for the position
-        of their centre of mass. Yield nothing unless the components of both positions are coordinates of the system."""
+        of their centre of mass. Yield nothing unless all these components are coordinates of the system."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -552,7 +554,8 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its fixed ends, or the source of a central force with the orbit about this source."""
+        """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
+        this source, and the line between its ends unless a link is drawn there."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:

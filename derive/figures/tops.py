@@ -38,8 +38,9 @@ CENTRE = "C"
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
     """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    If there is a spin and `follows_nodes` is true, also yield the axes that follow all rotations except the spin. Yield
-    nothing unless the first rotation is about the vertical and at least two rotations change with time.
+    If there is a spin, also yield the axis of the body and, if `follows_nodes` is true, the other axes that follow all
+    rotations except the spin. Yield nothing unless the first rotation is about the vertical and at least two rotations
+    change with time.
 
     end   the end of the axis of the body
     """
@@ -155,8 +156,8 @@ def _is_round(body: Any) -> bool:
 
 
 def _parts(placed: Any) -> list[tuple[Any, Expr]]:
-    """Return the round parts of a body, each with the height of the origin of its axes above the fixed point, along the
-    axis."""
+    """Return the parts of a body that are round about its axis, without holes. With each part, return the height of the
+    origin of its axes above the fixed point, along the axis."""
     held = placed.point.position[2]
     if _is_round(placed.body):
         return [(placed.body, -held)]

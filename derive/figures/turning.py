@@ -24,11 +24,11 @@ PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, i
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the dashed line from a point to a particle, and the angle of this line. If one angle moves the particle at
-    a constant distance, also yield the circle of the particle.
+    """Yield the dashed line from a point to a particle, the angle of this line, and the point, unless a spring or a
+    central force ends there. If one angle moves the particle at a constant distance, also yield its circle.
 
-    Along a spring, a dimension line shows the distance instead of the dashed line. If the components of the link are
-    coordinates, their axes are drawn instead.
+    Along a spring, a dimension line shows the distance instead of the dashed line and the point. If the components of
+    the link are coordinates, their axes are drawn instead.
     """
     start, end = column_of(link.start), column_of(link.end)
     yield from angle_marks(system, link)
@@ -58,14 +58,16 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:  # else the rate is the label of an axis
+        # if only the time changes an angle in space, an axis with the rate as its label is drawn in place of the angle
+        if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
         yield from _round_the_vertical(system, link)
 
 
 def _components(system: System, link: Link) -> list[Mark]:
-    """Return the axes along which the components of a link are measured, if the components are coordinates."""
+    """Return the axes along which the components of a link are measured, if at least two components are coordinates;
+    otherwise an empty list."""
     lengths = [q for q in moving_in(system, link.length) if system.coordinates.get(q) == "length"]
     ways = {q: ImmutableDenseMatrix([diff(c, q) for c in link.way.components]) for q in lengths}
     if len(ways) < 2 or any(moving_in(system, *way) - {TIME} for way in ways.values()):
@@ -108,7 +110,8 @@ def _sense(value: Expr) -> int:
 
 
 def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the angle of the horizontal projection of a link, or the axis of its rotation if the rate is prescribed."""
+    """Yield the angle of the horizontal projection of a link, with its lines, or the axis of its rotation if the rate
+    is prescribed."""
     x, y, _ = link.way.components
     angles = sorted({f.args[0] for c in (x, y) for f in c.atoms(sin, cos)}, key=str)
     start, level = column_of(link.start), ImmutableDenseMatrix([x, y, 0])
@@ -127,8 +130,8 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def on_the_axis(carried: Location) -> Location:
-    """Return the terms of a position that do not contain the time: the centre about which a point rotates with a
-    prescribed motion."""
+    """Return the terms of a position that do not contain the time, for example the centre about which a point rotates
+    with a prescribed motion."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 

@@ -43,9 +43,11 @@ class Moment:
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle.
+    """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle if this
+    angle is a symbol.
 
-    The components of the position of the particle must be coordinates with known initial values and rates.
+    A particle is left out unless the components of its position are coordinates with known initial values and rates,
+    or if it starts from rest.
     """
     for particle in system.particles:
         components = particle.at.components
@@ -64,7 +66,8 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the velocities just before an impact, the given impulses, and the distances of the points of impact."""
+    """Yield the velocities just before an impact, the given impulses with the heights at which they act, and the points
+    of impact with their distances from fixed points."""
     places = [particle.at for particle in system.particles] + [placed.centre for placed in system.bodies]
     for place in places:
         velocity = Location(tuple(tidied(Add(*_shares(c, moment))) for c in place.components))
@@ -109,7 +112,8 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
 
 
 def _from_the_joint(system: System, places: Sequence[Location], at: Location) -> Iterable[Mark]:
-    """Yield the distance from the fixed point of a body to the point of impact."""
+    """Yield the point of impact and, in a plane, its distance from the fixed point of a body. Yield nothing if the
+    point is the position of a particle or a centre of mass."""
     if any(same(at, place) for place in places):
         return
     for placed, far in _met(system, at):

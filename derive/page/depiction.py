@@ -675,7 +675,7 @@ def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return a few words for each extremum of a curve."""
+    """Return a few words for each extremum of a curve; nothing for a curve with too many extrema to mark."""
     return [
         filled(
             words.drawings["extremum"],

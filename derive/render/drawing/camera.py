@@ -26,7 +26,7 @@ ANGLE = pi / 5
 APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
 OPEN = 0.5  # least cosine of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
-SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates other than angles without a number, in units of `typical`
+SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of `typical`
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:
@@ -129,14 +129,18 @@ def stance_from(azimuth: float, elevation: float) -> Stance:
 
 FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 USUAL = stance_from(25, 18)
-# All three axes point to the viewer, that of the intermediate moment most of all: x, y or z.
+# Views for polhodes, if the axis of the intermediate moment is x, y or z. All three axes point towards the viewer, and
+# this axis most of all.
 FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
-    """Return the view of a drawing: the view that the author chooses, if there is one. Otherwise, of several views in
-    space, it is the one in which vectors are long and far apart and do not end at corners. Without vectors, or with a
-    plane that moves with time, it is the usual view or, for a flat body, the first view in which the body is open.
+    """Return the view of a drawing.
+
+    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise polhodes have
+    a view of `FROM_A_CORNER`, a drawing at a given time has the usual view, and a drawing without vectors has the view
+    of `_open_view`. For any other drawing, it is the one of several views in which vectors are long and far apart and
+    do not end at corners.
 
     `reach` is the size of the bodies.
     """

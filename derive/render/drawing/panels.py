@@ -27,7 +27,9 @@ MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one 
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
 MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
-LOWEST = 0.03  # part of the vertical axis of a diagram, at its lower end, without numbers: those below are close
+# Part of the vertical axis of a diagram, at its lower end, without numbers, because the numbers of the horizontal axis
+# are close to it.
+LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
 USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
@@ -361,8 +363,8 @@ def _names_of(kind: str, value: str) -> tuple[str, str]:
 
 
 def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> tuple[str, ...]:
-    """Return the texts above a panel of one curve: the letter of the panel and the name of the curve, if there are
-    several panels, and the numbers."""
+    """Return the texts above a panel of one curve: the letter of the panel, if there is one, the symbol of the
+    quantity, if the curves have different symbols, and the numbers. A panel of several curves has no such texts."""
     if len(own) > 1:
         return ()
     items = _distinction(own[0], curves, notation)
@@ -376,7 +378,8 @@ def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
 
 
 def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:
-    """Return what distinguishes a curve from the others: its quantity, if there are several, and its numbers."""
+    """Return what distinguishes a curve from the others: the symbol of its quantity, if these symbols differ, and its
+    numbers."""
     quantity = [_mathtext(notation.layout(curve.label))] if curves.labels_differ else []
     return [*quantity, *_numbers(curve.numbers, notation)]
 

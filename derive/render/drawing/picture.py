@@ -20,7 +20,11 @@ SMALLEST = 15.0  # in points: the least distance from the middle of the bodies t
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
-    """Return the pieces in points; without their labels the pieces fit into `width` x `height` centimetres."""
+    """Return the pieces in points.
+
+    Without their labels the pieces fit into `width` x `height` centimetres, unless the drawing sets the size of its
+    bodies or shows the forces on a particle.
+    """
     if drawing.mode is not None:
         return [_reduced(piece) for piece in _fitted(drawing, numbers, width / REDUCED, height / REDUCED)]
     return _fitted(drawing, numbers, width, height)

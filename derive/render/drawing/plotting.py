@@ -353,7 +353,7 @@ def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[Named
     dot. Also return whether the extremum is a minimum.
 
     If a name would cover another, the names are only the values, without the words "minimum" and "maximum". If this
-    does not help, there are no names; the caption has the values of all extrema.
+    does not help, there are no names; the alternative text has the values of all extrema.
     """
     for k in (0, 1):
         found = [_beside_dot(*turn[:2], turn[2][k], frame, writing) for turn in panel.turns]
@@ -378,7 +378,8 @@ def _overlap(one: Extent, other: Extent) -> bool:
 
 
 def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
-    """Yield the curves; a path has an arrowhead, and dots at its start and at its end."""
+    """Yield the lines of a panel except its axes: curves, surfaces, branches, and bifurcations with their dots. A path
+    has an arrowhead, and dots at its start and at its end."""
     for line in panel.lines:
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield Stroke(spots, pen)

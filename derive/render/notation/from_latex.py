@@ -199,7 +199,8 @@ class _Reader:
         return RootSign(self.group(), degree)
 
     def words(self) -> Layout:
-        """Return the argument of a command for upright text as a word; a unit keeps the spaces between its factors."""
+        """Return the argument of a command for upright text as a word; a unit keeps the spaces between its factors. An
+        argument with other characters is laid out as a formula."""
         rest = self.tokens[self.at :]
         depths = list(accumulate({"{": 1, "}": -1}.get(token, 0) for token in rest))
         end = depths.index(0) + 1 if 0 in depths else 0

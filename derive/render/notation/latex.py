@@ -148,7 +148,8 @@ def _flat(item: Layout) -> Layout:
 
 
 def _with_stroke(item: Layout) -> Layout:
-    """Return a fraction written a/b, if numerator and denominator are simple enough."""
+    """Return a fraction written a/b, if numerator and denominator are simple enough. In brackets, under roots and above
+    subscripts, write the fractions inside in this way; return any other item unchanged."""
     match item:
         case Fenced():
             return _with_strokes(item)

@@ -195,8 +195,8 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if this form has more digits, or the
-    same number of digits and a fraction before the root."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if a number has no such form, or if
+    this form has more digits, or the same number of digits and a fraction before the root."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
@@ -259,7 +259,7 @@ def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rat
 def higher_roots_together(expr: Expr) -> Expr:
     """Write J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3).
 
-    A product with one root is unchanged.
+    A product is unchanged if it has only one root, only square roots, or only roots of numbers.
     """
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and f.exp.is_Rational and not f.exp.is_Integer]
@@ -296,7 +296,7 @@ FORCE = dimension_of_kind("force")
 class Place(IntEnum):
     """The places of factors in a product, in the order of print."""
 
-    COEFFICIENT = auto()  # a coefficient of friction: mu N, mu m g
+    COEFFICIENT = auto()  # a coefficient of friction or of restitution: mu N, mu m g
     PER_MASS = auto()  # the gravitational constant comes before the masses
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()

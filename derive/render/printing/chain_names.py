@@ -129,7 +129,8 @@ class StepNames:
 
     @property
     def symbol(self) -> PerRoot:
-        """Return the left side of the chain: a formula of names is written out, any other symbol as its identifier."""
+        """Return the left side of the chain: components and a formula of names are written out; any other symbol is
+        written as its identifier."""
         symbol = self.step.symbol
         if isinstance(symbol, MatrixBase):
             return _of_each_root([written(symbol, Setting(self.identifiers)).text])
@@ -148,8 +149,8 @@ class StepNames:
 
     @cached_property
     def lines(self) -> list[Written]:
-        """Return the texts of all lines, followed by the texts of the values of names, and of rates and their
-        values."""
+        """Return the texts of all lines, and of the left side if it is a formula of names. They are followed by the
+        texts of the values of names, and of rates and their values."""
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
         lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}
@@ -202,8 +203,8 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """Return the factor f for which `before` is f times `here`: 1 or -1 if possible, otherwise a simplified
-    quotient."""
+    """Return the factor f for which `before` is f times `here`: 1 or -1 if possible, otherwise the quotient, simplified
+    if possible."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign

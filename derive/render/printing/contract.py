@@ -183,7 +183,8 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """Return the symbol of which the result is a limit or series; for an equation, which has no symbol, its key."""
+    """Return, in LaTeX, the symbol of which the result is a limit or series; for an equation, which has no symbol, its
+    key. The result is None if the step records neither."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 

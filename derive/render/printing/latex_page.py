@@ -329,7 +329,8 @@ def _is_low(lines: Sequence[Printed]) -> bool:
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides; the result at the end is framed, and its relation is before the frame."""
+    """Return relations and right sides. The result at the end is framed, and its relation is before the frame, unless
+    the frame includes the whole line."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]

@@ -72,7 +72,7 @@ def compile_templates(folder: Path) -> None:
 
 
 def _failing_line(error: Exception, folder: Path) -> Place | None:
-    """Return the line of the template that raised the error; None if code that the template calls raised it."""
+    """Return the line of the template that raised the error; None if code of derive raised it."""
     files = {str(file): file for file in folder.glob("*.j2")}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
