@@ -633,11 +633,15 @@ class Connections:
         if any(moving_in(self.system, *p.components) - {TIME} == set() for p in (other,)) or self._turns():
             yield PointMark(column_of(place))
             return
-        below = self.rows == 3 or line.is_rod or self.number((other - place).components[1]) < 0
+        turns = any(self.system.coordinates.get(q) == "angle" for q in moving_in(self.system, *other.components))
+        below = self.rows == 3 or line.is_rod or turns or self.number((other - place).components[1]) < 0
         if moving := list(moving_end(self.system, place, line.is_rod)):
             yield from moving
+        elif below:
+            held = column_of(other - place) if self.in_a_plane else None
+            yield FixedEnd(column_of(place), downwards(self.rows), line.is_rod, held)
         else:
-            yield FixedEnd(column_of(place), downwards(self.rows) if below else column_of(other - place), line.is_rod)
+            yield FixedEnd(column_of(place), column_of(other - place))
 
     def _turns(self) -> bool:
         """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.

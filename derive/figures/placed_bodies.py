@@ -213,7 +213,7 @@ def _holder(system: System, placed: Any) -> Iterable[Mark]:
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
-        yield FixedEnd(at, downwards(2), True)
+        yield FixedEnd(at, downwards(2), True, column_of(placed.centre - placed.at))
     elif TIME in moving_in(system, *way):
         if placed.turned.turns[0][0] == 2:
             size = sqrt(tidied(Add(*(c**2 for c in way))))
