@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sqrt
 
+from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
+from derive.figures.parts import WheelMark
+from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, DistanceMark
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.strings import Line
+from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
@@ -45,11 +53,13 @@ class Moment:
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
     """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle.
 
-    The components of the position of the particle must be coordinates with known initial values and rates.
+    The components of the position of the particle must be coordinates with known initial values and rates. Otherwise,
+    see `_guided`.
     """
     for particle in system.particles:
         components = particle.at.components
         if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
+            yield from _guided(system, moment, particle)
             continue
         start = Location(tuple(moment.at[c] for c in components))
         velocity = Location(tuple(moment.rates[c] for c in components))
@@ -61,6 +71,53 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
+    for placed in system.bodies:
+        yield from _guided(system, moment, placed)
+
+
+def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:
+    """Yield the initial velocity of a particle or a round body that a string, a rod or a surface guides, at its initial
+    position, and a dashed or hollow outline there, because the rest of the drawing shows a later state.
+
+    Yield nothing for a block, whose spring or surroundings would be covered, or if the velocity has no symbol.
+    """
+    at = getattr(of, "centre", None) or of.at
+    guiding = [each for each in system.parts if isinstance(each, Line | Contact) and each.on(of)]
+    if len(at.components) != 2 or not guiding or _slides_straight(of, guiding):
+        return
+    state = {**_held(system), **moment.at}
+    start = at.with_values(state)
+    velocity = Location(tuple(tidied(Add(*_shares(c, moment)).subs(state)) for c in at.components))
+    if not any(velocity.components) or not is_fixed(system, start + velocity) or not _size(velocity).is_Symbol:
+        return
+    if hasattr(of, "centre"):
+        outline = placed_outline(with_its_shape(of.moved(state)))
+        (q, value), *_ = moment.at.items()
+        yield from (
+            Ghost(of=replace(mark, label=None), letter=q, value=value)
+            for mark in outline
+            if isinstance(mark, WheelMark)
+        )
+    else:
+        yield HollowParticle(column_of(start))
+    yield _arrow(start, velocity, LONG)
+
+
+def _slides_straight(of: Any, guiding: Sequence[Any]) -> bool:
+    """Whether a particle moves along a plane, so that it is drawn as a block."""
+    return not hasattr(of, "centre") and any(isinstance(getattr(e, "surface", None), Plane) for e in guiding)
+
+
+def _held(system: System) -> dict[Symbol, Expr]:
+    """Return the values of the coordinates that constraints keep constant."""
+    found = {}
+    for each in system.constraints:
+        if not each.in_rates and len(each.coordinates) == 1:
+            (q,) = each.coordinates
+            share = tidied(diff(explicit(each.residual), q))
+            if share != 0 and not moving_in(system, share):
+                found[q] = tidied(q - explicit(each.residual) / share)
+    return found
 
 
 def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
@@ -74,6 +131,7 @@ def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
         if any(push.components) and is_fixed(system, push):
             yield Arrow(column_of(at), column_of(push), 2 * LONG, False, True, label=_size(push))
             yield from _height(system, moment, at)
+            yield from _from_the_joint(system, places, at, True)
     for at in moment.meeting:
         yield from _from_the_joint(system, places, at)
 
@@ -108,11 +166,12 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
         yield LengthMark(column_of(low), column_of(there), ImmutableDenseMatrix([ONE, ZERO]), clear, label=y)
 
 
-def _from_the_joint(system: System, places: Sequence[Location], at: Location) -> Iterable[Mark]:
-    """Yield the distance from the fixed point of a body to the point of impact."""
+def _from_the_joint(system: System, places: Sequence[Location], at: Location, hinged: bool = False) -> Iterable[Mark]:
+    """Yield the distance from the fixed point of a body, or with `hinged` from a hinge between two bodies, to the point
+    of impact."""
     if any(same(at, place) for place in places):
         return
-    for placed, far in _met(system, at):
+    for placed, far in _met(system, at, hinged):
         way = at - placed.at
         yield PointMark(column_of(at))
         if len(way.components) == 2:
@@ -120,12 +179,13 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
             yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
 
 
-def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """Yield pairs of a body and a symbol. The body has a fixed point, and the symbol is the constant distance from this
-    point to the point of impact."""
+def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:
+    """Yield pairs of a body and a symbol. The body has a fixed point, or with `hinged` a hinge to another body, and the
+    symbol is the constant distance from this point to the point of impact."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
-        if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
+        is_joint = is_fixed(system, placed.at) or hinged and isinstance(placed.at, PointOfBody)
+        if is_joint and far.is_Symbol and not moving_in(system, far):
             yield placed, far
 
 

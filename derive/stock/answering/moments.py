@@ -16,7 +16,7 @@ from derive.mechanics.kinematics.places import Location
 from derive.steps.signs import sign_known
 from derive.stock.keys.results import Result
 
-SOLUTION = "solution"
+SOLUTION, SPEED = "solution", "speed"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
@@ -27,7 +27,7 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
-        if result.verb.name == SOLUTION and {"q", "start_rate"} <= result.values.keys():
+        if result.verb.name in (SOLUTION, SPEED) and {"q", "start_rate"} <= result.values.keys():
             q = result.values["q"]
             if q in system.coordinates:
                 at.setdefault(q, result.values.get("start", Integer(0)))
