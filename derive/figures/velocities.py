@@ -10,7 +10,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 
 from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.annotations import Arrow, Axis, LengthMark, PointMark
 from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
@@ -22,12 +22,13 @@ from derive.figures.surroundings import AngleBetween, DistanceMark
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.contacts import Contact
-from derive.mechanics.model.strings import Line
-from derive.mechanics.model.surfaces import Plane
+from derive.mechanics.model.strings import Line, circles_of
+from derive.mechanics.model.surfaces import Circle, Plane
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
+AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
@@ -42,12 +43,14 @@ class Moment:
     rates     the rates of coordinates
     pushes    pairs of the components of a given impulse and its point of action
     meeting   the points of impact on bodies
+    flight    the symbols of the Cartesian coordinates of a flight that follows, whose axes start at the origin
     """
 
     at: Values = field(default_factory=dict)
     rates: Values = field(default_factory=dict)
     pushes: Sequence[tuple[Location, Location]] = ()
     meeting: Sequence[Location] = ()
+    flight: Sequence[Symbol] = ()
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
@@ -73,6 +76,24 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
     for placed in system.bodies:
         yield from _guided(system, moment, placed)
+    yield from _axes_of_flight(system, moment)
+
+
+def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
+    """Yield the axes of a flight in a plane that begins on a string, on a rod or on a circle.
+
+    They start at the end of the string or at the centre of the circle, if this place is the origin.
+    """
+    circles = [circle for particle in system.particles for circle in circles_of(system, particle.at)]
+    circles += [e.surface for e in system.parts if isinstance(e, Contact) and isinstance(e.surface, Circle)]
+    origin = Location((ZERO, ZERO))
+    circle = next((each for each in circles if each.centre.components == origin.components), None)
+    if circle is None:
+        return
+    for k, letter in enumerate(moment.flight):
+        far = AXIS * circle.radius
+        end = Location(tuple(far if i == k else ZERO for i in range(2)))
+        yield Axis(column_of(origin), column_of(end), label=letter)
 
 
 def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:

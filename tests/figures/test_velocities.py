@@ -9,7 +9,7 @@ from sympy import Integer, Matrix, cos, pi, sin, symbols
 
 from derive.algebra.expressions import scalar
 from derive.figures import sketch
-from derive.figures.annotations import Arrow, LengthMark
+from derive.figures.annotations import Arrow, Axis, LengthMark
 from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.marks import Drawing
 from derive.figures.parts import BlockMark, ParticleMark
@@ -143,3 +143,10 @@ def test_an_angle_that_rolling_relates_to_another_is_drawn_with_its_positive_sen
     pieces = angle.pieces(OnPaper(Numbers({phi: 0.6, a: 1.0, b: 0.7}), FLAT))
     arc = next(piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == "angle")
     assert arc.tail and not arc.head  # the cylinder has turned clockwise, but psi is positive counterclockwise
+
+
+def test_the_coordinates_of_a_flight_have_axes(tmp_path: Path) -> None:
+    for name in ("slack_pendulum", "off_a_sphere"):
+        found = drawings(tmp_path / name, library(name))["system"]
+        assert [str(mark.label) for mark in of(found, Axis)] == ["x", "y"]
+    assert not of(drawings(tmp_path / "none", library("pushed_off_sphere"))["system"], Axis)
