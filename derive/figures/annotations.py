@@ -277,7 +277,16 @@ class Arrow(Mark):
 @dataclass(frozen=True)
 class ForceArrow(Arrow):
     """A force on a body that is drawn alone. `size` is the length of the arrow in units of FORCE points, so the forces
-    of several drawings have one scale."""
+    of several drawings have one scale.
+
+    inside   whether the arrow is inside the body, so that its label is beside the shaft, away from the other forces
+    """
+
+    inside: bool = False
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        found = super().pieces(paper)
+        return _labelled_beside(found) if self.inside else found
 
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * FORCE / paper.scale
@@ -312,16 +321,25 @@ class Weight(Arrow):
     """
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        line, *_ = found = super().pieces(paper)
-        (x, y), (u, v) = line.spots
-        along = direction(*line.spots)
-        half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move along the arrow, almost to its tip
-        beside = Tag(self.label, midway(*line.spots), (along[1], -along[0]), way=half)
-        return [beside if isinstance(piece, Tag) else piece for piece in found]
+        return _labelled_beside(super().pieces(paper))
 
     @property
     def directions(self) -> tuple[Position, ...]:
         return ()
+
+
+def _labelled_beside(arrow: list[Piece]) -> list[Piece]:
+    """Move the label of an arrow to a place next to its shaft."""
+    line = next((piece for piece in arrow if isinstance(piece, Stroke)), None)
+    if line is None:
+        return arrow
+    (x, y), (u, v) = line.spots
+    along = direction(*line.spots)
+    half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move along the arrow, almost to its tip
+    return [
+        Tag(piece.label, midway(*line.spots), (along[1], -along[0]), way=half) if isinstance(piece, Tag) else piece
+        for piece in arrow
+    ]
 
 
 @dataclass(frozen=True)

@@ -275,10 +275,13 @@ def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> 
 
 
 def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
-    """Return one dimension line for each edge length of a flat body."""
+    """Return one dimension line for each edge length of a flat body, and two for the equal edges of an isosceles
+    triangle, which are not parallel."""
     corners = tuple(map(point.seen, boundary.corners))
     middle = sum(corners, ORIGIN) / len(corners)
-    ends_of = ((length, corners[edges[0][0]], corners[edges[0][1]]) for length, edges in boundary.edges)
+    is_isosceles = len(corners) == 3 and any(len(edges) == 2 for _, edges in boundary.edges)
+    shown = ((length, edge) for length, edges in boundary.edges for edge in edges[: 2 if is_isosceles else 1])
+    ends_of = ((length, *(corners[i] for i in edge)) for length, edge in shown)
     return [LengthMark(a, b, (a + b) / 2 - middle, label=length) for length, a, b in ends_of]
 
 

@@ -86,10 +86,12 @@ class Connections:
     """The connections of a system, the numbers that replace their symbols in the drawing, and their marks.
 
     in_a_plane   whether the system moves in a plane; in space, only some planes are drawn: see `is_drawn`
+    start        the values of coordinates at the start of a motion, if the drawing also shows the start
     """
 
-    def __init__(self, system: System):
+    def __init__(self, system: System, start: Mapping[Symbol, Expr] | None = None):
         self.system = system
+        self.start = dict(start or {})
         self.contacts = connections_of(system, Contact)
         self.lines = connections_of(system, Line)
         self.pins = connections_of(system, Pin)
@@ -428,6 +430,8 @@ class Connections:
             along = -along
         ways = [dot(along, each.at - plane.through) for each in contacts]
         past = self.size * PAST
+        begun = [dot(along, each.at.with_values(self.start) - plane.through) for each in contacts if self.start]
+        ways += [tidied(way) for way in begun if not moving_in(self.system, way)]
         meets = any(other != plane and same(other.through, plane.through) for other in self._planes)
         is_slope = plane.of is None and min(abs(self.number(c)) for c in n.components) > SMALL
         first, last = (choice([*ways, ZERO] if meets or is_slope else ways, key=self.number) for choice in (min, max))
@@ -633,11 +637,15 @@ class Connections:
         if any(moving_in(self.system, *p.components) - {TIME} == set() for p in (other,)) or self._turns():
             yield PointMark(column_of(place))
             return
-        below = self.rows == 3 or line.is_rod or self.number((other - place).components[1]) < 0
+        turns = any(self.system.coordinates.get(q) == "angle" for q in moving_in(self.system, *other.components))
+        below = self.rows == 3 or line.is_rod or turns or self.number((other - place).components[1]) < 0
         if moving := list(moving_end(self.system, place, line.is_rod)):
             yield from moving
+        elif below:
+            held = column_of(other - place) if self.in_a_plane else None
+            yield FixedEnd(column_of(place), downwards(self.rows), line.is_rod, held)
         else:
-            yield FixedEnd(column_of(place), downwards(self.rows) if below else column_of(other - place), line.is_rod)
+            yield FixedEnd(column_of(place), column_of(other - place))
 
     def _turns(self) -> bool:
         """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.

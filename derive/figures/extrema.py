@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import isfinite, nan
 from typing import Any
 
@@ -18,6 +19,7 @@ from derive.errors import Complaint, Rejected, Unverified
 STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is inside a step, not at its end
 POLE = 1e4  # a value above POLE times the greatest value of the grid is a pole, not an extremum
 MINIMUM, MAXIMUM = "minimum", "maximum"
+NEAR_ZERO = 1e-3  # relative size of a value at the end of a range that counts as zero, if the end has three figures
 NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
 
 
@@ -78,8 +80,21 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
     return tuple(found)
 
 
+def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
+    """Return the places inside the range at which an expression in one symbol changes its sign. A zero at the upper end
+    of the range also counts, but one at the lower end does not."""
+    points = values_along(expr, variable, lower, upper, STEPS)
+    f = lambdify([variable], expr, "math")
+    size = max(abs(y) for _, y in points)
+    found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise(points[:-1]) if y * z < 0]
+    (a, y), (b, z) = points[-2:]
+    if abs(z) <= NEAR_ZERO * size:
+        return (*found, b)
+    return (*found, _narrowed(f, a, b)) if y * z < 0 else tuple(found)
+
+
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
-    """Find the place at which the slope changes sign, by bisection."""
+    """Find the place at which a function, such as the slope, changes sign, by bisection."""
     below = slope(low) < 0
     for _ in range(80):
         middle = (low + high) / 2

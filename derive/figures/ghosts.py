@@ -10,8 +10,9 @@ from sympy import Expr
 
 from derive.algebra.expressions import as_expr
 from derive.errors import Complaint, Rejected
-from derive.figures.marks import InWords, Mark, Surface
-from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
+from derive.figures.marks import InWords, Mark, Position, Surface
+from derive.figures.parts import BOB
+from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import name_of
 from derive.figures.space import Vector
@@ -43,6 +44,23 @@ class Ghost(Surface):
         if not self.of.name:
             return None
         return "ghost", {"name": self.of.name, "letter": self.letter, "value": self.value}
+
+
+@dataclass(frozen=True)
+class HollowParticle(Surface):
+    """A particle at its initial position, as a hollow disc."""
+
+    at: Position
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(*self.places(paper.numbers))
+        return [Bullet(spot, BOB, "ink"), Bullet(spot, 0.8 * BOB, "blank")]
+
+    def in_words(self) -> InWords | None:
+        return None
 
 
 def dashed_at(system: System, values: Mapping[Any, Any]) -> list[Mark]:

@@ -213,7 +213,7 @@ def _holder(system: System, placed: Any) -> Iterable[Mark]:
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
-        yield FixedEnd(at, downwards(2), True)
+        yield FixedEnd(at, downwards(2), True, column_of(placed.centre - placed.at))
     elif TIME in moving_in(system, *way):
         if placed.turned.turns[0][0] == 2:
             size = sqrt(tidied(Add(*(c**2 for c in way))))
@@ -337,6 +337,12 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
     """Yield the rotation angle: for a bar, drawn at its start; for a disc, drawn at its centre with an arrowhead that
     shows the positive sense."""
     for mark in outline:
+        if isinstance(mark, WheelMark) and mark.pointer is not None and (rolled := _rolled_angle(system, placed)):
+            angle, sense = rolled
+            x, y = mark.pointer
+            onwards = sense * ImmutableDenseMatrix([-y, x])
+            yield AngleBetween(mark.centre, ImmutableDenseMatrix([1, 0]), mark.pointer, True, onwards, label=angle)
+            continue
         if isinstance(mark, ThickBar):
             start, end = Location(tuple(mark.start)), Location(tuple(mark.end))
         elif isinstance(mark, WheelMark) and any(turn.is_Symbol for turn in (placed.turned, -placed.turned)):
@@ -350,6 +356,17 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
                 yield replace(angle, growing=diff(angle.b, angle.label))
             else:
                 yield angle
+
+
+def _rolled_angle(system: System, placed: Any) -> tuple[Expr, int] | None:
+    """Return the coordinate that is the rotation angle of a body, and its sense, if a rolling condition has replaced
+    this coordinate by another one; otherwise None."""
+    for q, value in system.known.items():
+        if system.coordinates.get(q) in ("angle", None) and moving_in(system, value):
+            for sense in (1, -1):
+                if is_zero(tidied(placed.turned - sense * value)):
+                    return q, sense
+    return None
 
 
 def placed_outline(placed: Any) -> list[Mark]:

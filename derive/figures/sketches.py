@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, cos, diff, pi, sin, sqrt
@@ -25,7 +26,7 @@ from derive.figures.parts import BLOCK, BOB, BlockMark, ConnectionMark, Particle
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.surroundings import DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards, link_marks, moving_end
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
@@ -46,6 +47,7 @@ WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
 ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
 ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
+UNDER_FLOOR = 16.0  # the distance from the middle of a block on a floor to the lower side of the floor, in points
 BENEATH = 18.0  # the distance of dimension lines from each other, in points
 
 
@@ -104,7 +106,7 @@ class _Scene:
     ):
         self.system, self.weights, self.start, self.impact = system, weights, start, impact
         self.rows = len(system.places[0].components)
-        self.connections = Connections(system)
+        self.connections = Connections(system, start.at if start is not None else None)
         self.links = {
             i: link for i in range(len(system.particles)) if (link := link_to(system, i, tuple(named))) is not None
         }
@@ -219,7 +221,27 @@ class _Scene:
         if self.impact is not None:
             found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
             found += impact_marks(self.system, self.impact)
-        return list(dict.fromkeys(found))
+        return list(dict.fromkeys([*found, *self._between_supports(found)]))
+
+    def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
+        """Yield dimension lines for the distances of supports at the same height in a plane, on the side away from the
+        masses, if such a distance is a symbol or a multiple of a symbol."""
+        if self.rows != 2:
+            return
+        number = self.connections.number
+        places = [Location(tuple(mark.at)) for mark in marks if isinstance(mark, FixedEnd) and any(mark.away)]
+        places = sorted(dict.fromkeys(places), key=lambda place: number(place.components[0]))
+        heights = [at.components[1] for _, at in self.system.masses]
+        for one, other in pairwise(places):
+            x, y = (tidied(c) for c in (other - one).components)
+            if y != 0 or not x.as_coeff_Mul()[1].is_Symbol or moving_in(self.system, x):
+                continue
+            above = max((number(c - one.components[1]) for c in heights), default=0.0)
+            is_level = not any(moving_in(self.system, c) for c in heights)
+            aside = 1 if above < 0 and not is_level else -1
+            room = UNDER_FLOOR if is_level else HATCH
+            way = ImmutableDenseMatrix([0, aside])
+            yield LengthMark(column_of(one), column_of(other), way, beyond=room, label=x)
 
     def _all(self) -> Iterable[Mark]:
         for each in self.system.between:

@@ -16,6 +16,8 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
+PEG = 2.2  # radius of a bare peg
+ABOVE = 0.1  # least height above a pivot of the end of a rod or a string, relative to its length, of a part "above"
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
 MOVES, BESIDE_RAIL = 14.0, 12.0  # half the length of the double arrow of a moving support, and its distance
@@ -111,11 +113,15 @@ class FixedEnd(Surface):
 
     away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
+    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, the
+            ceiling would be in its way: a pivot is then above hatched ground, and the end of a string is a bare peg,
+            because the string goes round
     """
 
     at: Position
     away: Position
     joint: bool = False
+    held: Position = None
     layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -127,8 +133,19 @@ class FixedEnd(Surface):
         if size_of(paper.numbers.vector(self.away)) < 1e-9:
             return joint
         away = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.away)))
+        if self._is_below(paper, away):
+            if not self.joint:
+                return [Bullet(spot, PEG), Tag(self.label, spot, (-0.9, -0.4), 4.0)]
+            away = -away[0], -away[1]
         start, end = ((x + s * away[1] * STAND, y - s * away[0] * STAND) for s in (-1, 1))
         return [*hatched(start, end, (-away[0], -away[1])), *joint, Tag(self.label, spot, (-away[1], away[0]), 5.0)]
+
+    def _is_below(self, paper: Paper, away: Spot) -> bool:
+        """Whether the part at this point is drawn on the side of the wall."""
+        if self.held is None:
+            return False
+        x, y = paper.spot(paper.numbers.vector(self.held))
+        return x * away[0] + y * away[1] < -ABOVE * hypot(x, y)
 
     def in_words(self) -> InWords:
         return "pivot" if self.joint else "fixed_end", {"label": self.label}

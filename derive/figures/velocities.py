@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sqrt
 
+from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Arrow, LengthMark, PointMark
+from derive.figures.annotations import Arrow, Axis, LengthMark, PointMark
+from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
+from derive.figures.parts import WheelMark
+from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, DistanceMark
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.contacts import Contact
+from derive.mechanics.model.strings import Line, circles_of
+from derive.mechanics.model.surfaces import Circle, Plane
 from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
+AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
@@ -34,24 +43,26 @@ class Moment:
     rates     the rates of coordinates
     pushes    pairs of the components of a given impulse and its point of action
     meeting   the points of impact on bodies
+    flight    the symbols of the Cartesian coordinates of a flight that follows, whose axes start at the origin
     """
 
     at: Values = field(default_factory=dict)
     rates: Values = field(default_factory=dict)
     pushes: Sequence[tuple[Location, Location]] = ()
     meeting: Sequence[Location] = ()
+    flight: Sequence[Symbol] = ()
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
     """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle if this
     angle is a symbol.
 
-    A particle is left out unless the components of its position are coordinates with known initial values and rates,
-    or if it starts from rest.
+    If the components of the position are not coordinates with known initial values and rates, see `_guided`.
     """
     for particle in system.particles:
         components = particle.at.components
         if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
+            yield from _guided(system, moment, particle)
             continue
         start = Location(tuple(moment.at[c] for c in components))
         velocity = Location(tuple(moment.rates[c] for c in components))
@@ -63,6 +74,71 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
+    for placed in system.bodies:
+        yield from _guided(system, moment, placed)
+    yield from _axes_of_flight(system, moment)
+
+
+def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
+    """Yield the axes of a flight in a plane that begins on a string, on a rod or on a circle.
+
+    They start at the end of the string or at the centre of the circle, if this place is the origin.
+    """
+    circles = [circle for particle in system.particles for circle in circles_of(system, particle.at)]
+    circles += [e.surface for e in system.parts if isinstance(e, Contact) and isinstance(e.surface, Circle)]
+    origin = Location((ZERO, ZERO))
+    circle = next((each for each in circles if each.centre.components == origin.components), None)
+    if circle is None:
+        return
+    for k, letter in enumerate(moment.flight):
+        far = AXIS * circle.radius
+        end = Location(tuple(far if i == k else ZERO for i in range(2)))
+        yield Axis(column_of(origin), column_of(end), label=letter)
+
+
+def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:
+    """Yield the initial velocity of a particle or a round body that a string, a rod or a surface guides, at its initial
+    position, and a dashed or hollow outline there, because the rest of the drawing shows a later state.
+
+    Yield nothing for a block, whose spring or surroundings would be covered, or if the velocity has no symbol.
+    """
+    at = getattr(of, "centre", None) or of.at
+    guiding = [each for each in system.parts if isinstance(each, Line | Contact) and each.on(of)]
+    if len(at.components) != 2 or not guiding or _slides_straight(of, guiding):
+        return
+    state = {**_held(system), **moment.at}
+    start = at.with_values(state)
+    velocity = Location(tuple(tidied(Add(*_shares(c, moment)).subs(state)) for c in at.components))
+    if not any(velocity.components) or not is_fixed(system, start + velocity) or not _size(velocity).is_Symbol:
+        return
+    if hasattr(of, "centre"):
+        outline = placed_outline(with_its_shape(of.moved(state)))
+        (q, value), *_ = moment.at.items()
+        yield from (
+            Ghost(of=replace(mark, label=None), letter=q, value=value)
+            for mark in outline
+            if isinstance(mark, WheelMark)
+        )
+    else:
+        yield HollowParticle(column_of(start))
+    yield _arrow(start, velocity, LONG)
+
+
+def _slides_straight(of: Any, guiding: Sequence[Any]) -> bool:
+    """Whether a particle moves along a plane, so that it is drawn as a block."""
+    return not hasattr(of, "centre") and any(isinstance(getattr(e, "surface", None), Plane) for e in guiding)
+
+
+def _held(system: System) -> dict[Symbol, Expr]:
+    """Return the values of the coordinates that constraints keep constant."""
+    found = {}
+    for each in system.constraints:
+        if not each.in_rates and len(each.coordinates) == 1:
+            (q,) = each.coordinates
+            share = tidied(diff(explicit(each.residual), q))
+            if share != 0 and not moving_in(system, share):
+                found[q] = tidied(q - explicit(each.residual) / share)
+    return found
 
 
 def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
@@ -77,6 +153,7 @@ def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
         if any(push.components) and is_fixed(system, push):
             yield Arrow(column_of(at), column_of(push), 2 * LONG, False, True, label=_size(push))
             yield from _height(system, moment, at)
+            yield from _from_the_joint(system, places, at, True)
     for at in moment.meeting:
         yield from _from_the_joint(system, places, at)
 
@@ -111,12 +188,12 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
         yield LengthMark(column_of(low), column_of(there), ImmutableDenseMatrix([ONE, ZERO]), clear, label=y)
 
 
-def _from_the_joint(system: System, places: Sequence[Location], at: Location) -> Iterable[Mark]:
-    """Yield the point of impact and, in a plane, its distance from the fixed point of a body. Yield nothing if the
-    point is the position of a particle or a centre of mass."""
+def _from_the_joint(system: System, places: Sequence[Location], at: Location, hinged: bool = False) -> Iterable[Mark]:
+    """Yield the point of impact and, in a plane, its distance from the fixed point of a body, or with `hinged` from a
+    hinge between two bodies. Yield nothing if the point is the position of a particle or a centre of mass."""
     if any(same(at, place) for place in places):
         return
-    for placed, far in _met(system, at):
+    for placed, far in _met(system, at, hinged):
         way = at - placed.at
         yield PointMark(column_of(at))
         if len(way.components) == 2:
@@ -124,12 +201,13 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location) ->
             yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
 
 
-def _met(system: System, at: Location) -> Iterable[tuple[Any, Symbol]]:
-    """Yield pairs of a body and a symbol. The body has a fixed point, and the symbol is the constant distance from this
-    point to the point of impact."""
+def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:
+    """Yield pairs of a body and a symbol. The body has a fixed point, or with `hinged` a hinge to another body, and the
+    symbol is the constant distance from this point to the point of impact."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
-        if is_fixed(system, placed.at) and far.is_Symbol and not moving_in(system, far):
+        is_joint = is_fixed(system, placed.at) or hinged and isinstance(placed.at, PointOfBody)
+        if is_joint and far.is_Symbol and not moving_in(system, far):
             yield placed, far
 
 

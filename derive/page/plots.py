@@ -22,7 +22,7 @@ from derive.course.stock import told_at
 from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
-from derive.figures.extrema import NOISE, Extremum, extrema, values_along
+from derive.figures.extrema import NOISE, Extremum, extrema, values_along, zeros
 from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
@@ -32,8 +32,11 @@ if TYPE_CHECKING:
 Path: TypeAlias = tuple[tuple[float, float], ...]
 
 DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
+JOULE = "J"
 
-STEPS = 240  # number of steps of a curve
+STEPS = 240  # least number of steps of a curve
+STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
+MOST_POINTS = 2  # a curve with more zeros, or a panel with more meeting points, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
@@ -68,7 +71,8 @@ class Curve:
     @cached_property
     def spots(self) -> Path:
         """Return points of the curve, in SI units."""
-        return self.path or tuple(values_along(self.expr, self.variable, self.lower, self.upper, STEPS))
+        steps = min(max(STEPS, STEPS_OF_TURN * len(self.extrema)), MOST_STEPS)
+        return self.path or tuple(values_along(self.expr, self.variable, self.lower, self.upper, steps))
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
@@ -108,6 +112,23 @@ class Curves:
     across: Axis
     shared: tuple[Measured, ...] = ()
     is_together: bool = False
+
+    def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
+        """Return the points of a panel that are marked besides its extrema, in SI units, and whether the point is a
+        zero.
+
+        They are the zeros of a single curve, at which its quantity changes sign, or the points at which the curves of
+        two quantities meet. The zero of an energy is arbitrary, so it is not marked.
+        """
+        one, *others = own
+        if not others and self.up.unit != JOULE:
+            found = [(at, 0.0, True) for at in zeros(one.expr, one.variable, one.lower, one.upper) if at < one.upper]
+        elif len(others) == 1 and self.labels_differ and one.variable == others[0].variable:
+            places = zeros(one.expr - others[0].expr, one.variable, one.lower, one.upper)
+            found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
+        else:
+            return ()
+        return tuple(found) if len(found) <= MOST_POINTS else ()
 
     @property
     def panels(self) -> tuple[tuple[Curve, ...], ...]:
@@ -374,6 +395,12 @@ def told_value(up: Axis, extremum: Extremum) -> str:
 def with_unit(value: float, unit: str) -> str:
     """Return a number to four figures with its unit; a degree sign has no space before it."""
     return _signed(f"{value:.4g}{_gap(unit)}{unit}")
+
+
+def to_three_figures(value: float, unit: str) -> str:
+    """Return a number to three figures with its unit."""
+    shown = f"{value:#.3g}".rstrip(".") if abs(value) < 1000 else f"{value:.3g}"
+    return _signed(f"{shown}{_gap(unit)}{unit}")
 
 
 def _gap(unit: str) -> str:

@@ -52,6 +52,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
+from derive.mechanics.model.strings import circles_of
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
@@ -224,6 +225,16 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def surfaces(self) -> dict[str, Any]:
         """Return the described surfaces, by name."""
         return {name: surface.made(self.parts_by_name) for name, surface in self.described.surfaces.items()}
+
+    @property
+    def drawn_surfaces(self) -> dict[str, Any]:
+        """Return the described surfaces, and the circle on which a string or rod of constant length keeps a particle in
+        a plane: `circle_of_bob` for a particle with the name `bob`."""
+        found = dict(self.surfaces)
+        for name, particle in self.particles.items():
+            for circle in circles_of(self.system, particle.at):
+                found[f"circle_of_{name}"] = circle
+        return found
 
     @cached_property
     def acting(self) -> list[Any]:

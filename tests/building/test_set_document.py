@@ -423,3 +423,23 @@ def test_an_empty_set_is_told_to_be_empty(tmp_path: Path) -> None:
 
 def test_solutions_have_no_closing_note_by_default(solutions: PdfReader) -> None:
     assert not any("checked" in page.extract_text().lower() for page in solutions.pages)
+
+
+def test_the_caption_of_a_statement_is_under_its_drawing_also_if_the_drawing_is_higher(tmp_path: Path) -> None:
+    """The statement has one line, so the drawing is higher; the caption must not move under the statement."""
+    root = course_in(tmp_path, {"drawings:\n": "drawings:\n  axes: {at: statement, caption: The axes.}\n"})
+    solution = rendered_once(root, "hw9/block", draws=True)
+    drawings = [each for each in solution.files if each[0].endswith(".pdf")]
+    name = Path(drawings[0][0]).name
+    beside = rf"\beside{{One line.}}{{{name}}}{{words}}{{Figure 1.}}{{The axes.}}"
+    target = tmp_path / "statement.pdf"
+    tex = problem_document(root, replace(solution, latex=Tex(beside)), problem_set(root, "hw9"))
+    typeset(tex, target, chosen_engine(None), included=drawings)
+    page, places = PdfReader(target).pages[0], {}
+
+    def note(text: str, _: Any, at: Any, *more: Any) -> None:
+        places.update({word: (at[4], at[5]) for word in ("One line", "Figure 1") if word in text})
+
+    page.extract_text(visitor_text=note)
+    assert places["Figure 1"][0] > float(page.mediabox.width) / 2 > places["One line"][0]
+    assert places["Figure 1"][1] < places["One line"][1]

@@ -273,9 +273,9 @@ def test_every_body_has_an_outline(body: object, kind: type) -> None:
     assert len(outline(body, named=False)) == 1
 
 
-def test_a_triangle_tells_each_length_of_its_sides_once() -> None:
+def test_a_triangle_tells_each_length_of_its_sides_once_and_both_equal_sides() -> None:
     isosceles = Triangle(((0, 0), (a, 0), (0, a)), M)
-    assert [mark.label for mark in outline(isosceles) if isinstance(mark, LengthMark)] == [a]
+    assert [mark.label for mark in outline(isosceles) if isinstance(mark, LengthMark)] == [a, a]
     other = Triangle(((0, 0), (3 * a, 0), (0, 4 * R)), M)
     assert [mark.label for mark in outline(other) if isinstance(mark, LengthMark)] == [3 * a, 4 * R]
 

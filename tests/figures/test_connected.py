@@ -331,11 +331,12 @@ def test_a_normal_force_whose_sign_depends_on_the_speed_is_drawn_as_a_push(tmp_p
     assert [str(mark.label) for mark in of_class(drawn, AngleBetween)] == ["theta"]
 
 
-def test_a_normal_force_begins_at_the_contact_and_covers_no_other_arrow(tmp_path: Path) -> None:
+def test_a_normal_force_under_the_weight_ends_at_the_contact(tmp_path: Path) -> None:
     level = edited(BALL, ("along: [cos(alpha), -sin(alpha)]", "along: [1, 0]"), ("mass: M,", "mass: M*tan(alpha),"))
     weight, normal = of_class(drawings(tmp_path, level)["forces_ball"], Arrow)
     assert [numeric(c) for c in normal.value] == [0, 1]
-    assert str(weight.start[0]) == str(normal.start[0]) and weight.aside == 0 != normal.aside
+    assert str(weight.start[0]) == str(normal.start[0]) and weight.aside == 0 == normal.aside
+    assert normal.pushes and not weight.pushes
 
 
 def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(tmp_path: Path) -> None:

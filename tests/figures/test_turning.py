@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
-from sympy import cos, sin
+from sympy import ImmutableDenseMatrix, cos, sin
 
 from derive.algebra.expressions import TIME
 from derive.figures.annotations import AxisOfRotation
@@ -15,7 +17,9 @@ from derive.mechanics import point
 from derive.mechanics.kinematics.places import Location
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
+from derive.render.drawing.picture import picture
 from tests.figures.machines import SKETCHES, SYSTEMS, a, at, labels, of, omega
+from tests.figures.test_connected import drawings, library
 
 
 def test_a_double_pendulum_has_two_rods_two_angles_and_one_pivot() -> None:
@@ -31,6 +35,25 @@ def test_a_double_pendulum_has_two_rods_two_angles_and_one_pivot() -> None:
 def test_angles_are_counted_from_the_downward_vertical(name: str) -> None:
     assert all(at(mark.a) == [0, -1] for mark in of(SKETCHES[name], AngleBetween))
     assert at(downwards(3)) == [0, 0, -1]
+
+
+@pytest.mark.parametrize(("joint", "height", "side"), [(True, -1, 1), (True, 1, -1), (False, -1, 1), (False, 1, 0)])
+def test_no_rod_or_string_passes_through_the_hatches_of_its_support(joint: bool, height: int, side: int) -> None:
+    """The hatches are on the side away from the bob; a string to a bob above it ends at a bare peg."""
+    held = ImmutableDenseMatrix([1, height])
+    pieces = FixedEnd(0 * held, downwards(2), joint, held).pieces(OnPaper(Numbers({}), FLAT))
+    hatches = [piece.spots for piece in pieces if isinstance(piece, Stroke) and piece.pen == "hatch"]
+    assert bool(hatches) == bool(side) and all(side * end[1] > 0 for _, end in hatches)
+
+
+def test_the_supports_of_upright_pendulums_are_below_them(tmp_path: Path) -> None:
+    for drawing in drawings(tmp_path, library("upright_pendulums")).values():
+        pieces = picture(drawing, Numbers({}), 5.0, 4.2)
+        grounds = [piece.spots[0][1] for piece in pieces if isinstance(piece, Stroke) and piece.pen == "ground"]
+        ends = [
+            spot[1] for piece in pieces if isinstance(piece, Stroke) and piece.pen == "hatch" for spot in piece.spots
+        ]
+        assert len(grounds) == 2 and max(ends) <= max(grounds) + 1e-6
 
 
 def test_a_support_that_is_shaken_shows_how_far_it_has_moved() -> None:

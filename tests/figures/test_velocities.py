@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from sympy import Integer, Matrix, cos, pi, sin, symbols
 
 from derive.algebra.expressions import scalar
 from derive.figures import sketch
-from derive.figures.annotations import Arrow, LengthMark
+from derive.figures.annotations import Arrow, Axis, LengthMark
+from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.marks import Drawing
 from derive.figures.parts import BlockMark, ParticleMark
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import AngleBetween, DistanceMark, FloorMark
 from derive.figures.velocities import Moment
 from derive.mechanics import Ball, Particle, Rod, System, coordinate, point, weight
+from derive.render.drawing.camera import FLAT, Numbers
+from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import recorded
 from tests.figures.machines import labels, of, seen
+from tests.figures.test_connected import drawings, library
 
 M, m, R, l, b, v, g, h, J, alpha = symbols("M m R l b v g h J alpha", positive=True)
+a, phi = symbols("a", positive=True), symbols("phi", real=True)
 ZERO = Integer(0)
 
 
@@ -99,3 +105,48 @@ def test_an_impulse_to_the_left_comes_from_the_right() -> None:
 
 def test_no_impact_is_drawn_without_what_acts() -> None:
     assert struck((ZERO, ZERO)) is None
+
+
+def test_the_start_of_a_guided_motion_has_its_velocity_and_a_hollow_outline(tmp_path: Path) -> None:
+    """The rest of the drawing shows a later state, so the particle or the ball at the start is hollow or dashed."""
+    for name, outline, start in (
+        ("slack_pendulum", HollowParticle, ["0", "-l"]),
+        ("pushed_off_sphere", HollowParticle, ["0", "R"]),
+        ("sliding_to_rolling", Ghost, ["0", "a"]),
+    ):
+        found = drawings(tmp_path / name, library(name))["system"]
+        (arrow,) = of(found, Arrow)
+        assert str(arrow.label) == "v_0" and arrow.value[1] == 0 and list(map(str, arrow.start)) == start
+        assert len(of(found, outline)) == 1
+
+
+def test_a_block_on_a_floor_has_no_second_outline(tmp_path: Path) -> None:
+    found = drawings(tmp_path, library("block_on_plank"))["system"]
+    assert not of(found, HollowParticle) and not of(found, Ghost)
+
+
+def test_the_distance_of_a_blow_from_a_hinge_is_drawn(tmp_path: Path) -> None:
+    assert labels(drawings(tmp_path, library("struck_rods"))["system"], LengthMark) == ["b"]
+
+
+def test_the_distance_of_two_supports_is_drawn_on_the_side_away_from_the_masses(tmp_path: Path) -> None:
+    for name, far in (("upright_pendulums", "d"), ("beats", "3*d")):
+        found = drawings(tmp_path / name, library(name))["system"]
+        line = next(mark for mark in of(found, LengthMark) if str(mark.label) == far)
+        assert list(line.aside) == [0, -1]
+
+
+def test_an_angle_that_rolling_relates_to_another_is_drawn_with_its_positive_sense(tmp_path: Path) -> None:
+    found = drawings(tmp_path, library("cylinder_inside"))["system"]
+    angle = next(mark for mark in of(found, AngleBetween) if str(mark.label) == "psi")
+    assert angle.growing is not None and list(angle.a) == [1, 0]
+    pieces = angle.pieces(OnPaper(Numbers({phi: 0.6, a: 1.0, b: 0.7}), FLAT))
+    arc = next(piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == "angle")
+    assert arc.tail and not arc.head  # the cylinder has turned clockwise, but psi is positive counterclockwise
+
+
+def test_the_coordinates_of_a_flight_have_axes(tmp_path: Path) -> None:
+    for name in ("slack_pendulum", "off_a_sphere"):
+        found = drawings(tmp_path / name, library(name))["system"]
+        assert [str(mark.label) for mark in of(found, Axis)] == ["x", "y"]
+    assert not of(drawings(tmp_path / "none", library("pushed_off_sphere"))["system"], Axis)

@@ -404,3 +404,44 @@ def test_the_surfaces_of_a_path_are_in_its_panel() -> None:
     assert {level[0][0], level[-1][0]} == {left, right}
     assert [stroke.pen for stroke in strokes(panel)][:2] == ["edge", "edge"]
     assert drawings_from_data(drawings_to_data([path])) == (path,)
+
+
+def force_of(expr: Expr, *others: Expr, upper: Expr = pi) -> Curves:
+    """A force, and possibly other forces, for angles up to `upper`."""
+    further = tuple(Further(Symbol(f"F_{i}"), each, f"force_{i}") for i, each in enumerate(others))
+    plot = Plot("force", V, expr, theta, Integer(0), upper, "force", "angle", unit="N", others=further)
+    problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    return curves_of(problem, plot, Placement("force", Place("one.yaml", 9)))
+
+
+def points_of(found: Curves) -> list[tuple[float, float]]:
+    return [(round(x, 4), round(y, 4)) for x, y, _ in found.points(found.panels[0])]
+
+
+def test_a_zero_is_marked_where_a_quantity_changes_its_sign() -> None:
+    """The force in a rod that turns about its lower end: 3 cos(theta) = 2 at 48.19 degrees."""
+    found = force_of(2 - 3 * cos(theta))
+    assert points_of(found) == [(0.8411, 0.0)]
+    panel = panel_of(Plot("force", V, 2 - 3 * cos(theta), theta, Integer(0), pi, "force", "angle", unit="N"),
+                     found.panels[0], found, Notation(), WORDS)  # fmt: skip
+    assert panel.is_signed and [name for _, name in panel.points] == [r"$48.2{}^{\circ}$"]
+
+
+def test_no_zero_is_marked_where_a_curve_ends_or_oscillates_or_is_an_energy() -> None:
+    assert not points_of(force_of(2 - 3 * cos(theta), upper=Rational(1, 2)))
+    assert not points_of(force_of(cos(20 * theta)))
+    energy = curves(plot_of(sin(theta)), 1)
+    assert not energy.points(energy.panels[0])
+
+
+def test_the_point_at_which_two_curves_meet_is_marked_also_at_the_end_of_the_range() -> None:
+    assert points_of(force_of(1 - theta, theta)) == [(0.5, 0.5)]
+    assert points_of(force_of(1 - theta, theta, upper=Rational(1, 2))) == [(0.5, 0.5)]
+    assert not points_of(force_of(2 + theta, theta))
+    assert not points_of(force_of(theta, 2 * theta))  # they only start together
+
+
+def test_a_curve_with_many_extrema_has_enough_points_for_each_of_them() -> None:
+    few, many = force_of(cos(theta)).curves[0], force_of(cos(100 * theta)).curves[0]
+    assert len(few.spots) == 241 and len(many.spots) > 30 * len(many.extrema)
+    assert max(y for _, y in many.spots) > 0.997

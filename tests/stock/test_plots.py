@@ -14,6 +14,7 @@ from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
+from tests.figures.test_connected import library
 from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, loaded, messages
 
 HOOP = """\
@@ -585,3 +586,16 @@ def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
 ) -> None:
     found = messages(tmp_path, edited(NEAR_A_SPHERE, *edits))
     assert any(said in each for each in found), found
+
+
+def test_a_path_shows_the_circle_of_a_string(tmp_path: Path) -> None:
+    """A bob whose string goes slack flies inside this circle, from one of its points to another."""
+    run = Run()
+    run_solve(loaded(tmp_path, library("slack_pendulum")), run)
+    plot = next(each for each in run.drawings if isinstance(each, Plot) and each.across)
+    (circle,) = plot.outlines
+    assert circle.name == "circle_of_bob"
+    x, y = circle.plane
+    l = Symbol("l", positive=True)
+    for place in ((l, 0), (0, -l), (3 * l / 5, 4 * l / 5)):
+        assert simplify(circle.expr.subs({x: place[0], y: place[1]})) == 0

@@ -216,15 +216,18 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides whose length is a multiple of a symbol; each symbol appears at most once."""
-        found: dict[Expr, tuple[Expr, tuple[int, int]]] = {}
+        """The sides whose length is a multiple of a symbol; each symbol appears in one length at most, which two equal
+        sides may have."""
+        found: dict[Expr, tuple[Expr, list[tuple[int, int]]]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]
             length = sqrt(tidied(x**2 + y**2))
             letter = length.as_coeff_Mul()[1]
             if letter.is_Symbol:
-                found.setdefault(letter, (length, (i, k)))
-        return tuple((length, (edge,)) for length, edge in found.values())
+                known, sides = found.setdefault(letter, (length, []))
+                if known == length:
+                    sides.append((i, k))
+        return tuple((length, tuple(sides)) for length, sides in found.values())
 
     @property
     def _signed_area(self) -> Expr:

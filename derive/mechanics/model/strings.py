@@ -9,7 +9,7 @@ from typing import Any, Self
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
-from derive.algebra.expressions import as_expr, depends_on_time, scalar
+from derive.algebra.expressions import as_expr, depends_on_time, explicit, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
@@ -20,7 +20,7 @@ from derive.mechanics.model.dalembert import Load
 from derive.mechanics.model.forces import StoredEnergy
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.part import Part, moved
-from derive.mechanics.model.surfaces import column_of, direction_between, distance_between, dot, raw_distance
+from derive.mechanics.model.surfaces import Circle, column_of, direction_between, distance_between, dot, raw_distance
 from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
 from derive.steps.step import is_zero
@@ -394,3 +394,18 @@ def _rim(place: Location, on: PlacedBody) -> Location:
     message = f"the string from ({where}) is not tangent to {on.body.name} beside, above or below its axis"
     help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"
     raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def circles_of(system: Any, at: Location) -> list[Circle]:
+    """Return the circles on which straight strings and rods of constant length keep a moving point of a plane; each
+    string or rod has its other end at a fixed place."""
+    found = []
+    for line in (part for part in system.parts if isinstance(part, Line)):
+        fixed = [place for place in line.places if not coordinates_in(ImmutableDenseMatrix(place.components))]
+        kept = next((each for each in system.constraints if each.forces and each.forces == line.forces), None)
+        is_here = any(place.components == at.components for place in line.places)
+        if kept is None or len(line.places) != 2 or len(fixed) != 1 or not is_here or len(at.components) != 2:
+            continue
+        if not coordinates_in(kept.left):
+            found.append(Circle(None, None, fixed[0], explicit(kept.left), True))
+    return found

@@ -14,7 +14,7 @@ from derive.figures.extrema import MINIMUM
 from derive.figures.marks import Outline, Plot
 from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Axis, Curve, Curves, told_value, with_unit
+from derive.page.plots import DEGREES, Axis, Curve, Curves, to_three_figures, told_value, with_unit
 from derive.page.wording import Phrases
 from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
@@ -25,6 +25,7 @@ MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks o
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
+BARELY = 0.02  # greatest part of the height of a curve on the other side of zero for which zero has no line
 MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 # Part of the vertical axis of a diagram, at its lower end, without numbers, because the numbers of the horizontal axis
@@ -83,6 +84,8 @@ class Panel:
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
     shape            height divided by width; None for the usual shape
+    points           zeros of a curve, or points at which two curves meet, with their names
+    is_signed        whether a curve changes its sign, so that a thin line shows zero
     """
 
     traces: tuple[Trace, ...]
@@ -97,6 +100,8 @@ class Panel:
     outlines: tuple[tuple[Spot, ...], ...] = ()
     branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
     changes: tuple[Mark, ...] = ()
+    points: tuple[tuple[Spot, str], ...] = ()
+    is_signed: bool = False
 
     @property
     def has_several(self) -> bool:
@@ -112,6 +117,7 @@ class Panel:
         yield from (name for _, _, names in self.turns for name in names)
         yield from (name for name, _ in self.branches)
         yield from (change.name for change in self.changes)
+        yield from (name for _, name in self.points)
         yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
 
 
@@ -176,7 +182,17 @@ def curve_panel(
             _axis_name(_labels(own), curves.up.unit, notation, powers[1]),
         ),
         numbers=_title(letter, own, curves, notation),
+        points=tuple(_point(*each, curves) for each in curves.points(own)),
+        is_signed=low < -BARELY * tall and high > BARELY * tall,
     )
+
+
+def _point(at: float, value: float, is_zero: bool, curves: Curves) -> tuple[Spot, str]:
+    """Return a point of a panel with its name: the value on the horizontal axis and, unless it is a zero, that on the
+    vertical axis."""
+    x, y = at * curves.variable.per_unit, value * curves.up.per_unit
+    told = [to_three_figures(x, curves.variable.unit), *([] if is_zero else [to_three_figures(y, curves.up.unit)])]
+    return (x, y), "$" + r",\;\;".join(map(_mathtext_of_value, told)) + "$"
 
 
 def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, letter: str = "") -> Panel:

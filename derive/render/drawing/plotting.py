@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate, combinations, pairwise
 from math import dist
 from typing import TypeAlias
@@ -173,6 +173,9 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
     for middle, y, name, is_lowest in names.turns:
         yield writing.at((middle, y), name, SMALLEST, (0.5, float(is_lowest)))
     yield from names.curves
+    for place, _ in panel.points:
+        yield from shapes_of([Bullet(frame.spot(place), DOT, "ink")])
+    yield from names.points
     for x, text in panel.across:
         yield writing.at((frame.spot((x, 0.0))[0], below - TICK), text, SMALL, (0.5, 1.0))
     for y, text in panel.up:
@@ -201,12 +204,14 @@ class Names:
     marked   the extrema that have dots
     turns    the names of extrema
     above    the height up to which a legend above the panel reaches
+    points   the values at zeros and at points at which two curves meet
     """
 
     curves: tuple[Shape, ...]
     marked: tuple[Turn, ...]
     turns: tuple[Named, ...]
     above: float = 0.0
+    points: tuple[Shape, ...] = ()
 
 
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
@@ -215,16 +220,46 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     if panel.branches:
         return _names_of_branches(panel, frame, writing)
     if not panel.has_several:
-        return Names((), panel.turns, tuple(_names_with_room(panel, frame, writing)))
+        found = [_beside_dot(*turn[:2], turn[2][0], frame, writing)[1] for turn in panel.turns]
+        points = tuple(shape for shape, _ in _names_of_points(panel, frame, writing, found))
+        return Names((), panel.turns, tuple(_names_with_room(panel, frame, writing)), points=points)
+    known = list(_names_of_points(panel, frame, writing, ()))
+    named = _names_of_curves(panel, frame, writing, [box for _, box in known])
+    return replace(named, points=tuple(shape for shape, _ in known))
+
+
+def _names_of_points(
+    panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
+) -> Iterator[tuple[Shape, Extent]]:
+    """Yield the value at each zero or meeting point with its box; a value without a clear place is left out."""
+    left, below, right, above = frame.paper
+    inner = left + TICK, below + TICK + PAD, right, above
+    dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
+    if panel.is_signed:
+        dots += dots_of([(left, frame.spot((0.0, 0.0))[1]), (right, frame.spot((0.0, 0.0))[1])])
+    used = list(taken)
+    for place, name in panel.points:
+        wide, high = writing.size(name, SMALLEST)
+        x, y = frame.spot(place)
+        shifted = [(x + dx, y + dy) for dy in (0.0, -8.0, 8.0, -16.0, 16.0) for dx in (0.0, 6.0, -6.0, -14.0, 14.0)]
+        tried = (box for spot in shifted for box in _around(spot, (wide, high)))
+        box = next((box for box in tried if is_inside(box, inner) and is_clear(box, dots, used)), None)
+        if box is not None:
+            used.append(box)
+            yield writing.at(box[:2], name, SMALLEST, (0.0, 0.0)), box
+
+
+def _names_of_curves(panel: Panel, frame: Frame, writing: Writing, points: Sequence[Extent]) -> Names:
+    """Return the names of several curves and of their extrema, clear of the values at marked points."""
     lines = [dots_of(frame.spots(trace.points)) for trace in panel.traces]
     sizes = [writing.size(trace.name, SMALLEST) for trace in panel.traces]
     left, below, right, above = frame.paper
     inner = left + TICK + PAD, below + TICK + PAD, right, above
     outlines = [dot for line in panel.outlines for dot in dots_of(frame.spots(line))]
-    turns = _clear_of_curves(panel, frame, writing, lines, ())
-    boxes = beside_curves(lines, sizes, inner, [box for _, _, box in turns], outlines)
-    if boxes is None and (boxes := beside_curves(lines, sizes, inner, (), outlines)):
-        turns = _clear_of_curves(panel, frame, writing, lines, boxes)
+    turns = _clear_of_curves(panel, frame, writing, lines, points)
+    boxes = beside_curves(lines, sizes, inner, [*(box for _, _, box in turns), *points], outlines)
+    if boxes is None and (boxes := beside_curves(lines, sizes, inner, points, outlines)):
+        turns = _clear_of_curves(panel, frame, writing, lines, [*boxes, *points])
     marked, named = tuple(turn for turn, _, _ in turns), tuple(name for _, name, _ in turns)
     if boxes:
         every = zip(panel.traces, boxes, strict=True)
@@ -232,7 +267,10 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
         return Names(tuple(shapes), marked, named)
     size = _size_of_legend(sizes)
     box = corner_for(
-        size, [dot for line in (*lines, outlines) for dot in line], [box for _, _, box in turns], frame.paper
+        size,
+        [dot for line in (*lines, outlines) for dot in line],
+        [*(box for _, _, box in turns), *points],
+        frame.paper,
     )
     if box:
         legend = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
@@ -412,6 +450,9 @@ def _index_of(part: float, spots: Sequence[Spot]) -> int:
 
 def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
     left, below, right, above = frame.paper
+    if panel.is_signed:
+        zero = frame.spot((0.0, 0.0))[1]
+        yield Stroke(((left, zero), (right, zero)), "thin")
     yield from line_of(panel, frame)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:

@@ -115,6 +115,11 @@ class StockAnswers(Answers[W]):
         return {}
 
     @property
+    def drawn_surfaces(self) -> Mapping[str, Any]:
+        """Return the surfaces that the plot of a path may show, by name."""
+        return self.surfaces
+
+    @property
     def elsewhere(self) -> Callable[..., Quantity] | None:
         """Return the function that derives an answer about another point or axis of a body; None if the description has
         no such function."""
@@ -126,7 +131,7 @@ class StockAnswers(Answers[W]):
         found = self.by_name.answers(asked)
         shown = {quantity.key for quantity in returned_quantities(found)} if found else set[str]()
         for drawing in drawings:
-            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.surfaces, shown)
+            plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.drawn_surfaces, shown)
             if drawing.is_portrait:
                 plotted.draw_levels()
             elif drawing.is_of_engine and drawing.against and drawing.range:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from sympy import Expr, Integer, Symbol
 
-from derive.algebra.expressions import TIME, Relation, explicit, rate
+from derive.algebra.expressions import TIME, Relation, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.figures.velocities import Moment
@@ -16,23 +16,28 @@ from derive.mechanics.kinematics.places import Location
 from derive.steps.signs import sign_known
 from derive.stock.keys.results import Result
 
-SOLUTION = "solution"
+SOLUTION, SPEED, FLIGHT = "solution", "speed", "flight"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """Return the positions and velocities at which the requested motions begin; None if no motion has a start rate.
+    """Return the positions and velocities at which the requested motions begin, and the coordinates of a requested
+    flight in a plane; None if no motion has a start rate and there is no flight.
 
     If several results give a value for one coordinate, the first value counts.
     """
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
-        if result.verb.name == SOLUTION and {"q", "start_rate"} <= result.values.keys():
+        if result.verb.name in (SOLUTION, SPEED) and {"q", "start_rate"} <= result.values.keys():
             q = result.values["q"]
             if q in system.coordinates:
                 at.setdefault(q, result.values.get("start", Integer(0)))
                 rates.setdefault(q, result.values["start_rate"])
-    return Moment(at, rates) if rates else None
+    letters = [scalar(name) for name in "xy"]
+    is_flight = any(result.verb.name == FLIGHT for result in results)
+    is_free = not {str(q) for q in system.coordinates} & {"x", "y"} and len(system.places[0].components) == 2
+    flight = letters if is_flight and is_free else ()
+    return Moment(at, rates, flight=flight) if rates or flight else None
 
 
 def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None:
