@@ -159,3 +159,13 @@ def test_a_constraint_on_one_coordinate_keeps_it_constant(tmp_path: Path) -> Non
 
 def test_a_constant_second_derivative_is_shown_once(tmp_path: Path) -> None:
     assert page(tmp_path, library("oscillations/hanging_mass")).count("d²U/dy²") == 1
+
+
+@pytest.mark.parametrize(
+    ("condition", "mark"),
+    [(r"$\dot x > a\dot\phi$", False), (r"$2a\dot\phi < 2\dot x$", False), (r"$\dot x < a\dot\phi$", True), ("", True)],
+)
+def test_a_condition_of_the_statement_is_not_assumed_again(condition: str, mark: bool, tmp_path: Path) -> None:
+    source = library("contacts/sliding_to_rolling").replace(r"$\dot x > a\dot\phi$", condition)
+    text = " ".join(page(tmp_path, source).split())
+    assert (normalize("NFC", "ẋ - a φ̇ > 0") in text) is mark
