@@ -267,7 +267,7 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return a sentence with the script's assumptions about symbols, to follow the statement, without those that the
+        """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
         statement or a question contains."""
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
