@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from sympy import Expr, Integer, Symbol, cos, pi, sin
+from sympy import Expr, Integer, Symbol, cancel, cos, expand, pi, sin
 
 from derive.algebra.expressions import Amount, Relation
 from derive.algebra.kinds import unit_of_kind
@@ -34,6 +34,15 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
         else:
             found.append(condition)
     return found
+
+
+def says_the_same(condition: Relation, other: Relation) -> bool:
+    """Return whether two strict inequalities are the same, up to a positive numerical factor."""
+    if not {condition.operator, other.operator} <= {"<", ">"}:
+        return False
+    one, two = (expand((each.left - each.right) * (1 if each.operator == ">" else -1)) for each in (condition, other))
+    factor = cancel(one / two) if two != 0 else Integer(0)
+    return bool(factor.is_number and factor.is_positive)
 
 
 def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:

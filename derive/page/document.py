@@ -25,7 +25,7 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
-from derive.page.assumptions import between_bounds, with_units
+from derive.page.assumptions import between_bounds, says_the_same, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
@@ -162,9 +162,11 @@ class _Writer:
     def document(self, compared: Sequence[Told], evidence: EvidenceShown) -> Document:
         problem = self.problem
         self.references.check_title(problem.title.mentions, self.page_names)
-        statement = stated_once(self._told(problem.statement.pieces), self.words.labels["with"]) + self._assumed()
+        in_question = self.formulas.in_question
+        stated = self._told(problem.statement.pieces, formula=in_question)
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
+        statement = stated_once(stated, self.words.labels["with"]) + self._assumed()
         asked = [node for part in parts for node in part.ask]
         statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
@@ -265,8 +267,10 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return a sentence with the script's assumptions about symbols, to follow the statement."""
+        """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
+        statement or a question contains."""
         assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
+        assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:
             return ()
         units = {letter.symbol: unit_of_kind(letter.kind) for letter in self.problem.letters}
@@ -328,7 +332,7 @@ class _Writer:
             self.faults.append(_without_cases(mentioned.place, label, there))
             return ()
         numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
-        asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
+        asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {}, self.formulas.in_question)
         if mentioned or all(are_told(each, asked) for each in cases):
             return asked
         return (*asked, *take(numbers, self.words))

@@ -90,6 +90,7 @@ class Formulas:
             self.scalars |= {name} if isinstance(name, Symbol) else set()
         self.faults: dict[Complaint, None] = {}
         self.warnings: dict[Complaint, None] = {}
+        self.stated: list[Relation] = []  # the inequalities that the statement and the questions contain
 
     def in_solution(self, formula: TexFormula, key: str = "") -> Math | Text:
         """Return a formula of the solution, which must agree with the results of the page.
@@ -98,6 +99,18 @@ class Formulas:
                 dimension that it has in this step
         """
         return self.node(formula, self._with_variables(key))
+
+    def in_question(self, formula: TexFormula) -> Math | Text:
+        """Return a formula of the statement or of a question, and note the strict inequalities in it."""
+        try:
+            read = self._read(formula, None)
+        except Rejected:
+            return self.node(formula)  # which reports the error
+        values = [value for side in read.sides for entries in side.branches for value, _ in entries]
+        if len(values) == len(read.sides):
+            inequalities = zip(pairwise(values), read.marks[1:], strict=True)
+            self.stated += [Relation(left, mark, right) for (left, right), mark in inequalities if mark in ("<", ">")]
+        return self.node(formula)
 
     def node(self, formula: TexFormula, of_solution: Mapping[str, Declared] | None = None) -> Math | Text:
         """Return the formula for the page; if it cannot be printed, its characters as text.

@@ -473,15 +473,20 @@ def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:
     """Return the values of the coordinates, and of their rates, that the sentence takes from constraints."""
     fixed = [explicit(told) for role, told in facts.inputs.items() if role.startswith("fixed_")]
     moving = facts.inputs["moving"]
-    rates = {rate(told.left): by_functions_of_time(told.right, moving, 1) for told in fixed}
+    rates = {rate(told.left): by_functions_of_time(told.right, moving, 1) for told in fixed if told.left in moving}
     return {**{told.left: told.right for told in fixed}, **rates}
 
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     """Whether one of the constraints that contain this coordinate holds identically for the values that the sentence
-    states for this and other coordinates."""
-    values = {s: v for s, v in _values_by_constraints(facts).items() if s in facts.inputs["moving"]}
-    about = [each for each in facts.inputs["constraints"] if each.has(told.left)]
+    states for this and other coordinates. An acceleration must be the second derivative of such a value."""
+    moving = facts.inputs["moving"]
+    values = {s: v for s, v in _values_by_constraints(facts).items() if s in moving}
+    accelerated = {rate(q, 2): q for q in values}
+    q = accelerated.get(told.left, told.left)
+    if q is not told.left and not is_zero(by_functions_of_time(values[q], moving, 2) - told.right):
+        return False
+    about = [each for each in facts.inputs["constraints"] if each.has(q)]
     return any(is_zero(explicit(each).xreplace(values)) for each in about)
 
 

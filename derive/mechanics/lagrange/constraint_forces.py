@@ -227,7 +227,7 @@ CONSTRAINT_RATE = Rule(
     evidence={"functions_of_time": CHECK},
     statements=[claims.names_the_enforcer],
     named={"kept": claims.kept_constant},
-    shown=Shown(brief=Manner.LEFT_OUT),
+    shown=Shown(brief=Manner.LEFT_OUT, outcomes={"constant": (Manner.LEFT_OUT, Manner.LEFT_OUT)}),
 )
 KEPT = ("surface", "rail", "string", "rod", "joint", "friction")  # enforcers that the sentence names
 FORMULA = "formula"  # the word for any other enforcer
@@ -337,8 +337,25 @@ class _Isolation:
     def pointed(self) -> dict[str, Quantity]:
         """Return the equations, and the earlier unknowns if no formula shows them."""
         hidden = () if self.inputs else self.earlier.values()
-        equations = {f"equation_{i}": each for i, each in enumerate(self._in_use, 1)}
+        in_words = self._constant
+        pointed = [each for each in self._in_use if each not in in_words]
+        equations = {f"equation_{i}": each for i, each in enumerate(pointed, 1)}
         return {**equations, **{f"earlier_{i}": each for i, each in enumerate(hidden, 1)}}
+
+    @property
+    def _constant(self) -> dict[Quantity, Relation]:
+        """Return each equation q_ddot = 0 of a constraint q = constant, with this relation. The sentence states it in
+        words, "with r = l and r_ddot = 0", unless it substitutes one equation into another or has no other equation."""
+        constraints = self.problem.constraints
+        first = len(self.problem.used)
+        numbers = [i - first for i in self.found.equations if i >= first]
+        fixed = {i: _fixed(constraints[i], self.problem.moving) for i in numbers}
+        found = {
+            each: relation
+            for i, each in zip(self.found.equations, self.equations, strict=True)
+            if i >= first and (relation := fixed[i - first])
+        }
+        return {} if self.found.eliminated or len(found) == len(self.equations) else found
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
@@ -376,8 +393,16 @@ class _Isolation:
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         present = {s for each in self.equations for s in explicit(each.value).free_symbols}
         known = self.problem.known
-        used = [q for q in self.problem.moving if q in known and present & {q, rate(q)}]
-        return {**eliminated, **{f"fixed_{i}": Relation(q, "=", known[q]) for i, q in enumerate(used, 1)}}
+        constant = {each.left: each for each in self._constant.values()}
+        used = [q for q in self.problem.moving if q in constant or (q in known and present & {q, rate(q)})]
+        fixed = [
+            relation
+            for q in used
+            for relation in (
+                (constant[q], Relation(rate(q, 2), "=", ZERO)) if q in constant else (Relation(q, "=", known[q]),)
+            )
+        ]
+        return {**eliminated, **{f"fixed_{i}": each for i, each in enumerate(fixed, 1)}}
 
     @property
     def outcome_data(self) -> dict[str, Any]:
