@@ -191,6 +191,8 @@ def test_a_dot_stands_where_factors_would_run_together(items: list[Layout], text
         (Raised(A, TWO), B, None),
         (Fraction(A, TWO), B, Operator("dot")),
         (Row((A, Name("d"))), Name("L", style="vector"), Operator("space")),
+        (Row((Fraction(Digits("1"), Digits("2")), A)), B, None),
+        (Row((A, B)), B, Operator("dot")),
     ],
 )
 def test_what_stands_between_two_factors_as_they_are_written(

@@ -359,7 +359,8 @@ def _would_be_argument(before: Layout, item: Layout) -> bool:
 
 
 def between_factors(before: Layout, after: Layout) -> Layout | None:
-    """Return the mark between two adjacent factors: none between different letters, otherwise a dot or a thin space."""
+    """Return the mark between two adjacent factors: none between different letters, as in
+    1/2 M R^2 phi, otherwise a dot or a thin space."""
     if begins_with_number(after):
         return DOT
     if isinstance(first_of(after), Applied):
@@ -369,8 +370,8 @@ def between_factors(before: Layout, after: Layout) -> Layout | None:
         return THIN_SPACE
     if is_enclosed(after) or is_enclosed(last) or is_number(before) or ends_in_differential(before):
         return THIN_SPACE
-    if _is_letter(before) and _is_letter(after):
-        return None if before != after else DOT
+    if _is_letter(last) and _is_letter(after) and (_is_letter(before) or not _begins_with_vector(after)):
+        return None if last != after else DOT
     starts_integral = isinstance(after, Row) and isinstance(after.items[0], IntegralSign)
     return THIN_SPACE if starts_integral or isinstance(after, IntegralSign) or _begins_with_vector(after) else DOT
 
