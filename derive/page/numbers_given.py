@@ -41,12 +41,21 @@ def _untold(measured: Iterable[Measured], shown: Sequence[Inline]) -> list[Measu
 
 
 def numbers_of_cases(cases: Iterable[Sequence[Measured]]) -> tuple[Inline, ...]:
-    """Return the numbers of the cases of a plot: `(i) R = 20 cm, a = 5 cm; (ii) R = 10 cm, a = 30 cm`."""
-    listed = [[node for each in case for node in (Text(", "), *_stated(each))][1:] for case in cases]
-    if len(listed) == 1:
-        return tuple(listed[0])
+    """Return the numbers of the cases of a plot, first those of all cases: `M = 1 kg, (i) R = 20 cm, a = 5 cm;
+    (ii) R = 10 cm, a = 30 cm`."""
+    first, *later = cases = list(cases)
+    if not later:
+        return _listed(first)
+    changed = {each.symbol for case in later for each in case if each not in first}
+    shared = [each for each in first if each.symbol not in changed] if changed else []
+    listed = [_listed([each for each in case if each not in shared]) for case in cases]
     labelled = [(Text(f"({case_label(i)}) "), *numbers) for i, numbers in enumerate(listed)]
-    return tuple(node for case in labelled for node in (Text("; "), *case))[1:]
+    own = tuple(node for case in labelled for node in (Text("; "), *case))[1:]
+    return (*_listed(shared), Text(", "), *own) if shared else own
+
+
+def _listed(numbers: Iterable[Measured]) -> tuple[Inline, ...]:
+    return tuple(node for each in numbers for node in (Text(", "), *_stated(each)))[1:]
 
 
 def _stated(each: Measured) -> tuple[Inline, ...]:
