@@ -312,8 +312,8 @@ class _Writer:
             self._append(blocks, value, goes_on=i > 0, framed=key in boxed and value.chain[-1].because in NUMBERS)
         in_cases = set(self.problem.keys_in_cases(part, boxed))
         for each in self.problem.keys_in_cases(part, [step.key for step in answers]):
-            if value := self.values.get(each):
-                self._append(blocks, value, framed=each in in_cases)
+            if (found := self.values.get(each)) is not None:
+                self._append(blocks, found, framed=each in in_cases)
         blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
@@ -330,7 +330,7 @@ class _Writer:
         if mentioned and not cases and CASES not in self.page_names:
             self.faults.append(_without_cases(mentioned.place, label, there))
             return ()
-        numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
+        numbers = joined([numbers_of_cases(each, self.words) for each in cases], self.words.labels["and"])
         asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {})
         if mentioned or all(are_told(each, asked) for each in cases):
             return asked
@@ -362,9 +362,9 @@ class _Writer:
     def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
         """Return the keys of the steps of a part that are framed.
 
-        These are the answers that the part boxes, except a formula whose numerical value is framed instead, and a formula that is only the
-        reason for a verdict in words. If the sentence of an answer points to earlier lines, the steps of these lines
-        are returned instead.
+        These are the answers that the part boxes, except a formula whose numerical value is framed instead, and a
+        formula that is only the reason for a verdict in words. If the sentence of an answer points to earlier lines,
+        the steps of these lines are returned instead.
         """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}

@@ -40,8 +40,8 @@ def _untold(measured: Iterable[Measured], shown: Sequence[Inline]) -> list[Measu
     return [each for each in measured if each.symbol not in told and not _is_in_words(each, text)]
 
 
-def numbers_of_cases(cases: Iterable[Sequence[Measured]]) -> tuple[Inline, ...]:
-    """Return the numbers of the cases of a plot, first those of all cases: `M = 1 kg, (i) R = 20 cm, a = 5 cm;
+def numbers_of_cases(cases: Iterable[Sequence[Measured]], words: Phrases) -> tuple[Inline, ...]:
+    """Return the numbers of the cases of a plot, first those of all cases: `M = 1 kg and (i) R = 20 cm, a = 5 cm;
     (ii) R = 10 cm, a = 30 cm`."""
     first, *later = cases = list(cases)
     if not later:
@@ -51,7 +51,7 @@ def numbers_of_cases(cases: Iterable[Sequence[Measured]]) -> tuple[Inline, ...]:
     listed = [_listed([each for each in case if each not in shared]) for case in cases]
     labelled = [(Text(f"({case_label(i)}) "), *numbers) for i, numbers in enumerate(listed)]
     own = tuple(node for case in labelled for node in (Text("; "), *case))[1:]
-    return (*_listed(shared), Text(", "), *own) if shared else own
+    return joined([_listed(shared), own], words.labels["and"]) if shared else own
 
 
 def _listed(numbers: Iterable[Measured]) -> tuple[Inline, ...]:

@@ -49,7 +49,7 @@ def solve(
     F = constraint_force(forces, {x: cos(theta), y: -sin(theta)}, "F", "tangent_force")
 
     needed = []
-    if amplitude is not None:  # small oscillations need the greatest friction at a turning point, where the slab is at rest
+    if amplitude is not None:  # small oscillations need the greatest friction at a turning point
         turning = solved_for(small, theta.acceleration, keys=["turning"])
         at_rest = put_in(F, turning, {theta.rate: 0, theta: amplitude}, key="turning_force")
         needed = [limiting_case(at_rest, amplitude, key="friction_needed")]
