@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import acos, degrees
 
-from pytest import approx
+import pytest
 from sympy import Expr, Symbol, cos, diff, simplify, sqrt
 
 from derive.algebra.expressions import explicit
@@ -27,7 +27,7 @@ def test_a_slow_top_turns_back_where_its_potential_energy_is_that_of_the_upright
     assert simplify(diff(in_c, c).subs(c, lowest)) == 0
     assert simplify(in_c.subs(c, turning) - in_c.subs(c, 1)) == 0
     known = {each: NUMBERS[each.name] for each in (S, M, l, g, I_z, I_x)}
-    assert [degrees(acos(each.subs(known))) for each in (lowest, turning)] == approx([64.6, 88.8], abs=0.05)
+    assert [degrees(acos(each.subs(known))) for each in (lowest, turning)] == pytest.approx([64.6, 88.8], abs=0.05)
 
 
 def test_the_bound_of_the_sleeping_top_is_where_both_rates_of_small_precession_coincide() -> None:

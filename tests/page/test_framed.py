@@ -79,7 +79,7 @@ def test_a_box_names_an_answer_of_its_part(tmp_path: Path) -> None:
         rendered(course_with(tmp_path, asked), "trial/one", only={"text"})
 
 
-def test_the_number_of_an_inequality_is_framed_without_the_formula(tmp_path: Path) -> None:
+def test_the_number_of_an_inequality_is_framed_without_the_formula() -> None:
     problem, solved = solved_once(ROOT, "hw9/top")
     words = phrases(ROOT / "templates")
     document, _ = document_of(
