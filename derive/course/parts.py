@@ -74,6 +74,10 @@ def _answers(node: Tree, name: str, faults: Faults) -> tuple[Word, ...]:
     return tuple(answers.values())
 
 
+def _boxed(node: Tree, name: str, faults: Faults) -> tuple[Word, ...] | None:
+    return () if isinstance(node, Sequence) and not node.items else _answers(node, name, faults)
+
+
 def _level(node: Tree, name: str, faults: Faults) -> Level | None:
     word = _LEVELS.read(node, name, faults)
     return Level(word) if word else None
@@ -154,6 +158,11 @@ class Question(Record):
         called="answer",
         required=True,
     )
+    boxed: tuple[Word, ...] | None = key(
+        "the answers that are boxed, by key, or `[]` for none; by default all of them",
+        Reader({"anyOf": [KEY_OF_STEP, {"type": "array", "items": KEY_OF_STEP}]}, _boxed),
+        called="box",
+    )
     points: Fraction | None = key("points of this part", POINTS)
     extra: bool = key(
         "`true` if the part asks for more than the source does; it carries no points and is marked as extra", YES_OR_NO
@@ -188,6 +197,10 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
     part = _PART.read(node, name, faults)
     for answer in part.forms if part else ():
         if part and isinstance(answer, Word) and answer not in part.answers:
+            help_line = did_you_mean(answer, part.answers)
+            faults.error("unknown-key", f"this part has no answer `{answer}`", answer.place, help=help_line)
+    for answer in (part.boxed or ()) if part else ():
+        if part and answer not in part.answers:
             help_line = did_you_mean(answer, part.answers)
             faults.error("unknown-key", f"this part has no answer `{answer}`", answer.place, help=help_line)
     if part and part.extra and part.points is not None:

@@ -14,7 +14,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, MatrixBase, Rational, Symbol, pi
 
-from derive.algebra.expressions import AXES, as_expr, explicit, scalar
+from derive.algebra.expressions import AXES, At, as_expr, explicit, scalar
 from derive.errors import Complaint, Rejected
 from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.bodies import ORIGIN, axes_at, outline
@@ -100,6 +100,7 @@ def plot(
     shown: Expr | None = None,
     also: Sequence[str] = (),
     unit: str = "",
+    above: Any = None,
 ) -> Plot:
     """Return the curve of a quantity as a function of a symbol. The curve is recorded for the problem; the problem
     gives the numbers for the other symbols.
@@ -112,6 +113,7 @@ def plot(
     shown      an expression that is drawn instead of the value of the quantity
     also       the keys of further steps that the plot shows, such as an end of the range
     unit       the SI unit of a quantity without a kind
+    above      the value of the symbol at which `shown` is zero; the label shows the difference from there
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -119,7 +121,8 @@ def plot(
         raise Rejected(Complaint("wrong-argument", message))
     lower, upper = (as_expr(end) for end in between)
     kind = quantity.step.kind or "number"
-    found = Plot(key, quantity.symbol, expr, against, lower, upper, kind, of, (quantity.key, *also), unit)
+    label = quantity.symbol if above is None else quantity.symbol - At(quantity.symbol, against, as_expr(above))
+    found = Plot(key, label, expr, against, lower, upper, kind, of, (quantity.key, *also), unit)
     noted(found)
     return found
 

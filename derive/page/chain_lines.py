@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
-from sympy import Integral, MatrixBase, Rational, Symbol, preorder_traversal
+from sympy import Integral, MatrixBase, Mul, Rational, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
+from derive.algebra.tidy import common_factor
 from derive.page.abbreviations import shortened
 from derive.page.assumptions import MIRRORED
 from derive.page.numbering import Number
@@ -101,7 +102,7 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
-        if last.left is None or is_matrix and last.right.shape[1] > 1:
+        if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum(last.right)):
             lines[result] = replace(last, presented=True)  # with its common factor in front, and with tangents
         return tuple(lines)
 
@@ -200,6 +201,13 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
         shown += [] if step.breaks_off else [told for _, told in step.roles]
         found |= own & {part for expr in shown if expr is not None for part in preorder_traversal(expr)}
     return found
+
+
+def _share_a_sum(vector: MatrixBase) -> bool:
+    """Return whether a sum, such as a^2 - c^2, is a factor or a denominator of every entry that does not vanish. In
+    front of the vector this sum is printed once."""
+    present = [entry for entry in vector if entry != 0]
+    return len(present) > 1 and any(base.as_base_exp()[0].is_Add for base in Mul.make_args(common_factor(present)))
 
 
 def _is_bare(value: Any) -> bool:

@@ -36,12 +36,14 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
 
 
 def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
-    """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value."""
+    """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value.
+    One case alone has a label in the singular."""
     shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
     special = [bool(given.where) for given in shown if not given.step]
+    ending = "" if len(shown) == 1 else "s"
     if not special or not any(special):
-        return "limits"
-    return "special_cases" if len(special) == len(shown) and all(special) else "special_and_limits"
+        return f"limit{ending}"
+    return f"special_case{ending}" if len(special) == len(shown) and all(special) else "special_and_limits"
 
 
 def limiting_cases(

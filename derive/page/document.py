@@ -300,7 +300,8 @@ class _Writer:
         begins: dict[str, int] = {}
         ends: dict[str, int] = {}
         self.before = None  # the first sentence of a part is a complete sentence
-        framed = self._framed(self.derivation.parts[index], {step.key for step in answers})
+        boxed = {step.key for step in (answers if part.boxed is None else self.derivation.answering(part.boxed))}
+        framed = self._framed(self.derivation.parts[index], {step.key for step in answers}, boxed)
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             begins[key] = len(blocks)
@@ -310,11 +311,13 @@ class _Writer:
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
         steps, self.rest = len(blocks), []
-        values = [v for step in answers if (v := self.values.get(step.key)) and v.key not in self.numbers]
-        for i, value in enumerate(v for v in values if v.outcome != "exact"):
-            self._append(blocks, value, goes_on=i > 0, framed=value.chain[-1].because in NUMBERS)
-        for value in filter(None, map(self.values.get, self.problem.keys_in_cases(part, [s.key for s in answers]))):
-            self._append(blocks, value, framed=True)
+        values = [(s.key, v) for s in answers if (v := self.values.get(s.key)) and v.key not in self.numbers]
+        for i, (key, value) in enumerate((key, v) for key, v in values if v.outcome != "exact"):
+            self._append(blocks, value, goes_on=i > 0, framed=key in boxed and value.chain[-1].because in NUMBERS)
+        in_cases = set(self.problem.keys_in_cases(part, boxed))
+        for each in self.problem.keys_in_cases(part, [step.key for step in answers]):
+            if (found := self.values.get(each)) is not None:
+                self._append(blocks, found, framed=each in in_cases)
         blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
@@ -331,7 +334,7 @@ class _Writer:
         if mentioned and not cases and CASES not in self.page_names:
             self.faults.append(_without_cases(mentioned.place, label, there))
             return ()
-        numbers = joined(map(numbers_of_cases, cases), self.words.labels["and"])
+        numbers = joined([numbers_of_cases(each, self.words) for each in cases], self.words.labels["and"])
         asked = self._told(part.ask.pieces, {CASES: numbers} if cases else {}, self.formulas.in_question)
         if mentioned or all(are_told(each, asked) for each in cases):
             return asked
@@ -361,17 +364,17 @@ class _Writer:
         title = self.words.labels[sort_of_cases(self.problem, self.derivation)]
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
-    def _framed(self, keys: Sequence[str], asked: Collection[str]) -> set[str]:
+    def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
         """Return the keys of the steps of a part that are framed.
 
-        These are the answers, except a formula whose numerical value is framed instead, and a formula that is only the
-        reason for a verdict in words. If the sentence of an answer points to earlier lines, the steps of these lines
-        are returned instead.
+        These are the answers that the part boxes, except a formula whose numerical value is framed instead, and a
+        formula that is only the reason for a verdict in words. If the sentence of an answer points to earlier lines,
+        the steps of these lines are returned instead.
         """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}
-        return self.selection.standing_for(set(asked) - measured - verdicts)
+        return self.selection.standing_for(set(boxed) - measured - verdicts)
 
     def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
         """Add the words and lines of a step; a step that continues the step before needs no words.

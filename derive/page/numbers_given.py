@@ -40,13 +40,22 @@ def _untold(measured: Iterable[Measured], shown: Sequence[Inline]) -> list[Measu
     return [each for each in measured if each.symbol not in told and not _is_in_words(each, text)]
 
 
-def numbers_of_cases(cases: Iterable[Sequence[Measured]]) -> tuple[Inline, ...]:
-    """Return the numbers of the cases of a plot: `(i) R = 20 cm, a = 5 cm; (ii) R = 10 cm, a = 30 cm`."""
-    listed = [[node for each in case for node in (Text(", "), *_stated(each))][1:] for case in cases]
-    if len(listed) == 1:
-        return tuple(listed[0])
+def numbers_of_cases(cases: Iterable[Sequence[Measured]], words: Phrases) -> tuple[Inline, ...]:
+    """Return the numbers of the cases of a plot, first those of all cases: `M = 1 kg and (i) R = 20 cm, a = 5 cm;
+    (ii) R = 10 cm, a = 30 cm`."""
+    first, *later = cases = list(cases)
+    if not later:
+        return _listed(first)
+    changed = {each.symbol for case in later for each in case if each not in first}
+    shared = [each for each in first if each.symbol not in changed] if changed else []
+    listed = [_listed([each for each in case if each not in shared]) for case in cases]
     labelled = [(Text(f"({case_label(i)}) "), *numbers) for i, numbers in enumerate(listed)]
-    return tuple(node for case in labelled for node in (Text("; "), *case))[1:]
+    own = tuple(node for case in labelled for node in (Text("; "), *case))[1:]
+    return joined([_listed(shared), own], words.labels["and"]) if shared else own
+
+
+def _listed(numbers: Iterable[Measured]) -> tuple[Inline, ...]:
+    return tuple(node for each in numbers for node in (Text(", "), *_stated(each)))[1:]
 
 
 def _stated(each: Measured) -> tuple[Inline, ...]:

@@ -15,6 +15,7 @@ def solve(
     gravity: Acceleration,
     inertia: MomentOfInertia = None,
     width: Length = None,
+    amplitude: Angle = None,
 ):
     if width is not None and inertia is not None:
         raise ValueError("give `inertia` or `width`, not both")
@@ -29,7 +30,8 @@ def solve(
 
     L = lagrangian(system)
     motion = equation_of_motion(L, theta)
-    squared = frequency_squared(linearised(motion))
+    small = linearised(motion)
+    squared = frequency_squared(small)
     swings = frequency(squared)
     stable = where(squared, ">", 0, radius, key="stability")
     U = potential_energy_of(system)
@@ -46,6 +48,12 @@ def solve(
     N = constraint_force(forces, {x: sin(theta), y: cos(theta)}, "N", "normal_force")
     F = constraint_force(forces, {x: cos(theta), y: -sin(theta)}, "F", "tangent_force")
 
+    needed = []
+    if amplitude is not None:  # small oscillations need the greatest friction at a turning point
+        turning = solved_for(small, theta.acceleration, keys=["turning"])
+        at_rest = put_in(F, turning, {theta.rate: 0, theta: amplitude}, key="turning_force")
+        needed = [limiting_case(at_rest, amplitude, key="friction_needed")]
+
     top, C, O = (radius + thickness) * across, point_mark(point(*centre), "C"), point_mark(point(0, 0), "O")
     way = length_mark(top - radius * theta * along, top, "s")
     sketch(
@@ -59,4 +67,4 @@ def solve(
     push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
     pushes = arrow(across, contact, push, label=N), arrow(along, contact, friction, label=F, is_reversed=True)
     sketch("forces", system, O, C, pushes, weights=True)
-    return L, motion, swings, stable, level, minimum, again, N, F
+    return L, motion, swings, stable, level, minimum, again, N, F, *needed

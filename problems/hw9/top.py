@@ -40,7 +40,8 @@ def solve(
     upright = put_in(p_phi, S, {theta: 0}, key="upright_momentum")  # phi is cyclic: p_phi = I_z S at every tilt
     V = put_in(effective_potential(L, p_phi, p_psi), upright, S, key="tilt_potential")
     letters = {each.symbol: each.value for each in top.values}
-    plot("well", V, theta.symbol, (-pi / 3, pi / 3), shown=V.value.subs(letters))
+    well = V.value - V.value.subs(theta.symbol, 0)  # relative to the upright top, so that all spins fit in one panel
+    plot("well", V, theta.symbol, (-pi / 3, pi / 3), shown=well.subs(letters), above=0)
     sleeping = put_in(stable_where(stability(V, {theta: 0}, spin)), *top.values, key="sleeping_spin")
 
     return slow, fast, condition, sleeping

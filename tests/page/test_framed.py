@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.solution import rendered
+from derive.errors import Rejected
 from derive.page.document import document_of
 from derive.page.tree import Display, Document
 from derive.page.wording import phrases
@@ -58,3 +59,31 @@ def test_a_second_derivative_that_only_decides_stability_is_not_framed(tmp_path:
     assert page.count("  * ") == 2, "one frame for each equilibrium"
     assert not any("d²U/d" in line for line in page.splitlines() if line.startswith("  * "))
     assert "is stable." in page and "is unstable." in page
+
+
+def test_a_part_boxes_only_the_answers_that_it_names(tmp_path: Path) -> None:
+    asked = edited(PENDULUM, ("answer: equations_of_motion", "answer: [equations_of_motion, potential_energy]"))
+    frames = {}
+    for box in ("", "    box: potential_energy\n", "    box: []\n"):
+        text = edited(asked, ("potential_energy]\n", f"potential_energy]\n{box}"))
+        page = rendered(course_with(tmp_path / str(len(box)), text), "trial/one", only={"text"}).texts["text"]
+        frames[box.strip()] = [line for line in page.splitlines() if line.startswith("  * ")]
+    assert len(frames[""]) == 2
+    assert [line.split()[1] for line in frames["box: potential_energy"]] == ["U"]
+    assert frames["box: []"] == []
+
+
+def test_a_box_names_an_answer_of_its_part(tmp_path: Path) -> None:
+    asked = edited(PENDULUM, ("answer: equations_of_motion\n", "answer: equations_of_motion\n    box: period\n"))
+    with pytest.raises(Rejected, match="this part has no answer `period`"):
+        rendered(course_with(tmp_path, asked), "trial/one", only={"text"})
+
+
+def test_the_number_of_an_inequality_is_framed_without_the_formula() -> None:
+    problem, solved = solved_once(ROOT, "hw9/top")
+    words = phrases(ROOT / "templates")
+    document, _ = document_of(
+        problem, solved.derivation, solved.values, words, Level.STANDARD, drawings=solved.drawings
+    )
+    numbers = [right for is_framed, (_, _, right) in formulas(document) if is_framed and "rad/s" in right]
+    assert "28.00 rad/s" in numbers and not any("√" in each for each in numbers)

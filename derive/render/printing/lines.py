@@ -129,12 +129,14 @@ def _frames_left_side(line: Printed, equations: Equations) -> bool:
     """Return whether the frame includes the left side of the last line.
 
     Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
-    only its result in the frame. An inequality is framed as a whole.
+    only its result in the frame. An inequality is framed as a whole, unless a formula with numbers precedes its result.
     """
     if line.left is None or not equations.framed:
         return False
-    is_short = line.width <= FRAMED_WIDTH and not equations.lines[-1].numeric
-    return is_short or line.sides[0][0] in INEQUALITIES
+    numeric = equations.lines[-1].numeric
+    if line.sides[0][0] in INEQUALITIES:
+        return not (numeric and len(line.sides) > line.framed)
+    return line.width <= FRAMED_WIDTH and not numeric
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
