@@ -691,7 +691,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 
 def _numbers_of_all(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the numbers that all curves of a plot share, to follow the caption. The plot itself shows its extrema."""
+    """Return the numbers that all curves of a plot share, to follow the caption, which does not repeat the extrema."""
     told = _shared(curves_of(problem, plot, placement), words)
     return tuple(node for nodes in told for node in (Text(" "), *nodes))
 
