@@ -196,7 +196,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
         lines=Lines(put_in=None, arranged=lambda value: _by_rates_or_terms(value, moving)),
         routes={"power": compared_with(by_power)},
         outcome=lambda value: "zero" if value == 0 else "generic",
-        phrase_data=PhraseData(named={"coordinate": q.symbol}),
+        phrase_data=PhraseData(outcome_data={"coordinate": q.symbol}),
         key=key or f"applied_force_{q.symbol.name}",
         scope=Scope(coordinates={**of.coordinates, **held}, about=Subject(body=acted.system)),
     )

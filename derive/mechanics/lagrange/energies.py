@@ -296,7 +296,9 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
             return gathered
         moved_on = [HALF * mover.mass * square.value for mover, square in zip(moved, speeds, strict=True)]
         turned = [turning.written_out() for turning in turnings]
-        whole = Add(*(term for term in (*moved_on, *turned) if term != 0), evaluate=False)
+        whole = Add(
+            *(part for term in (*moved_on, *turned) for part in Add.make_args(term) if part != 0), evaluate=False
+        )
         return min((gathered, whole), key=length)
 
     return establish(
