@@ -114,10 +114,10 @@ class Curves:
     is_together: bool = False
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
-        """Return the points of a panel that are marked besides its extrema, in SI units, and whether the point is a
+        """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
         zero.
 
-        They are the points at which the curves of two quantities meet. If there are none, or only one curve, they are
+        They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
         the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
