@@ -471,7 +471,7 @@ class Connections:
 
     def _carrier(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
         """Yield the particle that carries a plane: a plank under a level plane, a wedge under a slope, or a solid
-        behind a vertical or overhanging plane. A wedge that touches a level floor stands on this floor."""
+        behind a vertical or overhanging plane. A wedge that touches a level floor is drawn on this floor."""
         x, y = (high - low).components
         label = plane.of.mass
         if abs(self.number(y)) <= SMALL:

@@ -114,20 +114,22 @@ class Curves:
     is_together: bool = False
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
-        """Return the points of a panel that are marked besides its extrema, in SI units, and whether the point is a
+        """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
         zero.
 
-        They are the zeros of a single curve, at which its quantity changes sign, or the points at which the curves of
-        two quantities meet. The zero of an energy is arbitrary, so it is not marked.
+        They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
+        the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
-        if not others and self.up.unit != JOULE:
-            found = [(at, 0.0, True) for at in zeros(one.expr, one.variable, one.lower, one.upper) if at < one.upper]
-        elif len(others) == 1 and self.labels_differ and one.variable == others[0].variable:
+        if others and not (len(others) == 1 and self.labels_differ and one.variable == others[0].variable):
+            return ()
+        found = []
+        if others:
             places = zeros(one.expr - others[0].expr, one.variable, one.lower, one.upper)
             found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
-        else:
-            return ()
+        if not found and self.up.unit != JOULE:
+            every = [(each, at) for each in own for at in zeros(each.expr, each.variable, each.lower, each.upper)]
+            found = [(at, 0.0, True) for each, at in every if at < each.upper]
         return tuple(found) if len(found) <= MOST_POINTS else ()
 
     @property

@@ -441,7 +441,20 @@ def test_the_point_at_which_two_curves_meet_is_marked_also_at_the_end_of_the_ran
     assert not points_of(force_of(theta, 2 * theta))  # they only start together
 
 
+def test_the_zeros_of_two_curves_that_do_not_meet_are_marked() -> None:
+    assert points_of(force_of(1 - theta, 5 - theta)) == [(1.0, 0.0)]
+
+
 def test_a_curve_with_many_extrema_has_enough_points_for_each_of_them() -> None:
     few, many = force_of(cos(theta)).curves[0], force_of(cos(100 * theta)).curves[0]
     assert len(few.spots) == 241 and len(many.spots) > 30 * len(many.extrema)
     assert max(y for _, y in many.spots) > 0.997
+
+
+def test_a_degree_sign_above_a_panel_has_no_space_before_it() -> None:
+    problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    numbers = ((Measured(a, Rational(120), "degree", Rational(2, 3) * pi),),)
+    plot = plot_of(a * cos(theta))
+    found = curves_of(problem, plot, Placement("potential", Place("one.yaml", 9), cases=numbers))
+    panel = panel_of(plot, found.panels[0], found, Notation(), WORDS)
+    assert panel.numbers == (r"$a = 120{}^{\circ}$",)

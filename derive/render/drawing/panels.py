@@ -425,7 +425,8 @@ def _numbers(numbers: Sequence[Measured], notation: Notation) -> list[str]:
 
 
 def _mathtext(layout: Any, inline: bool = False) -> str:
-    return "".join(run.text.strip("$") for run in runs(layout, inline))
+    text = "".join(run.text.strip("$") for run in runs(layout, inline))
+    return text.replace(r"\mathrm{{}^\circ}", _mathtext_of_unit(DEGREES))  # an upright degree sign would have a gap
 
 
 def _mathtext_of_value(told: str) -> str:
