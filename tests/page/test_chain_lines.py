@@ -11,7 +11,7 @@ from derive.page.chain_lines import ChainLine, ChainWriter, Equations
 from derive.page.repeats import results
 from derive.page.wording import Ref, phrases
 from derive.steps.step import Level, Step
-from tests.courses import ROOT, course_in, solved_once
+from tests.courses import ROOT, course_in, rendered_once, solved_once
 
 WORDS = phrases(ROOT / "templates")
 x, y = Symbol("x"), Symbol("y")
@@ -79,3 +79,9 @@ def test_a_reason_may_name_the_equation_of_a_role(tmp_path: Path) -> None:
     standard = replace(torque, chain=tuple(form for form in torque.chain if Level.STANDARD.shows(form.level)))
     last = [line.reason for line in writer.of(standard) if line.reason][-1]
     assert [node.key for node in last if isinstance(node, Ref)] == ["inertia_tensor", "spin"]
+
+
+def test_a_sum_that_all_components_share_is_in_front_of_the_vector() -> None:
+    """The special case of a vector has only one line, and its left side is on this line."""
+    page = rendered_once(ROOT, "hw9/block", only={"text"}).texts["text"]
+    assert "= M a c (a² - c²) ω²/(12(2a² + c²)) (1, -1, 0)" in page

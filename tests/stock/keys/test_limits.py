@@ -68,7 +68,7 @@ def test_a_limit_of_another_shape_is_told_once(tmp_path: Path) -> None:
 
 
 def test_a_problem_without_limits_has_no_such_section(tmp_path: Path) -> None:
-    assert "Limiting cases" not in page(tmp_path, CART[: CART.index("limits:")])
+    assert "Limiting case" not in page(tmp_path, CART[: CART.index("limits:")])
 
 
 def test_what_only_a_limit_rests_on_is_told_before_it(tmp_path: Path) -> None:
@@ -79,7 +79,7 @@ def test_what_only_a_limit_rests_on_is_told_before_it(tmp_path: Path) -> None:
     derivation, *_ = derived(loaded(tmp_path, energy))
     assert "potential_energy" in derivation.keys and "potential_energy" not in derivation.parts[0]
     text = page(tmp_path, energy)
-    assert text.index("Limiting cases") < text.index("U = ")
+    assert text.index("Limiting case") < text.index("U = ")
 
 
 @pytest.mark.parametrize(
