@@ -41,7 +41,7 @@ def _new(new: argparse.ArgumentParser) -> None:
 
 def _preview(preview: argparse.ArgumentParser) -> None:
     named(preview.add_argument("id", metavar="ID|SET", help="such as hw9/block; end with Ctrl-C"), "ids and sets")
-    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="port to serve (default 8311; 0: any)")
+    preview.add_argument("--port", type=_port, default=8311, metavar="N", help="port to use (default 8311; 0: any)")
     preview.add_argument("--open", action="store_true", help="open the browser too")
     _detail(preview)
     _time_limit(preview)

@@ -86,7 +86,7 @@ def read_expression(
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
-    letter_for   a function that takes a number with its unit, and its kind, and returns the letter for it or None
+    letter_for   a function of a number with a unit and of a kind; returns a letter for the number, or None
     """
     return _Parser(scalar, symbols, letter_for).whole()
 

@@ -139,7 +139,7 @@ def _pose(point: Point) -> Pose:
 def in_space(boundary: Boundary | None, pose: Pose, words: dict[str, Any], named: bool = False) -> list[Mark]:
     """Return the surfaces of a body in space, in any position; an empty list if the body cannot be drawn.
 
-    named   whether to label the edges of a body with faces by their lengths
+    named   whether to label the edges with their lengths, if the body has faces
     """
     match boundary:
         case Round():

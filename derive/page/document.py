@@ -367,9 +367,9 @@ class _Writer:
     def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
         """Return the keys of the steps of a part that are framed.
 
-        These are the answers that the part boxes, except a formula whose numerical value is framed instead, and a
-        formula that is only the reason for a verdict in words. If the sentence of an answer points to earlier lines,
-        the steps of these lines are returned instead.
+        These are the answers of the part that are to be framed, except a formula whose numerical value is framed
+        instead, and a formula that is only the reason for a verdict in words. If the sentence of an answer points to
+        earlier lines, the steps of these lines are returned instead.
         """
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}

@@ -211,7 +211,7 @@ class LinearSystem:
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
-        """The irreducible factors of the determinant as a polynomial in the root."""
+        """The irreducible factors of the determinant, which is a polynomial whose zeros are the roots."""
         raise NotImplementedError  # a system whose class is still unknown has matrices, but no roots
 
     @cached_property

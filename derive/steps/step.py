@@ -166,7 +166,7 @@ class Quantity:
 
     @property
     def named_values(self) -> list[tuple[Any, Any]]:
-        """Return each symbol that the step introduces, with its value; the results (r_0, theta_0) have two symbols."""
+        """Return each symbol that the step introduces, with its value: one, or several such as r_0 and theta_0."""
         if isinstance(self.symbol, MatrixBase) and isinstance(self.value, MatrixBase):
             return list(zip(self.symbol, self.value, strict=True))
         return [(self.symbol, self.value)] if isinstance(self.symbol, Symbol) else []

@@ -255,8 +255,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # beginning of the flight, because the given start may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of trial numbers; they satisfy the conditions of the flight, so the force vanishes
-# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value. The
-# beginning of the flight is simulated too.
+# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value. It also
+# contains the error of the simulated beginning of the flight.
 FLOWN = 1e-4
 
 

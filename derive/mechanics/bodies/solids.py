@@ -111,7 +111,8 @@ class Cone(Conical, RoundSolid):
     radius   the radius of the base, a length
     height   the height, a length
     mass     the mass of the body
-    Points: apex, base (the centre of the base, from which z is positive towards the apex), centre.
+    Points: apex, base (the centre of the base; the z axis of this point has the opposite direction, towards the apex),
+    centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
 

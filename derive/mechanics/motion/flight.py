@@ -167,7 +167,7 @@ class Departure:
         force = with_unknown(explicit(self.original.value), rate(self.q) ** 2, mark).xreplace({**self.held, **still})
         found = isolated(tidied(force), mark)
         if found is None or found.power != 1 or found.value.has(mark, rate(self.q)):
-            message = f"`flight`: `{self.original.key}` does not determine {rate(self.q)}**2 where it vanishes"
+            message = f"`flight`: {rate(self.q)}**2 does not follow from `{self.original.key}` = 0"
             raise Rejected(Complaint("wrong-argument", message))
         return tidied((found.value * self.scale**2).xreplace({self.q: self.at}))
 

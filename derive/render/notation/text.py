@@ -238,7 +238,7 @@ def _row(items: tuple[Layout, ...]) -> TextBox:
 
 
 def _piece(before: Layout | None, item: Layout) -> TextBox:
-    """Return the text of an item in a row; a sign at the beginning of a sum has its own text."""
+    """Return the text of an item in a row; a sign at the beginning of a sum is not followed by a space."""
     leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
     return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
 

@@ -102,7 +102,7 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
 
 
 def answers_together(steps: Sequence[Sequence[Printed]]) -> list[list[int]]:
-    """Group the steps of a display: consecutive answers of one row each share a frame. Return the positions of the
+    """Group the steps of a display: consecutive answers share a frame if each has one row. Return the positions of the
     steps of each group."""
     groups: list[list[int]] = []
     for i, lines in enumerate(steps):
