@@ -164,3 +164,19 @@ def test_page_numbers_that_are_not_known_are_found_by_a_run_without_a_pdf(
         typeset(tex, target, chosen_engine(None), formats=kept, numbers=Kept(kept, digest("numbers")))
         assert "on 2" in text_of(target)
     assert runs == [True, False, False], "the second time they are known"
+
+
+def test_the_anchor_of_a_problem_is_on_the_page_of_its_heading(target: Path) -> None:
+    """The problems have different heights, so some headings do not fit on the page on which the problem before ends."""
+    names, rule = [f"p{k}" for k in range(40)], r"\rule{{1pt}}{{{}pt}}"
+    pages = [
+        replace(PAGE, id=f"hw1/{name}", title_latex=Tex(f"Heading {name}."), latex=Tex(rule.format(83 + 17 * k)))
+        for k, name in enumerate(names)
+    ]
+    heading = ProblemSet("hw1", "Physics", "Homework", None, None, tuple(f"hw1/{name}" for name in names), ())
+    typeset(set_document(ROOT, heading, pages), target, chosen_engine(None))
+    found = PdfReader(target)
+    for name in names:
+        page = found.get_destination_page_number(found.named_destinations[f"hw1.{name}"])
+        body = found.pages[page].extract_text().split("\n", 1)[1]  # without the heading of the page
+        assert f"Heading {name}." in body, name
