@@ -40,10 +40,12 @@ def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
     One case alone has a label in the singular."""
     shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
     special = [bool(given.where) for given in shown if not given.step]
-    ending = "" if len(shown) == 1 else "s"
+    alone = len(shown) == 1
     if not special or not any(special):
-        return f"limit{ending}"
-    return f"special_case{ending}" if len(special) == len(shown) and all(special) else "special_and_limits"
+        return "limit" if alone else "limits"
+    if len(special) == len(shown) and all(special):
+        return "special_case" if alone else "special_cases"
+    return "special_and_limits"
 
 
 def limiting_cases(

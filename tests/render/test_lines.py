@@ -123,12 +123,15 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
-    """The number alone is no answer to what a letter must exceed."""
+    """A long formula is framed with its left side if it is an inequality; a number after a formula is framed alone."""
     S, c = Symbol("S"), LETTERS[2]
     for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
-        chain = (ChainLine(S, relation, LONG), ChainLine(None, "approx", 2 * c, numeric=True))
+        formula = ChainLine(S, relation, LONG)
+        (line,) = printed_lines(Equations("S", (formula,), 7, 1), NOTATION, 999)
+        assert line.frames_all == whole or not whole
+        chain = (formula, ChainLine(None, "approx", 2 * c, numeric=True))
         (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
-        assert line.frames_all == whole
+        assert (line.framed, line.frames_all) == (1, False)
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0
 
