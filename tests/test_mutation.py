@@ -83,6 +83,7 @@ def test_no_mutant_prints_another_result_or_another_sentence(found: list[Tried])
     assert [f"{tried.id}\n{tried.told}" for tried in survived] == []
 
 
+@pytest.mark.long
 def test_every_mutant_of_the_sample_was_tried(found: list[Tried]) -> None:
     assert len(found) == SIZE
     refused = sum(tried.verdict in {Verdict.REFUSED, Verdict.CRASHED} for tried in found)

@@ -562,6 +562,7 @@ def test_a_given_force_that_the_figure_does_not_show_is_named_in_the_caption(tmp
     assert caption in " ".join(page.split())
 
 
+@pytest.mark.long
 def test_friction_and_dashpots_are_not_named_as_forces_that_are_left_out(tmp_path: Path) -> None:
     for name in ("block_on_plank", "carts_with_dashpot", "driven_arm"):
         assert drawings(tmp_path / name, library(name))["system"].undrawn == ()

@@ -145,6 +145,7 @@ def test_an_angle_that_rolling_relates_to_another_is_drawn_with_its_positive_sen
     assert arc.tail and not arc.head  # the cylinder has turned clockwise, but psi is positive counterclockwise
 
 
+@pytest.mark.long
 def test_the_coordinates_of_a_flight_have_axes(tmp_path: Path) -> None:
     for name in ("slack_pendulum", "off_a_sphere"):
         found = drawings(tmp_path / name, library(name))["system"]
