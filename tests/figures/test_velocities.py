@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
 from sympy import Integer, Matrix, cos, pi, sin, symbols
 
 from derive.algebra.expressions import scalar
