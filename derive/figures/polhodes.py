@@ -26,6 +26,7 @@ from derive.figures.bodies import UNIT
 from derive.figures.marks import Mark, Surface
 from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import NOUGHT, Vector, cross, dot, plus, rim, unit
+from derive.figures.surfaces import parts_where
 
 DISTANCES = (22, 44, 64)  # in degrees: the distances of the curves from their axis, towards the intermediate one
 STEPS = 144  # of a curve
@@ -179,10 +180,4 @@ def _runs(curve: Sequence[Vector], eye: Vector, side: float) -> list[list[Vector
     if places[0] == places[-1] and flags[0] and not all(flags):
         first = flags.index(False)
         places, flags = places[first:-1] + places[: first + 1], flags[first:-1] + flags[: first + 1]
-    found: list[list[Vector]] = []
-    for i, (place, flag) in enumerate(zip(places, flags, strict=True)):
-        if flag:
-            if i == 0 or not flags[i - 1]:
-                found.append([])
-            found[-1].append(place)
-    return [run for run in found if len(run) > 2]
+    return [run for run in parts_where(places, flags) if len(run) > 2]

@@ -96,7 +96,7 @@ class EllipsoidMark(Surface):
         pieces: list[Piece] = [Patch(outline, "solid")]
         for k in range(3):
             around = rim(NOUGHT, 1.0, _unit_along(k))
-            runs = _runs(around, [dot(u, facing) >= 0 for u in around])
+            runs = parts_where(around, [dot(u, facing) >= 0 for u in around])
             pieces += [Stroke(paper.spots(*(self._at(paper.numbers, u) for u in run)), "thin") for run in runs]
         return [*pieces, Stroke(outline, "edge")]
 
@@ -129,7 +129,7 @@ class TorusMark(Surface):
         pieces: list[Piece] = [Patch(hull(paper.spots(*outer)), "solid")]
         if hole := self._hole(paper, [place for place, flag in zip(inner, seen[1], strict=True) if flag]):
             pieces.append(Patch(hull(hole)))
-        runs = (run for side, flags in zip((outer, inner), seen, strict=True) for run in _runs(side, flags))
+        runs = (run for side, flags in zip((outer, inner), seen, strict=True) for run in parts_where(side, flags))
         return [*pieces, *(Stroke(paper.spots(*run), "edge") for run in runs)]
 
     def _sizes(self, numbers: InNumbers) -> tuple[Vector, float, float]:
@@ -169,7 +169,7 @@ def _unit_along(k: int) -> Vector:
     return float(k == 0), float(k == 1), float(k == 2)
 
 
-def _runs(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
+def parts_where(places: Sequence[Vector], flags: Sequence[bool]) -> list[list[Vector]]:
     """Return the parts of a curve on which the flags are true; a single point is not a part."""
     found: list[list[Vector]] = []
     for i, (place, flag) in enumerate(zip(places, flags, strict=True)):

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.solution import rendered
+from derive.mechanics.motion import turning_points
 from tests.courses import ROOT
 from tests.stock.described import complaints, course_with, edited, solved
 
@@ -359,3 +360,13 @@ def test_an_unstable_equilibrium_is_approached_and_not_reached(tmp_path: Path) -
     exact = edited(SWUNG, *quoted, ("start_rate: u/l", "start_rate: 2*sqrt(g/l)"))
     code, _, said = refused(tmp_path, exact)
     assert code == "not-reached" and "does not reach theta = pi in a finite time" in said
+
+
+@pytest.mark.parametrize("word", ["contact", "taut"])
+def test_a_sentence_about_a_contact_or_a_string_that_the_system_lacks_is_refused(
+    word: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert solved(tmp_path, ESCAPES)
+    monkeypatch.setattr(turning_points, "_may_end", lambda speed: word)
+    (found,) = complaints(tmp_path, ESCAPES)
+    assert found.code == "unverified"

@@ -89,13 +89,14 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
     A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
     each place must also lie ahead of the start or, if the motion turns back first, behind it. A sentence with a
     condition must say that contact must last if the system has a surface, or that a string must stay taut if the system
-    has a string.
+    has a string; for any other system it must say neither.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
     ends = {one_sided[each.enforcer] for fact in kept for each in fact.constraints if each.enforcer in one_sided}
     conditional = any(come.reached is not None for come in facts.inputs["arrivals"])
-    if conditional and bool(ends) != (facts.words.get("lasts") in ends):
+    lasts = facts.words.get("lasts")
+    if conditional and (lasts not in ends if ends else bool(lasts)):
         return False
     return all(
         (come.is_found or _is_reached_just_where(come, facts.inputs.get("reached")))
