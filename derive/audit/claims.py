@@ -1,0 +1,62 @@
+"""What a document claims, and the verdict on each claim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from derive.documents.choices import Choice
+from derive.documents.layout import Row, Statement
+from derive.documents.meaning import Value
+from derive.documents.source import Span
+from derive.documents.syntax import Node
+
+
+class Outcome(StrEnum):
+    HOLDS = "holds"
+    APPROXIMATES = "approximates"
+    DEFINES = "defines"
+    DIFFERS = "differs"
+    UNDECIDED = "undecided"
+    UNREADABLE = "unreadable"
+
+
+@dataclass
+class Verdict:
+    """The verdict on a claim: why, which earlier claims were used, and for a wrong one what was probably meant."""
+
+    outcome: Outcome
+    because: str
+    given: tuple[int, ...] = ()  # numbers of the claims that were used
+    counterexample: str = ""
+    suggestion: str = ""
+    why_plausible: str = ""
+    inherits: int | None = None  # the claim whose slip this one carries on
+    choices: tuple[Choice, ...] = ()
+    span: Span | None = None
+
+
+@dataclass
+class Claim:
+    """Two neighbouring sides of a statement and the relation between them."""
+
+    number: int
+    row: Row
+    statement: Statement
+    index: int  # which pair of sides of the statement
+    relation: str
+    left: Node | None
+    right: Node | None
+    left_span: Span
+    right_span: Span
+    fault: str = ""
+    before: Claim | None = None  # the claim whose right side is this one's left side
+    verdict: Verdict | None = None
+    values: tuple[Value, Value] | None = None
+    difference: Value | None = None
+    tags: tuple[str, ...] = field(default_factory=tuple)
+
+    @property
+    def is_step(self) -> bool:
+        """Whether the left side is the result of a calculation: the right side of the claim before it."""
+        return self.before is not None

@@ -1,0 +1,460 @@
+"""The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
+
+The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal with definitions
+put in; they agree to the printed digits; they agree to the leading order in small letters; the equation follows from
+earlier equations. A claim `differs` only if both sides are read completely, contain the same letters, and none of these
+tests succeeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, product
+from random import Random
+
+import sympy
+from sympy import Abs, Expr, Integer, Integral, MatrixBase, Rational, Symbol
+
+from derive.algebra.equality import Grade, equal
+from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.fingerprint import differ, fingerprint
+from derive.audit.known import Known
+from derive.documents.facts import ANGLES
+from derive.documents.layout import Cue
+from derive.documents.meaning import Meaning, Value
+
+PLUS_MINUS = Symbol("±", real=True)
+POINTS = 4
+MOST_COMBINED = 6
+SMALL = (Rational(1, 100), Rational(1, 1000))
+
+
+def same(left: Value, right: Value) -> bool:
+    """Whether two values are equal, for both values of ±."""
+    if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
+        return False
+    if isinstance(left, MatrixBase) and left.shape != right.shape:
+        return False
+    if PLUS_MINUS in left.free_symbols | right.free_symbols:
+        return all(_equal(left.subs(PLUS_MINUS, s), right.subs(PLUS_MINUS, s)) for s in (1, -1)) or all(
+            _equal(left.subs(PLUS_MINUS, s), right.subs(PLUS_MINUS, -s)) for s in (1, -1)
+        )
+    return _equal(left, right)
+
+
+def _equal(left: Value, right: Value) -> bool:
+    if left == right:
+        return True
+    if any(differ(one, other) for one, other in zip(_entries(left), _entries(right), strict=True)):
+        return False
+    return equal(left, right).grade in (Grade.PROVED, Grade.SAMPLED)
+
+
+@dataclass
+class Decision:
+    """Decides one claim with one reading of its sides."""
+
+    claim: Claim
+    left: Value
+    right: Value
+    meaning: Meaning
+    known: Known
+    cues: frozenset[Cue]
+
+    def verdict(self) -> Verdict:
+        for test in (
+            self.shapes,
+            self.definition,
+            self.identity,
+            self.with_definitions,
+            self.rounded,
+            self.approximate,
+            self.condition,
+            self.consequence,
+            self.implied,
+        ):
+            if (found := test()) is not None:
+                return found
+        return self.otherwise()
+
+    # Sides
+
+    def shapes(self) -> Verdict | None:
+        left, right = self.left, self.right
+        if isinstance(left, MatrixBase) and right == 0:
+            self.right = sympy.zeros(*left.shape).as_immutable()
+            return None
+        if isinstance(right, MatrixBase) and left == 0:
+            self.left = sympy.zeros(*right.shape).as_immutable()
+            return None
+        if isinstance(left, MatrixBase) == isinstance(right, MatrixBase):
+            if isinstance(left, MatrixBase) and left.shape != right.shape:
+                return Verdict(Outcome.UNDECIDED, "the two sides are matrices of different shapes")
+            return None
+        matrix, number = (left, right) if isinstance(left, MatrixBase) else (right, left)
+        if isinstance(number, Symbol):
+            return Verdict(Outcome.DEFINES, "a list or matrix gets a name")
+        if matrix.shape[1] == 1 and self.claim.is_step | self.is_written_out(number):
+            total = sympy.Add(*matrix)
+            suggestion = "the sum of the entries" if same(number, total) else ""
+            return Verdict(
+                Outcome.DIFFERS, "one side is a number and the other side is a list of numbers", suggestion=suggestion,
+                why_plausible="a scalar product is the sum of the products of the components" if suggestion else "",
+            )  # fmt: skip
+        return Verdict(Outcome.UNDECIDED, "one side is a number and the other side is a vector or matrix")
+
+    def is_written_out(self, number: Expr) -> bool:
+        return len(number.free_symbols) > 1
+
+    def definition(self) -> Verdict | None:
+        """A letter that has no value yet gets one."""
+        if self.claim.relation not in ("=", ":="):
+            return None
+        for letter, value in ((self.left, self.right), (self.right, self.left)):
+            if letter is self.right and self.claim.is_step:
+                continue
+            if isinstance(letter, Symbol) and letter not in value.free_symbols and not self.known.is_defined(letter):
+                if self.known.computed(letter) is not None or isinstance(value, MatrixBase):
+                    continue
+                if not value.free_symbols and not value.is_number:
+                    continue
+                if self.follows_already(letter, value) is not None:
+                    continue
+                return Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
+        return None
+
+    def follows_already(self, letter: Symbol, value: Expr) -> int | None:
+        """Return the earlier equation from which the value of a letter follows, or None."""
+        for equation, number in reversed(self.known.recent()):
+            if letter in equation.free_symbols and _solves(equation, letter, value):
+                return number
+        return None
+
+    def identity(self) -> Verdict | None:
+        if not same(self.left, self.right):
+            return None
+        if self.left == self.right and self.left != 0:
+            return Verdict(Outcome.HOLDS, "the two sides are the same")
+        return Verdict(Outcome.HOLDS, "the two sides are equal")
+
+    @cached_property
+    def expansions(self) -> list[tuple[tuple[Value, ...], tuple[int, ...]]]:
+        return list(self.known.expanded(self.left, self.right))
+
+    def with_definitions(self) -> Verdict | None:
+        for (left, right), used in self.expansions:
+            if same(left, right):
+                return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
+        return None
+
+    # Numbers and approximations
+
+    def rounded(self) -> Verdict | None:
+        """Compare decimals at the precision with which they are printed."""
+        if not self.meaning.decimals:
+            return None
+        pairs: list[tuple[tuple[Value, ...], tuple[int, ...]]] = [((self.left, self.right), ()), *self.expansions]
+        for (left, right), used in pairs:
+            errors = [
+                _relative_error(one, other)
+                for one, other in zip(_entries(left), _entries(right), strict=False)
+                if one != 0 or other != 0
+            ]
+            if not errors or any(each is None for each in errors):
+                continue
+            error = max(each for each in errors if each is not None)
+            if error <= self.tolerance:
+                return Verdict(Outcome.APPROXIMATES, "equal to the printed digits", used)
+            if error <= 2 * self.tolerance:
+                return Verdict(Outcome.APPROXIMATES, "equal up to the last printed digit, as after rounding twice", used)
+        return None
+
+    @cached_property
+    def tolerance(self) -> float:
+        """The sum of the greatest relative errors that the rounding of the printed decimals can cause."""
+        return sum(float(Rational(1, 2) / 10**digits / abs(value)) for value, digits in self.meaning.decimals if value)
+
+    def approximate(self) -> Verdict | None:
+        if self.claim.relation not in ("~", "prop") and Cue.APPROXIMATE not in self.cues:
+            return None
+        for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
+            if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+                continue
+            order = order_of_error(left, right, self.meaning)
+            if order is not None:
+                letters, power = order
+                words = " and ".join(_word(each) for each in letters)
+                return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
+        if self.claim.relation in ("~", "prop"):
+            return Verdict(Outcome.UNDECIDED, "the document says that this is an approximation, but not in which letter")
+        return None
+
+    # Conditions and equations
+
+    def condition(self) -> Verdict | None:
+        """An inequality holds if it is an earlier one times a positive factor."""
+        if self.claim.relation not in ("<", ">", "<=", ">=", "<<", ">>", "!="):
+            return None
+        difference = self.left - self.right if not isinstance(self.left, MatrixBase) else None
+        if difference is not None and difference.is_number:
+            holds = {"<": difference < 0, ">": difference > 0, "<=": difference <= 0, ">=": difference >= 0}.get(
+                self.claim.relation
+            )
+            if holds is not None:
+                return Verdict(Outcome.HOLDS if bool(holds) else Outcome.DIFFERS, "a comparison of two numbers")
+        return Verdict(Outcome.DEFINES, "a condition")
+
+    @property
+    def difference(self) -> Value:
+        return self.left - self.right
+
+    def consequence(self) -> Verdict | None:
+        """An equation follows from earlier ones: by a factor, a sum, or the solution for a letter."""
+        if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
+            return None
+        recent = self.known.recent()
+        wanted = sympy.expand(self.difference)
+        for letter, value in ((self.left, self.right), (self.right, self.left)):
+            if isinstance(letter, Symbol) and letter not in value.free_symbols:
+                number = self.follows_already(letter, value)
+                if number is not None:
+                    return Verdict(Outcome.HOLDS, f"an earlier equation solved for {_word(letter)}", (number,))
+        for equation, number in reversed(recent):
+            if _is_multiple(wanted, equation):
+                return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
+        if (numbers := _combination(wanted, recent[-MOST_COMBINED:])) is not None:
+            return Verdict(Outcome.HOLDS, "a sum or difference of earlier equations", numbers)
+        for (left, right), used in self.expansions:
+            expanded = sympy.expand(left - right)
+            for equation, number in reversed(recent):
+                if expanded.free_symbols == equation.free_symbols and _is_multiple(expanded, equation):
+                    return Verdict(Outcome.HOLDS, "an earlier equation with definitions put in", (*used, number))
+        for equation, number in reversed(recent[-4:]):
+            if Cue.APPROXIMATE in self.cues and equation.free_symbols >= wanted.free_symbols:
+                ratio = _approximate_multiple(wanted, equation, self.meaning)
+                if ratio is not None:
+                    return Verdict(Outcome.APPROXIMATES, "an earlier equation to the leading order", (number,))
+        return None
+
+    def implied(self) -> Verdict | None:
+        """A step brings in a letter: it holds if a relation that is not written holds."""
+        if not self.claim.is_step or isinstance(self.difference, MatrixBase) or self.claim.relation != "=":
+            return None
+        left, right = (self.expansions[-1][0] if self.expansions else (self.left, self.right))
+        new = sorted(right.free_symbols - left.free_symbols, key=str)
+        gone = left.free_symbols - right.free_symbols
+        if len(new) != 1 or not gone or new[0] in self.meaning.derivatives:
+            return None
+        try:
+            found = sympy.solve(left - right, new[0])
+        except (NotImplementedError, TypeError, ValueError):
+            return None
+        if len(found) != 1 or not found[0].free_symbols <= gone | left.free_symbols or sympy.count_ops(found[0]) > 12:
+            return None
+        value = sympy.factor(found[0])
+        self.known.define(new[0], value, self.claim.number, implied=True)
+        return Verdict(Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which the document does not say before")
+
+    def otherwise(self) -> Verdict:
+        left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
+        if not self.claim.is_step:
+            if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
+                return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
+            return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+        if self.claim.relation not in ("=",):
+            return Verdict(Outcome.UNDECIDED, "this relation is not checked")
+        opaque = self.opaque(left) | self.opaque(right)
+        if opaque:
+            return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
+        one_sided = left.free_symbols ^ right.free_symbols
+        if one_sided and not _is_zero_sided(left, right) and (right.free_symbols - left.free_symbols):
+            words = ", ".join(sorted(map(_word, one_sided)))
+            return Verdict(Outcome.UNDECIDED, f"only one of the two sides contains {words}")
+        if left.has(Integral) or right.has(Integral):
+            return Verdict(Outcome.UNDECIDED, "an integral that derive cannot evaluate")
+        if Cue.APPROXIMATE in self.cues:
+            return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
+        if one_sided and self.special_case(left, right):
+            return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
+        return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=counterexample(left, right))
+
+    def special_case(self, left: Value, right: Value) -> bool:
+        """Whether letters of the left side may have got values in words."""
+        return bool(left.free_symbols - right.free_symbols) and not _is_zero_sided(left, right) and bool(
+            self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE}
+        )  # fmt: skip
+
+    def opaque(self, value: Value) -> set[Symbol]:
+        found = {each for each in value.free_symbols if each in self.meaning.derivatives or "(" in each.name}
+        return found | {each for each in value.free_symbols if each.name.startswith("d") and each.name not in _names(self.meaning)}
+
+
+def _names(meaning: Meaning) -> set[str]:
+    return {each.name for each in meaning.symbols}
+
+
+def _is_zero_sided(left: Value, right: Value) -> bool:
+    return left == 0 or right == 0
+
+
+def _entries(value: Value) -> list[Expr]:
+    return list(value) if isinstance(value, MatrixBase) else [value]
+
+
+def _word(symbol: Symbol) -> str:
+    return f"`{symbol.name}`"
+
+
+def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
+    """Whether a value, with both signs of ±, satisfies an equation."""
+    for sign in (1, -1) if PLUS_MINUS in value.free_symbols else (1,):
+        put_in = equation.subs(letter, value.subs(PLUS_MINUS, sign))
+        if put_in != 0 and not _equal(put_in, Integer(0)):
+            return False
+    return True
+
+
+def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
+    """Return the numbers of equations whose sum or difference, times a number, is the wanted one."""
+    goal = fingerprint(wanted)
+    for count in (2, 3):
+        for chosen in combinations(equations, count):
+            prints = [fingerprint(each) for each, _ in chosen]
+            for signs in product((1, -1), repeat=count - 1):
+                weights = (1, *signs)
+                if goal is not None and all(each is not None for each in prints):
+                    sums = [sum(w * p[i] for w, p in zip(weights, prints, strict=True) if p) for i in range(len(goal))]
+                    ratios = [a / b for a, b in zip(goal, sums, strict=True) if abs(b) > 1e-12]
+                    if len(ratios) < len(goal) or any(abs(r - ratios[0]) > 1e-7 * abs(ratios[0]) for r in ratios):
+                        continue
+                total = sympy.expand(sum(w * each for w, (each, _) in zip(weights, chosen, strict=True)))
+                if total != 0 and _is_multiple(wanted, total):
+                    return tuple(number for _, number in chosen)
+    return None
+
+
+def _is_multiple(wanted: Expr, equation: Expr) -> bool:
+    """Whether one equation is the other times a factor that is a product of numbers and letters."""
+    if wanted == 0 or equation == 0:
+        return False
+    return any(_equal(wanted, ratio * equation) for ratio in _ratios(wanted, equation))
+
+
+def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
+    """Yield the products by which an equation may have been multiplied: ratios of one term to the terms of the other."""
+    first = _terms(wanted)[0]
+    for term in _terms(equation):
+        ratio = first / term
+        factors = sympy.Mul.make_args(ratio)
+        if all(not factor.as_base_exp()[0].is_Add for factor in factors):
+            yield ratio
+
+
+def _terms(value: Expr) -> tuple[Expr, ...]:
+    return sympy.Add.make_args(value if value.is_Add else sympy.expand(value))
+
+
+def _points(symbols: set[Symbol], seed: int) -> Iterator[dict[Symbol, Rational]]:
+    source = Random(seed)
+    for _ in range(POINTS):
+        yield {each: Rational(source.randint(7, 40), source.randint(7, 29)) for each in sorted(symbols, key=str)}
+
+
+def _relative_error(left: Expr, right: Expr) -> float | None:
+    """Return the greatest relative difference at a few points, or None if the sides have no values there."""
+    worst = 0.0
+    symbols = left.free_symbols | right.free_symbols
+    for point in _points(symbols, 3):
+        errors = []
+        for sign in (1, -1) if PLUS_MINUS in symbols else (1,):
+            put_in = {**point, PLUS_MINUS: Integer(sign)}
+            one, other = (sympy.N(each.xreplace(put_in), 30) for each in (left, right))
+            if not (one.is_number and other.is_number and one.is_finite and other.is_finite):
+                return None
+            size = max(Abs(one), Abs(other))
+            errors.append(float(Abs(one - other) / size) if size else 0.0)
+        worst = max(worst, *errors)
+        if not symbols:
+            break
+    return worst
+
+
+def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
+    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
+    changing = tuple(
+        sorted(
+            (
+                each
+                for each in symbols
+                if (letter := meaning.symbols.get(each)) is not None
+                and (letter.dots or meaning.facts.changes(letter) or letter.base in ANGLES)
+            ),
+            key=str,
+        )
+    )
+    single = [(each,) for each in sorted(symbols, key=str)]
+    return ([changing] if changing else []) + single
+
+
+def order_of_error(left: Expr, right: Expr, meaning: Meaning) -> tuple[tuple[Symbol, ...], int] | None:
+    """Return letters in which two sides agree to the leading order, and the order of the difference."""
+    symbols = left.free_symbols | right.free_symbols
+    for letters in small_letters(symbols, meaning):
+        slopes = []
+        for point in _points(symbols, 5):
+            sizes = []
+            for scale in SMALL:
+                put_in = {each: value * (scale if each in letters else 1) for each, value in point.items()}
+                put_in[PLUS_MINUS] = Integer(1)
+                one, other = (sympy.N(each.xreplace(put_in), 40) for each in (left, right))
+                if not (one.is_number and other.is_number and one.is_finite and other.is_finite) or other == 0:
+                    break
+                sizes.append((Abs(one - other), Abs(other)))
+            if len(sizes) < 2 or sizes[1][0] == 0:
+                break
+            of_error = float(sympy.log(sizes[0][0] / sizes[1][0], 10))
+            of_value = float(sympy.log(sizes[0][1] / sizes[1][1], 10))
+            slopes.append((of_error, of_value))
+        if len(slopes) == POINTS and all(error - value > 0.8 for error, value in slopes):
+            return letters, round(min(error for error, _ in slopes))
+    return None
+
+
+def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
+    """Whether an equation is an earlier one to the leading order, times a number or a product of letters."""
+    symbols = wanted.free_symbols | equation.free_symbols
+    for letters in small_letters(symbols, meaning)[:1]:
+        scale = Symbol("epsilon_", positive=True)
+        leading = []
+        for each in (wanted, equation):
+            try:
+                scaled = each.subs({letter: scale * letter for letter in letters}, simultaneous=True)
+                leading.append(sympy.series(scaled, scale, 0, 3).removeO().as_leading_term(scale) / scale)
+            except (ValueError, NotImplementedError, TypeError, AttributeError):
+                return None
+        if leading[1] != 0 and _is_multiple(sympy.expand(leading[0]), sympy.expand(leading[1])):
+            return True
+    return None
+
+
+def counterexample(left: Value, right: Value) -> str:
+    """Return letters with simple values for which the two sides differ, and the values of the sides."""
+    symbols = sorted(left.free_symbols | right.free_symbols, key=str)
+    for start in (1, 2, 3):
+        point = {each: Integer(start + i) for i, each in enumerate(symbols)}
+        for one, other in zip(_entries(left), _entries(right), strict=False):
+            numbers = [sympy.N(each.subs(point), 6) for each in (one, other)]
+            if all(each.is_number and each.is_finite for each in numbers) and numbers[0] != numbers[1]:
+                at = ", ".join(f"{symbol.name} = {value}" for symbol, value in point.items())
+                sides = f"{_number(numbers[0])} against {_number(numbers[1])}"
+                return f"{sides}" + (f" for {at}" if at and len(at) < 160 else "")
+    return ""
+
+
+def _number(value: Expr) -> str:
+    return f"{float(value):.6g}" if value.is_real else str(value)
+
+
+__all__ = ["Decision", "Sequence", "counterexample", "order_of_error", "same"]

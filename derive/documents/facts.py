@@ -1,0 +1,185 @@
+"""What a whole document shows about its letters: which are functions, vectors or angles, and which change with time.
+
+Facts are counted over all formulas of the document, because a letter is often explained far from its use.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from derive.documents.syntax import (
+    Add,
+    Apply,
+    Condition,
+    Der,
+    Diff,
+    EvalBar,
+    Fun,
+    Group,
+    Int,
+    Letter,
+    Mat,
+    Mul,
+    Node,
+    Num,
+    Open,
+    Pow,
+    Vec,
+)
+
+Identity = tuple[str, str, frozenset[str], int, str]
+VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
+ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
+
+
+@dataclass
+class Facts:
+    functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
+    products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is no argument
+    timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
+    vectors: set[Identity] = field(default_factory=set)
+    tensors: set[Identity] = field(default_factory=set)
+    whole_arguments: Counter[Identity] = field(default_factory=Counter)
+    alone: Counter[Identity] = field(default_factory=Counter)
+    seen: Counter[Identity] = field(default_factory=Counter)
+    integrated: Counter[Identity] = field(default_factory=Counter)
+
+    def is_function(self, letter: Letter) -> bool:
+        bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
+        found = self.functions.get(letter.identity) or self.functions.get(bare)
+        return bool(found) and sum(found.values()) > self.products[letter.identity]
+
+    def variables_of(self, letter: Letter) -> Counter[Identity]:
+        bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
+        return self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
+
+    def changes(self, letter: Letter) -> bool:
+        """Whether a letter changes with time."""
+        if _timeless(letter) in self.timed:
+            return True
+        return any(base == "t" for base, *_ in self.variables_of(letter))
+
+    def is_vector(self, letter: Letter) -> bool:
+        return letter.identity in self.vectors or ("vec" in letter.marks and "hat" not in letter.marks)
+
+    @property
+    def has_axes(self) -> bool:
+        """Whether bold i, j and k all occur, so that they are the unit vectors of the axes."""
+        return all(self.seen[each, "", frozenset({"vec"}), 0, ""] for each in "ijk")
+
+    def is_tensor(self, letter: Letter) -> bool:
+        return letter.identity in self.tensors
+
+
+def _timeless(letter: Letter) -> tuple[str, str, frozenset[str], str]:
+    return letter.base, letter.sub, letter.marks, letter.label
+
+
+def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node]]) -> Facts:
+    """Return the facts that the sides of all statements show."""
+    facts = Facts()
+    for side in sides:
+        if isinstance(side, Letter):
+            facts.alone[side.identity] += 1
+        for node in _preferred(side):
+            _look_at(node, facts)
+        if isinstance(side, Open) and side.kind == "apply":
+            call = side.alternatives[0]
+            if isinstance(call, Apply) and len(call.arguments) == 1 and isinstance(call.arguments[0], Letter):
+                facts.functions[call.head.identity][call.arguments[0].identity] += 2  # `x(t)` alone
+    for left, right in equations:
+        for one, other in ((left, right), (right, left)):
+            one = _bare(one)
+            if isinstance(one, Letter) and (shape := shape_of(other)) is not None:
+                (facts.vectors if shape[1] == 1 else facts.tensors).add(one.identity)
+    return facts
+
+
+def shape_of(node: Node) -> tuple[int, int] | None:
+    """Return the shape of a matrix that is written out as a factor of a side, or None."""
+    node = _bare(node)
+    if isinstance(node, Mat) and not node.determinant:
+        rows, columns = len(node.rows), max(map(len, node.rows))
+        return (columns, 1) if rows == 1 and columns > 1 else (rows, columns)
+    if isinstance(node, Vec) and node.brackets in "}>)" and len(node.entries) in (2, 3):
+        if any(isinstance(each, Condition) for each in node.entries):
+            return None
+        return (len(node.entries), 1)
+    if isinstance(node, Mul):
+        shapes = [shape for _, each in node.factors if (shape := shape_of(each)) is not None]
+        return shapes[0] if len(shapes) == 1 else None
+    if isinstance(node, Add) and len(node.terms) == 1:
+        return shape_of(node.terms[0][1])
+    return None
+
+
+def _bare(node: Node) -> Node:
+    while isinstance(node, Group):
+        node = node.inner
+    return node
+
+
+def _preferred(node: Node) -> Iterable[Node]:
+    """Yield the nodes of a side; of an open node, those of its first alternative only."""
+    yield node
+    kids = node.alternatives[:1] if isinstance(node, Open) and node.kind != "apply" else node.kids
+    for kid in kids:
+        yield from _preferred(kid)
+
+
+def _look_at(node: Node, facts: Facts) -> None:
+    if isinstance(node, Letter):
+        facts.seen[node.identity] += 1
+        if node.dots:
+            facts.timed.add(_timeless(node))
+        if "vec" in node.marks:
+            facts.vectors.add(node.identity)
+    elif isinstance(node, Open) and node.kind == "apply":
+        call, product = node.alternatives
+        assert isinstance(call, Apply | Pow | Fun | EvalBar) or True
+        _look_at_call(call, product, facts)
+    elif isinstance(node, Apply):
+        for argument in node.arguments:
+            variable = _bare(argument.left if isinstance(argument, Condition) else argument)
+            if isinstance(variable, Letter):
+                facts.functions[_unprimed(node.head)][variable.identity] += 2
+            else:
+                facts.functions[_unprimed(node.head)][("?", "", frozenset(), 0, "")] += 1
+    elif isinstance(node, Der):
+        for by, _ in node.by:
+            of = _bare(node.of) if node.of is not None else None
+            if isinstance(by, Letter) and by.base == "t" and isinstance(of, Letter):
+                facts.timed.add(_timeless(of))
+            if isinstance(by, Letter) and isinstance(of, Letter) and not node.partial and by.base != "t":
+                facts.functions[of.identity][by.identity] += 1
+    elif isinstance(node, Diff):
+        if isinstance(of := _bare(node.of), Letter):
+            facts.integrated[of.identity] += 1
+    elif isinstance(node, Fun) and node.name in ("sin", "cos", "tan"):
+        if isinstance(argument := _bare(node.argument), Letter):
+            facts.whole_arguments[argument.identity] += 1
+
+
+def _unprimed(letter: Letter) -> Identity:
+    return letter.base, letter.sub, letter.marks, 0, letter.label
+
+
+def _look_at_call(call: Node, product: Node, facts: Facts) -> None:
+    while isinstance(call, Pow | EvalBar):
+        call = call.base if isinstance(call, Pow) else call.inner
+    if not isinstance(call, Apply) or len(call.arguments) != 1:
+        return
+    argument, head = _bare(call.arguments[0]), call.head
+    if isinstance(argument, Letter) and argument.base in VARIABLES and argument.identity != head.identity:
+        if argument.base == "t" or head.primes:
+            facts.functions[_unprimed(head)][argument.identity] += 1
+        elif not argument.sub:
+            facts.functions[_unprimed(head)][argument.identity] += 1
+    elif not isinstance(argument, Num):
+        if not any(isinstance(each, Letter) and each.base == "t" for each in argument.walk()):
+            facts.products[head.identity] += 1
+
+
+__all__ = ["ANGLES", "Facts", "Int", "Mul", "facts_of", "shape_of"]

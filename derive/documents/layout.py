@@ -1,0 +1,560 @@
+r"""The formulas of a document in their order: headings, sentences, displays with their rows, and the statements in them.
+
+A display is a block of rows. A row that begins with a relation goes on from the row before it, and a row that begins
+with a sign, under the same relation, is the rest of the side before it. A statement is a chain of sides, such as
+`a = b = c`; words and commas separate the statements of a row.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+
+from derive.documents.macros import Macro, argument_at, end_of_group, expanded, macros_of
+from derive.documents.source import Format, Source, Span
+from derive.documents.tokens import Kind, Token, TooLarge, tokens_of, without_spaces
+
+ALIGNED = frozenset(
+    "align aligned alignat alignedat gather gathered split multline eqnarray flalign equation displaymath math subequations"
+    " dmath empheq IEEEeqnarray".split()
+)
+MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix".split())
+RELATIONS = {
+    "=": "=", "<": "<", ">": ">",
+    "leq": "<=", "le": "<=", "leqslant": "<=", "geq": ">=", "ge": ">=", "geqslant": ">=", "lt": "<", "gt": ">",
+    "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop", "ll": "<<",
+    "gg": ">>", "neq": "!=", "ne": "!=", "equiv": ":=", "coloneqq": ":=", "triangleq": ":=", "in": "in", "to": "to",
+    "rightarrow": "to", "longrightarrow": "to", "mapsto": "to",
+}  # fmt: skip
+ARROWS = {
+    "Rightarrow": "implies", "implies": "implies", "Longrightarrow": "implies", "therefore": "implies", "iff": "and",
+    "Leftrightarrow": "and", "Longleftrightarrow": "and", "because": "since", "Leftarrow": "since", "land": "and",
+    "lor": "or", "leadsto": "implies",
+}  # fmt: skip
+WIDE = {"quad", "qquad", "qq", "hspace", "hfill", "hskip"}
+WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
+
+
+class Cue(StrEnum):
+    """Words before a formula that say where it comes from."""
+
+    GIVEN = "given"
+    DEFINED = "let"
+    SINCE = "since"
+    USING = "using"
+    PUT_IN = "put in"
+    APPROXIMATE = "to first order"
+    CONSTANT = "constant"
+    INCORRECT = "not"
+
+
+CUES = {
+    Cue.APPROXIMATE: r"\bapproximat\w*|\bsmall\b|\bfirst order\b|\bsecond order\b|\blowest order\b|\bleading order\b"
+    r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
+    Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
+    Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b",
+    Cue.SINCE: r"\bsince\b|\bbecause\b|\bas\b|\brecall\w*|\bknow\b|\bremember\b",
+    Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
+    Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
+    Cue.CONSTANT: r"\bconstant\b|\bconst\b",
+    Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
+}
+_CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}
+
+
+@dataclass(frozen=True)
+class Side:
+    tokens: tuple[Token, ...]
+    span: Span
+
+
+@dataclass
+class Statement:
+    """A chain of sides and the relations between them; `follows` is the statement whose last side it goes on from."""
+
+    sides: list[Side]
+    relations: list[str]
+    span: Span
+    row: Row
+    link: str = ""
+    words: str = ""
+    follows: Statement | None = None
+    listed: list[Side] = field(default_factory=list)  # further values of the last side: `x = 1, 2`
+
+
+@dataclass
+class Row:
+    """A row of a display, or the formula of a sentence."""
+
+    number: int
+    span: Span
+    line: int
+    latex: str
+    block: Block
+    tag: str = ""
+    label: str = ""
+    statements: list[Statement] = field(default_factory=list)
+    fault: tuple[str, Span] | None = None
+
+
+@dataclass
+class Block:
+    """A display, or a formula in a sentence; `before` is the text between it and the formula before it."""
+
+    display: bool
+    environment: str
+    span: Span
+    before: str
+    sentence: str
+    heading: int
+    rows: list[Row] = field(default_factory=list)
+
+    @cached_property
+    def cues(self) -> frozenset[Cue]:
+        return frozenset(cue for cue, pattern in _CUES.items() if pattern.search(self.sentence))
+
+
+@dataclass(frozen=True)
+class Heading:
+    text: str
+    level: int
+    span: Span
+
+
+@dataclass
+class Document:
+    source: Source
+    macros: dict[str, Macro]
+    headings: list[Heading]
+    blocks: list[Block]
+
+    @property
+    def rows(self) -> list[Row]:
+        return [row for block in self.blocks for row in block.rows]
+
+
+_SKIPPED = re.compile(
+    r"(?P<fence>^[ \t]*(?P<ticks>```+|~~~+)[^\n]*\n.*?^[ \t]*(?P=ticks)[^\n]*$)"
+    r"|(?P<code>(?<!`)`[^`\n]+`(?!`))"
+    r"|(?P<html><!--.*?-->)"
+    r"|\\begin\{(?P<verbatim>verbatim|lstlisting|minted|tikzpicture|comment|asy|python|thebibliography)\*?\}.*?"
+    r"\\end\{(?P=verbatim)\*?\}",
+    re.DOTALL | re.MULTILINE,
+)
+_COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_OPENING = re.compile(
+    r"\\begin\{(?P<env>[A-Za-z]+)(?P<star>\*?)\}|(?P<dollars>(?<!\\)\$\$)|(?P<dollar>(?<!\\)\$)"
+    r"|(?P<bracket>(?<!\\)\\\[)|(?P<paren>(?<!\\)\\\()"
+)
+_HEADING = re.compile(
+    r"^(?P<marks>\#{1,6})[ \t]+(?P<words>[^\n]+)|\\(?P<level>part|chapter|section|subsection|subsubsection|paragraph)"
+    r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}",
+    re.MULTILINE,
+)
+_LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
+_LINE_BREAK = re.compile(r"\n[ \t]*\n")
+
+
+def read_document(source: Source) -> Document:
+    """Return the formulas, headings and macros of a document."""
+    text, macros, definitions = source.text, *macros_of(source.text)
+    hidden = [Span(*found.span()) for found in _SKIPPED.finditer(text)] + definitions
+    begins = text.find(r"\begin{document}")
+    if begins >= 0:
+        hidden.append(Span(0, begins))
+    if source.format is Format.TEX:
+        hidden += [Span(*found.span()) for found in _COMMENT.finditer(text)]
+    hidden.sort()
+    headings = [
+        Heading(*_title(found), Span(*found.span()))
+        for found in _HEADING.finditer(text)
+        if not _covered(hidden, found.start())
+    ]
+    reading = _Reading(source, macros, hidden, headings)
+    return Document(source, macros, headings, reading.blocks())
+
+
+def _title(found: re.Match[str]) -> tuple[str, int]:
+    if found["marks"]:
+        return found["words"].strip(), len(found["marks"])
+    if found["problem"]:
+        return found["problem"], 3
+    return found["title"], _LEVELS[found["level"]]
+
+
+def _covered(spans: Sequence[Span], position: int) -> Span | None:
+    at = bisect_right(spans, Span(position, 1 << 60)) - 1
+    for span in spans[max(0, at - 3) : at + 1]:
+        if span.start <= position < span.end:
+            return span
+    return None
+
+
+class _Reading:
+    """Goes through a document from its first to its last formula."""
+
+    def __init__(self, source: Source, macros: dict[str, Macro], hidden: list[Span], headings: list[Heading]):
+        self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
+        self.count = 0
+        self.last: Statement | None = None
+
+    def blocks(self) -> list[Block]:
+        found: list[Block] = []
+        done = 0
+        for outer, inner, display, environment in self.formulas():
+            before = self.text[max(done, outer.start - 2000) : outer.start]
+            starts = [heading.span.start for heading in self.headings]
+            heading = bisect_right(starts, outer.start) - 1
+            if heading >= 0 and self.headings[heading].span.end > done:
+                before = self.text[max(self.headings[heading].span.end, outer.start - 2000) : outer.start]
+            block = Block(display, environment, outer, before, self.sentence(outer, display), heading)
+            self.read_rows(block, inner)
+            found.append(block)
+            done = outer.end
+        return found
+
+    def sentence(self, outer: Span, display: bool) -> str:
+        """Return the words of the sentence in which a formula stands, with its formulas left out."""
+        before = self.text[max(0, outer.start - 600) : outer.start]
+        before = re.split(r"[.!?]\s+(?=[A-Z$\\])|\n[ \t]*\n(?=\S)|\$\$\s*(?=[A-Z])", before.rstrip() + " ")[-1]
+        if not before.strip() or len(before.strip()) < 3:
+            paragraphs = self.text[max(0, outer.start - 600) : outer.start].rstrip().split("\n\n")
+            before = paragraphs[-1][-200:]
+        after = "" if display else re.split(r"[.!?]\s|\n\n", self.text[outer.end : outer.end + 200])[0]
+        return re.sub(r"\$[^$]*\$", " ", before + " " + after)
+
+    def formulas(self) -> Iterator[tuple[Span, Span, bool, str]]:
+        position = 0
+        while opening := _OPENING.search(self.text, position):
+            if covering := _covered(self.hidden, opening.start()):
+                position = max(covering.end, opening.start() + 1)
+                continue
+            position = opening.end()
+            if opening["env"]:
+                if opening["env"] not in ALIGNED:
+                    continue
+                name = opening["env"] + opening["star"]
+                close = self.text.find(f"\\end{{{name}}}", position)
+                if close < 0:
+                    continue
+                outer = Span(opening.start(), close + len(f"\\end{{{name}}}"))
+                yield outer, outer, True, opening["env"]
+                position = outer.end
+                continue
+            closing, display = {
+                "dollars": (r"(?<!\\)\$\$", True),
+                "dollar": (r"(?<!\\)\$", False),
+                "bracket": (r"(?<!\\)\\\]", True),
+                "paren": (r"(?<!\\)\\\)", False),
+            }[str(opening.lastgroup)]
+            close_at = re.compile(closing).search(self.text, position)
+            if close_at is None:
+                continue
+            if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
+                continue  # a dollar sign that opens no formula
+            yield Span(opening.start(), close_at.end()), Span(position, close_at.start()), display, ""
+            position = close_at.end()
+
+    def read_rows(self, block: Block, inner: Span) -> None:
+        """Read the rows of a formula and the statements in them."""
+        try:
+            tokens = expanded(tokens_of(self.text, inner.start, inner.end), self.macros)
+        except TooLarge as error:
+            row = self.row(block, inner)
+            row.fault = (str(error), error.span)
+            return
+        for cells, tag, label in rows_of(tokens):
+            flat = [token for cell in cells for token in cell]
+            if not without_spaces(flat):
+                continue
+            rest = self.rest_of_side(block, cells)
+            solid = without_spaces(flat)
+            row = rest or self.row(block, Span(solid[0].span.start, solid[-1].span.end))
+            row.tag, row.label = tag or row.tag, label or row.label
+            if rest is not None:
+                row.latex += " " + self.text[flat[0].span.start : flat[-1].span.end]
+                continue
+            for statement in statements_of(cells, row, self.last if block.display and block.rows[:-1] else None):
+                row.statements.append(statement)
+                self.last = statement
+
+    def row(self, block: Block, span: Span) -> Row:
+        self.count += 1
+        row = Row(self.count, span, self.source.line_of(span.start), self.text[span.start : span.end].strip(), block)
+        block.rows.append(row)
+        return row
+
+    def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
+        """Return the row before, with these tokens added to its last side, if they are the rest of that side."""
+        tokens = without_spaces([token for cell in cells for token in cell])
+        while tokens and tokens[0].is_command("quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"):
+            skip = argument_at(tokens, 1)[1] if tokens[0].text in ("hspace", "phantom", "hphantom") else 1
+            tokens = tokens[skip:]
+        if not block.rows or not block.rows[-1].statements or self.last is None or not tokens:
+            return None
+        last = self.last.sides[-1]
+        open_end = bool(last.tokens) and (
+            last.tokens[-1].is_mark("+", "-", "*", "/") or last.tokens[-1].is_command("cdot", "times", "pm", "mp")
+        )
+        begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
+        if not open_end and not (begins and len(cells) > 1 and not without_spaces(cells[0])):
+            return None
+        if any(each.is_mark(*RELATIONS) or each.is_command(*RELATIONS) for each in _outside_brackets(tokens)):
+            return None
+        joined = Side((*last.tokens, *tokens), Span(last.span.start, tokens[-1].span.end))
+        self.last.sides[-1] = joined
+        self.last.span = Span(self.last.span.start, joined.span.end)
+        return block.rows[-1]
+
+
+def _depth_change(token: Token) -> int:
+    if token.kind is Kind.OPEN or token.is_mark("(", "[") or token.is_command("left", "begin", "{", "langle", "lbrace"):
+        return 1
+    if token.kind is Kind.CLOSE or token.is_mark(")", "]") or token.is_command("right", "end", "}", "rangle", "rbrace"):
+        return -1
+    return 0
+
+
+def _depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
+    r"""Yield each token with the depth of the brackets around it; a bracket after `\left` is part of it."""
+    depth = 0
+    before: Token | None = None
+    for token in tokens:
+        after_size = before is not None and before.is_command("left", "right")
+        change = 0 if after_size else _depth_change(token)
+        depth = max(0, depth + min(0, change))
+        yield token, depth
+        depth += max(0, change)
+        before = token
+
+
+def _outside_brackets(tokens: Sequence[Token]) -> list[Token]:
+    return [token for token, depth in _depths(tokens) if depth == 0]
+
+
+def _environment(tokens: Sequence[Token], at: int) -> tuple[str, int]:
+    r"""Return the name after `\begin` or `\end`, and the position after its brace."""
+    name, after = argument_at(tokens, at)
+    return "".join(each.text for each in name), after
+
+
+def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]:
+    r"""Return the rows of a display: their cells, tag and label. The rows of matrices and of `cases` stay inside."""
+    rows: list[tuple[list[list[Token]], str, str]] = []
+    cells: list[list[Token]] = [[]]
+    tag = label = ""
+    inside = depth = at = 0  # depth in environments that are not split, and in braces
+    while at < len(tokens):
+        token = tokens[at]
+        at += 1
+        if token.is_command("begin", "end"):
+            name, after = _environment(tokens, at)
+            bare = name.rstrip("*")
+            splits = bare in ALIGNED or (bare == "array" and not inside and _is_alignment(tokens, at - 1))
+            if splits and not inside:
+                if token.text == "begin" and bare in ("alignat", "alignedat", "array", "IEEEeqnarray"):
+                    _, after = argument_at(tokens, after)
+                elif token.text == "begin" and after < len(tokens) and tokens[after].is_mark("["):
+                    close = next((i for i in range(after, len(tokens)) if tokens[i].is_mark("]")), after)
+                    after = close + 1
+                at = after
+                continue
+            inside = max(0, inside + (1 if token.text == "begin" else -1))
+            cells[-1] += tokens[at - 1 : after]
+            at = after
+            continue
+        if inside == 0 and depth == 0:
+            if token.is_command("\\", "newline", "cr"):
+                while at < len(tokens) and tokens[at].kind is Kind.SPACE:
+                    at += 1
+                if at < len(tokens) and tokens[at].is_mark("["):
+                    close = next((i for i in range(at, min(at + 8, len(tokens))) if tokens[i].is_mark("]")), None)
+                    at = close + 1 if close is not None else at
+                rows.append((cells, tag, label))
+                cells, tag, label = [[]], "", ""
+                continue
+            if token.kind is Kind.CELL:
+                cells.append([])
+                continue
+        if token.is_command("tag", "label", "eqref", "ref"):
+            if token.text == "tag" and at < len(tokens) and tokens[at].is_mark("*"):
+                at += 1
+            value, at = argument_at(tokens, at)
+            written = "".join(each.text for each in value)
+            tag, label = (written, label) if token.text == "tag" else (tag, written if token.text == "label" else label)
+            continue
+        if token.is_command("nonumber", "notag", "displaystyle", "textstyle", "scriptstyle", "limits", "nolimits"):
+            continue
+        depth = max(0, depth + (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE))
+        cells[-1].append(token)
+    rows.append((cells, tag, label))
+    return rows
+
+
+def _is_alignment(tokens: Sequence[Token], begin: int) -> bool:
+    r"""Whether an `array` aligns equations: a cell of it is a relation alone, and no bracket opens before it."""
+    before = [each for each in tokens[max(0, begin - 3) : begin] if each.kind is not Kind.SPACE]
+    if len(before) >= 2 and before[-2].is_command("left"):
+        return False
+    if tokens[begin].text == "end":
+        return True
+    depth = 0
+    for at in range(begin, len(tokens)):
+        if tokens[at].is_command("begin"):
+            depth += 1
+        elif tokens[at].is_command("end"):
+            depth -= 1
+            if depth == 0:
+                return False
+        elif depth == 1 and (tokens[at].is_mark("=", "<", ">") or tokens[at].is_command(*RELATIONS)):
+            return True
+    return False
+
+
+def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) -> list[Statement]:
+    """Return the statements of a row; a row that begins with a relation follows from the statement before it."""
+    found: list[Statement] = []
+    for column in _columns(cells):
+        for tokens, link, words in _pieces(column):
+            statement = _chain(tokens, row, link, words)
+            if statement is None:
+                continue
+            if not statement.sides[0].tokens:
+                previous = found[-1] if found else before
+                if previous is None or not statement.sides[1:]:
+                    statement.sides, statement.relations = statement.sides[1:], statement.relations[1:]
+                    if not statement.sides:
+                        continue
+                else:
+                    statement.follows = previous
+                    statement.sides[0] = previous.sides[-1]
+            if found and not statement.relations and statement.link == "list" and found[-1].relations:
+                found[-1].listed.append(statement.sides[0])
+                continue
+            found.append(statement)
+    return found
+
+
+def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
+    """Yield the tokens of each equation of a row of `align`: the first, third, ... mark `&` stands before a relation."""
+    column: list[Token] = []
+    for number, cell in enumerate(cells):
+        begins = next((each for each in cell if each.kind is not Kind.SPACE), None)
+        relation = begins is not None and (begins.is_mark(*RELATIONS) or begins.is_command(*RELATIONS))
+        if number >= 2 and number % 2 == 0 and not relation and _has_relation(column) and _has_relation(cell, cells, number):
+            yield column
+            column = []
+        column += cell
+    yield column
+
+
+def _has_relation(cell: list[Token], cells: list[list[Token]] | None = None, number: int = 0) -> bool:
+    tokens = cell if cells is None else [token for each in cells[number : number + 2] for token in each]
+    return any(each.is_mark(*RELATIONS) or each.is_command(*RELATIONS) for each in _outside_brackets(tokens))
+
+
+def _pieces(tokens: list[Token]) -> Iterator[tuple[list[Token], str, str]]:
+    """Split a row where words, arrows, wide spaces, semicolons or commas separate statements."""
+    piece: list[Token] = []
+    link, words = "", ""
+    at = 0
+    levels = list(_depths(tokens))
+    while at < len(tokens):
+        token, depth = levels[at]
+        if depth == 0 and token.is_command(*WORDS):
+            value, after = argument_at(tokens, at + 1)
+            said = "".join(" " if each.kind is Kind.SPACE else each.text for each in value).strip()
+            if _is_unit_or_label(said, piece) or (piece and _is_relation(piece[-1])):
+                piece += tokens[at:after]
+                at = after
+                continue
+            yield piece, link, words
+            piece, link, words = [], _link(said), said
+            at = after
+            continue
+        if depth == 0 and token.is_command(*ARROWS):
+            yield piece, link, words
+            piece, link, words = [], ARROWS[token.text], ""
+            at += 1
+            continue
+        if depth == 0 and (token.is_mark(",", ";") or token.is_command("quad", "qquad")) and piece:
+            rest = tokens[at + 1 :]
+            separates = token.is_mark(";") or _has_relation(_next_piece(rest))
+            if token.is_mark(",") or separates:
+                yield piece, link, words
+                piece, link, words = [], "and" if separates else "list", ""
+                at += 1
+                continue
+        piece.append(token)
+        at += 1
+    yield piece, link, words
+
+
+def _is_relation(token: Token) -> bool:
+    return token.is_mark(*RELATIONS) or token.is_command(*RELATIONS)
+
+
+def _next_piece(tokens: list[Token]) -> list[Token]:
+    """Return the tokens up to the next comma or word outside of brackets."""
+    found = []
+    for token, depth in _depths(tokens):
+        if depth == 0 and (token.is_mark(",", ";") or token.is_command(*WORDS, *ARROWS)):
+            break
+        found.append(token)
+    return found
+
+
+def _is_unit_or_label(said: str, piece: list[Token]) -> bool:
+    if not said or not piece:
+        return False
+    if piece[-1].kind is Kind.SCRIPT:
+        return True
+    return bool(re.fullmatch(r"[A-Za-zµΩ°/.^\d\s²³⁻·-]{1,12}", said)) and piece[-1].kind is Kind.NUMBER
+
+
+def _link(said: str) -> str:
+    said = said.lower()
+    for word, link in (
+        ("or", "or"), ("and", "and"), ("so", "implies"), ("hence", "implies"), ("thus", "implies"), ("where", "where"),
+        ("with", "where"), ("if", "if"), ("when", "if"), ("for", "if"), ("since", "since"),
+    ):  # fmt: skip
+        if re.search(rf"\b{word}\b", said):
+            return link
+    return "and"
+
+
+def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | None:
+    tokens = without_spaces(tokens)
+    while tokens and (tokens[-1].is_mark(".", ",", ";", ":") or tokens[-1].is_command("quad", "qquad", ",", ";", "!", " ", ":")):
+        tokens.pop()
+    while tokens and tokens[0].is_command("quad", "qquad", ",", ";", "!", " ", ":"):
+        tokens.pop(0)
+    if not tokens:
+        return None
+    sides: list[list[Token]] = [[]]
+    relations: list[str] = []
+    for at, (token, depth) in enumerate(_depths(tokens)):
+        relation = RELATIONS.get(token.text) if token.kind in (Kind.MARK, Kind.COMMAND) and depth == 0 else None
+        if relation is not None and token.is_mark("=") and at and tokens[at - 1].is_mark(":"):
+            sides[-1].pop()
+            relation = ":="
+        if relation is not None and token.is_mark("=") and sides[-1] and sides[-1][-1].is_mark("!"):
+            sides[-1].pop()
+        if relation is None:
+            sides[-1].append(token)
+        else:
+            relations.append(relation)
+            sides.append([])
+    made = []
+    at_end = tokens[-1].span.end
+    for side in sides:
+        span = Span(side[0].span.start, side[-1].span.end) if side else Span(at_end, at_end)
+        made.append(Side(tuple(side), span))
+    return Statement(made, relations, Span(tokens[0].span.start, at_end), row, link, words)
+
+
+__all__ = ["Block", "Cue", "Document", "Heading", "Row", "Side", "Statement", "end_of_group", "read_document"]

@@ -1,0 +1,602 @@
+"""The nodes of a side as an expression of SymPy, or the reason why they have no value.
+
+A letter and its rates are symbols of their own: `x`, `x'`, `x''`. A vector is a triple with opaque components. The
+derivative of a letter about which nothing is known is a symbol, too. Letters stand for positive numbers unless they
+change with time, are components or arguments of a sine; this is what authors mean by sqrt(m^2) = m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy
+from sympy import (
+    Abs as AbsoluteValue,
+)
+from sympy import (
+    Add as Total,
+)
+from sympy import (
+    Expr,
+    ImmutableDenseMatrix,
+    Integer,
+    Integral,
+    Matrix,
+    MatrixBase,
+    Rational,
+    Symbol,
+    cos,
+    exp,
+    log,
+    pi,
+    sin,
+    sqrt,
+)
+
+from derive.algebra.integrals import definite
+from derive.documents.facts import ANGLES, Facts
+from derive.documents.source import Span
+from derive.documents.syntax import (
+    Abs,
+    Add,
+    Apply,
+    Condition,
+    Der,
+    Diff,
+    EvalBar,
+    Frac,
+    Fun,
+    Group,
+    Int,
+    Letter,
+    Mat,
+    Mul,
+    Node,
+    Num,
+    Open,
+    Pow,
+    Root,
+    Sign,
+    Sum,
+    Text,
+    Vec,
+)
+
+Value = Expr | ImmutableDenseMatrix
+LARGEST_POWER = 60
+LONGEST_NUMBER = 60
+
+
+class Meaningless(Exception):
+    """A side has no value that derive can find: `reason` says why, `span` where."""
+
+    def __init__(self, reason: str, span: Span):
+        super().__init__(reason)
+        self.reason, self.span = reason, span
+
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "sin": sin, "cos": cos, "tan": sympy.tan, "cot": sympy.cot, "sec": sympy.sec, "csc": sympy.csc,
+    "arcsin": sympy.asin, "arccos": sympy.acos, "arctan": sympy.atan, "arccot": sympy.acot, "sinh": sympy.sinh,
+    "cosh": sympy.cosh, "tanh": sympy.tanh, "coth": sympy.coth, "arcsinh": sympy.asinh, "arccosh": sympy.acosh,
+    "arctanh": sympy.atanh, "ln": log, "exp": exp, "sign": sympy.sign, "sech": sympy.sech, "csch": sympy.csch,
+    "factorial": sympy.factorial,
+}  # fmt: skip
+INVERSE = {"sin": sympy.asin, "cos": sympy.acos, "tan": sympy.atan, "sinh": sympy.asinh, "cosh": sympy.acosh,
+           "tanh": sympy.atanh}  # fmt: skip
+
+
+@dataclass
+class Meaning:
+    """Finds the values of nodes; it records the decimals it meets and the symbols it makes for derivatives."""
+
+    facts: Facts
+    variables: tuple[Symbol, ...] = ()  # the variables of integrals, for brackets with limits
+    decimals: list[tuple[Expr, int]] = field(default_factory=list)  # each decimal, with its digits after the point
+    units: bool = False
+    plain: str = ""  # which letters of vectors stand for numbers: those without a mark, all, or also those of tensors
+    derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
+    symbols: dict[Symbol, Letter] = field(default_factory=dict)
+    two_signs: bool = False
+
+    def of(self, node: Node) -> Value:
+        found = self._of(node)
+        if isinstance(found, MatrixBase):
+            return found.as_immutable()
+        return sympy.sympify(found) if not isinstance(found, Expr) else found
+
+    def scalar(self, node: Node) -> Expr:
+        found = self.of(node)
+        if isinstance(found, MatrixBase):
+            raise Meaningless("a vector or matrix stands where a number is needed", node.span)
+        return found
+
+    def _of(self, node: Node) -> Any:
+        method = getattr(self, f"of_{type(node).__name__.lower()}", None)
+        if method is None:
+            raise Meaningless("this has no value", node.span)
+        return method(node)
+
+    def of_num(self, node: Num) -> Expr:
+        if len(node.text) > LONGEST_NUMBER:
+            raise Meaningless("this number is too long", node.span)
+        if "." in node.text:
+            self.decimals.append((Rational(node.text), len(node.text.partition(".")[2])))
+        return Rational(node.text)
+
+    def of_letter(self, node: Letter) -> Any:
+        if node.base == "pi" and not node.sub and not node.marks:
+            return pi
+        if node.base == "infty":
+            return sympy.oo
+        if node.base == "e" and not node.sub and not node.dots and self.facts.alone[node.identity] == 0:
+            return sympy.E
+        if "hat" in node.marks or "bb" in node.marks:
+            return self.unit_vector(node)
+        if "vec" in node.marks and node.base in "ijk" and not node.sub and self.facts.has_axes:
+            return self.unit_vector(node)
+        if self.facts.is_tensor(node) and self.plain != "tensors":
+            return self.components(node, 3, 3)
+        if self.facts.is_vector(node) and not (self.plain == "unmarked" and "vec" not in node.marks) and self.plain not in (
+            "all", "tensors"
+        ):  # fmt: skip
+            return self.components(node, 3, 1)
+        return self.symbol(node)
+
+    def unit_vector(self, node: Letter) -> Any:
+        axis = {"x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}.get(node.base)
+        if axis is not None and not node.dots:
+            return Matrix([Integer(i == axis) for i in range(3)])
+        return self.components(node, 3, 1)
+
+    def components(self, node: Letter, rows: int, columns: int) -> ImmutableDenseMatrix:
+        plain = _replaced(node, marks=frozenset())
+        if columns == 1:
+            return ImmutableDenseMatrix(
+                [self.symbol(_replaced(plain, sub=_indexed(node.sub, str(i + 1)))) for i in range(rows)]
+            )
+        return ImmutableDenseMatrix(rows, columns, lambda i, j: self.symbol(
+            _replaced(plain, sub=_indexed(node.sub, f"{i + 1}{j + 1}"))
+        ))  # fmt: skip
+
+    def symbol(self, node: Letter) -> Symbol:
+        name = node.named() + ("." * node.dots)
+        free = node.dots or self.facts.changes(node) or node.base in ANGLES or node.primes
+        free = free or node.base in ("x", "y", "z", "q", "p", "u", "w", "X", "Y", "Z", "eta", "xi", "A", "B", "C", "c")
+        symbol = Symbol(name, real=True) if free or self.facts.is_function(node) else Symbol(name, positive=True)
+        self.symbols.setdefault(symbol, node)
+        return symbol
+
+    def of_group(self, node: Group) -> Any:
+        return self._of(node.inner)
+
+    def of_open(self, node: Open) -> Any:
+        return self._of(node.alternatives[0])
+
+    def of_text(self, node: Text) -> Any:
+        if node.text.startswith("unit "):
+            return self.unit(node)
+        reason = "dots stand for terms that are left out" if node.text == "..." else f"`{node.text}` is a word"
+        raise Meaningless(reason, node.span)
+
+    def unit(self, node: Text) -> Expr:
+        from derive.course.units import _UNITS
+
+        name = node.text.removeprefix("unit ").strip()
+        known = _UNITS.get({"sec": "s", "rev": "rev"}.get(name, name))
+        if known is None:
+            raise Meaningless(f"`{name}` is not a unit that derive knows", node.span)
+        self.units = True
+        factor, power, _, _ = known
+        return Rational(factor.numerator, factor.denominator) * pi**power
+
+    def of_add(self, node: Add) -> Any:
+        terms = []
+        for sign, term in node.terms:
+            value = self._of(term)
+            if sign in "±∓":
+                self.two_signs = True
+                value = value * (Symbol("±", real=True) if sign == "±" else -Symbol("±", real=True))
+            terms.append(-value if sign == "-" else value)
+        if any(isinstance(each, MatrixBase) for each in terms):
+            if not all(isinstance(each, MatrixBase) for each in terms):
+                zero = [each for each in terms if not isinstance(each, MatrixBase)]
+                if any(each != 0 for each in zero):
+                    raise Meaningless("a vector and a number are added", node.span)
+                terms = [each for each in terms if isinstance(each, MatrixBase)]
+            if len({each.shape for each in terms}) > 1:
+                raise Meaningless("matrices of different shapes are added", node.span)
+            total = terms[0]
+            for each in terms[1:]:
+                total = total + each
+            return total
+        return Total(*terms)
+
+    def of_mul(self, node: Mul) -> Any:
+        unit = [i for i, (_, each) in enumerate(node.factors) if isinstance(each, Text) and each.text.startswith("unit")]
+        del unit
+        value: Any = None
+        for mark, factor in node.factors:
+            new = self._of(factor)
+            value = new if value is None else self.times(value, new, mark, factor.span)
+        return value
+
+    def times(self, left: Any, right: Any, mark: str, span: Span) -> Any:
+        both = isinstance(left, MatrixBase) and isinstance(right, MatrixBase)
+        if not both:
+            return left * right
+        if left.shape == right.shape and left.shape[1] == 1:
+            if mark == "times" and left.shape[0] == 3:
+                return left.cross(right)
+            if mark == "cdot":
+                return left.dot(right)
+            raise Meaningless("two vectors stand side by side without `\\cdot` or `\\times`", span)
+        if left.shape[1] == right.shape[0]:
+            return left * right
+        if mark == "cdot" and left.shape[0] == right.shape[0] and left.shape[1] == right.shape[1] == 1:
+            return left.dot(right)
+        if mark == "times" and right.shape[1] != 1 or left.shape[1] == 1:
+            raise Meaningless("the shapes of these matrices do not fit", span)
+        raise Meaningless("the shapes of these matrices do not fit", span)
+
+    def of_frac(self, node: Frac) -> Any:
+        top, bottom = self._of(node.top), self._of(node.bottom)
+        if isinstance(bottom, MatrixBase):
+            raise Meaningless("a vector stands in a denominator", node.bottom.span)
+        if bottom == 0:
+            raise Meaningless("a denominator is zero", node.bottom.span)
+        return top / bottom
+
+    def of_pow(self, node: Pow) -> Any:
+        base, exponent = self._of(node.base), self._of(node.exponent)
+        if isinstance(exponent, MatrixBase):
+            raise Meaningless("a vector stands in an exponent", node.exponent.span)
+        if isinstance(base, MatrixBase):
+            if exponent == 2 and base.shape[1] == 1:
+                return base.dot(base)
+            if exponent == -1 or (exponent.is_Integer and base.shape[0] == base.shape[1] and abs(exponent) < 6):
+                return base**exponent
+            raise Meaningless("only the square of a vector has a value", node.span)
+        if exponent.is_Number and abs(exponent) > LARGEST_POWER:
+            raise Meaningless("this power is too high", node.exponent.span)
+        if base == 0 and exponent.is_negative:
+            raise Meaningless("a denominator is zero", node.span)
+        return base**exponent
+
+    def of_root(self, node: Root) -> Any:
+        inner = self.scalar(node.inner)
+        if node.index is None:
+            return sqrt(inner)
+        return inner ** (1 / self.scalar(node.index))
+
+    def of_fun(self, node: Fun) -> Any:
+        if node.name == "degrees":
+            return self._of(node.argument) * pi / 180
+        if node.name in ("det", "tr"):
+            matrix = self._of(node.argument)
+            if not isinstance(matrix, MatrixBase):
+                raise Meaningless("the matrix is not written out", node.argument.span)
+            return matrix.det() if node.name == "det" else matrix.trace()
+        argument = self.scalar(node.argument)
+        if node.name in ("log", "ln"):
+            value = log(argument)
+            if node.base is not None:
+                value = value / log(self.scalar(node.base))
+        elif node.name in FUNCTIONS:
+            if node.name == "factorial" and not (argument.is_Integer and 0 <= argument < 50):
+                raise Meaningless("the factorial of this has no value here", node.span)
+            value = FUNCTIONS[node.name](argument)
+        else:
+            raise Meaningless(f"`{node.name}` is not a function that derive knows", node.span)
+        if node.power is None:
+            return value
+        power = self.scalar(node.power)
+        if power == -1 and node.name in INVERSE:
+            return INVERSE[node.name](argument)
+        return value**power
+
+    def of_abs(self, node: Abs) -> Any:
+        inner = self._of(node.inner)
+        if isinstance(inner, MatrixBase):
+            if inner.shape[1] == 1:
+                return sqrt(inner.dot(inner))
+            return inner.det()
+        return AbsoluteValue(inner)
+
+    def of_mat(self, node: Mat) -> Any:
+        if len({len(row) for row in node.rows}) > 1:
+            raise Meaningless("the rows of this matrix have different lengths", node.span)
+        entries = [[self.entry(each) for each in row] for row in node.rows]
+        if node.determinant:
+            return self.determinant(node)
+        matrix = Matrix(entries)
+        return matrix.T if matrix.shape[0] == 1 and matrix.shape[1] > 1 else matrix
+
+    def entry(self, node: Node) -> Expr:
+        if isinstance(node, Text) and not node.text:
+            return Integer(0)
+        return self.scalar(node)
+
+    def determinant(self, node: Mat) -> Any:
+        """Return a determinant; with unit vectors in its first row, it is a cross product."""
+        first = node.rows[0]
+        if len(node.rows) != len(first):
+            raise Meaningless("this determinant is not square", node.span)
+        axes = [_letter_in(each) for each in first]
+        if len(first) == 3 and all(axis is not None for axis in axes):
+            names = [axis.base for axis in axes if axis is not None]
+            if names in (["i", "j", "k"], ["x", "y", "z"]) or all(
+                "hat" in axis.marks or "vec" in axis.marks for axis in axes if axis is not None
+            ):
+                rows = [Matrix([self.entry(each) for each in row]) for row in node.rows[1:]]
+                return rows[0].cross(rows[1])
+        return Matrix([[self.entry(each) for each in row] for row in node.rows]).det()
+
+    def of_vec(self, node: Vec) -> Any:
+        if len(node.entries) not in (2, 3):
+            raise Meaningless("this list is not a vector", node.span)
+        if any(isinstance(each, Condition) for each in node.entries):
+            raise Meaningless("these are conditions", node.span)
+        return Matrix([self.entry(each) for each in node.entries])
+
+    # Functions with arguments
+
+    def of_apply(self, node: Apply) -> Any:
+        head, own = node.head, self.facts.variables_of(node.head)
+        bare = _replaced(head, primes=0)
+        values: list[tuple[Node | None, Node]] = []
+        for argument in node.arguments:
+            if isinstance(argument, Condition):
+                values.append((argument.left, argument.right))
+            else:
+                values.append((None, argument))
+        plain = [_letter_in(value) for _, value in values]
+        if all(letter is not None and (letter.identity in own or len(values) > 1) for letter in plain) and not any(
+            variable for variable, _ in values
+        ):
+            return self.function_letter(head)
+        if self.facts.is_vector(head):
+            raise Meaningless("a vector at one moment has no value here", node.span)
+        text = ",".join(str(self._of(value)) for _, value in values)
+        del bare
+        symbol = Symbol(f"{head.named()}{'.' * head.dots}({text})", real=True)
+        self.symbols.setdefault(symbol, head)
+        return symbol
+
+    def function_letter(self, head: Letter) -> Any:
+        if not head.primes:
+            return self.of_letter(head)
+        variables = self.facts.variables_of(_replaced(head, primes=0))
+        if not variables:
+            return self.symbol(head)
+        base, sub, marks, primes, label = variables.most_common(1)[0][0]
+        by = self.symbol(Letter(head.span, base, sub, marks, 0, primes, label))
+        return self.derivative_symbol(_replaced(head, primes=0), ((by, head.primes),), False)
+
+    def derivative_symbol(self, letter: Letter, by: tuple[tuple[Symbol, int], ...], partial: bool) -> Symbol:
+        name = f"d{letter.named()}{'.' * letter.dots}/" + "".join(f"d{x}^{n}" if n > 1 else f"d{x}" for x, n in by)
+        symbol = Symbol(name, real=True)
+        self.derivatives[symbol] = (letter, by, partial)
+        return symbol
+
+    # Derivatives
+
+    def of_der(self, node: Der) -> Any:
+        if node.of is None:
+            raise Meaningless("this derivative stands alone", node.span)
+        by: list[tuple[Symbol, int]] = []
+        for letter, order in node.by:
+            if not isinstance(letter, Letter):
+                raise Meaningless("this is not a variable of differentiation", letter.span)
+            if self.facts.is_vector(letter):
+                raise Meaningless("this is a derivative by a vector", letter.span)
+            by.append((self.symbol(letter), order))
+        of = _inner_letter(node.of)
+        if of is not None and not self.facts.is_vector(of) and not self.facts.is_tensor(of):
+            return self.of_lone_letter(of, tuple(by), node.partial)
+        value = self._of(node.of)
+        for symbol, order in by:
+            for _ in range(order):
+                value = self.differentiated(value, symbol, node.partial)
+        return value
+
+    def of_lone_letter(self, letter: Letter, by: tuple[tuple[Symbol, int], ...], partial: bool) -> Any:
+        first, order = by[0]
+        if len(by) == 1 and first.name == "t" and not partial and self.facts.changes(letter):
+            return self.symbol(_replaced(letter, dots=letter.dots + order))
+        if len(by) == 1 and self.symbol(letter) == first:
+            return Integer(order == 1)
+        bare = _replaced(letter, primes=0)
+        if letter.primes and len(by) == 1 and not partial:
+            variables = self.facts.variables_of(bare)
+            if variables and self.is_variable(variables.most_common(1)[0][0], first):
+                return self.derivative_symbol(bare, ((first, order + letter.primes),), False)
+        return self.derivative_symbol(letter, by, partial)
+
+    def is_variable(self, identity: Any, symbol: Symbol) -> bool:
+        letter = self.symbols.get(symbol)
+        return letter is not None and letter.identity == identity
+
+    def differentiated(self, value: Any, by: Symbol, partial: bool) -> Any:
+        if isinstance(value, MatrixBase):
+            return value.applyfunc(lambda each: self.differentiated(each, by, partial))
+        total = sympy.diff(value, by)
+        for symbol in sorted(value.free_symbols - {by}, key=str):
+            rate = self.rate_of(symbol, by, partial)
+            if rate != 0:
+                total += sympy.diff(value, symbol) * rate
+        return total
+
+    def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
+        """Return the derivative of a letter by another: its rate, zero, or a symbol if the document says nothing."""
+        if symbol in self.derivatives:
+            letter, already, was_partial = self.derivatives[symbol]
+            if by.name == "t" or any(self.is_variable(each, by) for each in self.facts.variables_of(letter)):
+                if len(already) == 1 and already[0][0] == by:
+                    return self.derivative_symbol(letter, ((by, already[0][1] + 1),), was_partial)
+                made = Symbol(f"d({symbol})/d{by}", real=True)
+                self.derivatives[made] = (letter, (*already, (by, 1)), was_partial)
+                return made
+            return Integer(0)
+        found = self.symbols.get(symbol)
+        if found is None:
+            return Integer(0)
+        if by.name == "t" and not partial:
+            if self.facts.changes(found):
+                return self.symbol(_replaced(found, dots=found.dots + 1))
+            return Integer(0)
+        if any(self.is_variable(each, by) for each in self.facts.variables_of(_replaced(found, primes=0, dots=0))):
+            return self.derivative_symbol(found, ((by, 1),), partial)
+        return Integer(0)
+
+    # Integrals
+
+    def of_int(self, node: Int) -> Any:
+        signs: list[tuple[int, Sign]] = []
+        pairs: dict[int, Symbol] = {}
+        factors: list[Any] = []
+        open_signs: list[int] = []
+        before: Node | None = None
+        nodes: list[Node] = []
+        for item in node.items:
+            if isinstance(item, Sign):
+                signs.append((len(signs), item))
+                open_signs.append(len(signs) - 1)
+            elif isinstance(item, Diff):
+                if not open_signs:
+                    raise Meaningless("there are more differentials than integral signs", item.span)
+                letter = _inner_letter(item.of)
+                if letter is None or item.order != 1:
+                    raise Meaningless("this differential has no single variable", item.span)
+                if before is not None and not isinstance(before, Sign) and len(open_signs) > 1 and _all_signs_first(node):
+                    pairs[open_signs.pop()] = self.symbol(letter)
+                else:
+                    pairs[open_signs.pop()] = self.symbol(letter)
+            else:
+                nodes.append(item)
+            before = item
+        if open_signs:
+            raise Meaningless("an integral sign has no differential", signs[open_signs[-1]][1].span)
+        inner = Meaning(
+            self.facts, (*self.variables, *pairs.values()), plain=self.plain, derivatives=self.derivatives, symbols=self.symbols,
+        )
+        factors = [inner._of(each) for each in nodes]
+        self.decimals += inner.decimals
+        value: Any = Integer(1)
+        for each in factors:
+            value = self.times(value, each, "", node.span) if isinstance(value, MatrixBase) else value * each
+        for index, sign in reversed(signs):
+            value = self.integrated(value, pairs[index], sign)
+        return value
+
+    def integrated(self, value: Any, x: Symbol, sign: Sign) -> Any:
+        if isinstance(value, MatrixBase):
+            return value.applyfunc(lambda each: self.integrated(each, x, sign))
+        if sign.lower is None and sign.upper is None:
+            return Integral(value, x)
+        if sign.lower is None or sign.upper is None or sign.closed:
+            raise Meaningless("this integral has no limits that can be put in", sign.span)
+        lower, upper = (self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper))
+        found = definite(value, [(x, lower, upper)]) if not value.has(sympy.oo) and not lower.has(sympy.oo) and not upper.has(
+            sympy.oo) else None  # fmt: skip
+        return found if found is not None else Integral(value, (x, lower, upper))
+
+    def of_diff(self, node: Diff) -> Any:
+        letter = _inner_letter(node.of)
+        if letter is None:
+            raise Meaningless("this differential has no single variable", node.span)
+        symbol = Symbol(f"d{letter.named()}", real=True)
+        return symbol
+
+    def of_evalbar(self, node: EvalBar) -> Any:
+        if isinstance(node.lower, Text):
+            raise Meaningless(f"`{node.lower.text}` is a label", node.span)
+        inner = self._of(node.inner)
+        if isinstance(inner, MatrixBase):
+            raise Meaningless("limits stand at a matrix", node.span)
+        if node.upper is None and isinstance(node.lower, Condition):
+            left = _inner_letter(node.lower.left)
+            if left is None:
+                raise Meaningless("this condition has no single letter", node.lower.span)
+            return inner.subs(self.symbol(left), self.scalar(node.lower.right))
+        if node.lower is None or node.upper is None:
+            raise Meaningless("a limit is missing", node.span)
+        variable = self.variable_of(inner, node)
+        ends = [self.scalar(each.right if isinstance(each, Condition) else each) for each in (node.upper, node.lower)]
+        return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
+
+    def variable_of(self, inner: Expr, node: EvalBar) -> Symbol:
+        if isinstance(node.lower, Condition) and (letter := _inner_letter(node.lower.left)) is not None:
+            return self.symbol(letter)
+        free = sorted(inner.free_symbols, key=str)
+        if len(free) == 1:
+            return free[0]
+        integrated = [
+            each
+            for each in free
+            if each in self.symbols and self.facts.integrated[self.symbols[each].identity] and each not in self.variables[:-1]
+        ]
+        if len(integrated) == 1:
+            return integrated[0]
+        raise Meaningless("the variable of these limits is not clear", node.span)
+
+    def of_sum(self, node: Sum) -> Any:
+        index = _inner_letter(node.index) if node.index is not None else None
+        if index is None or node.lower is None or node.upper is None:
+            raise Meaningless("the limits of this sum are not numbers", node.span)
+        lower, upper = self.scalar(node.lower), self.scalar(node.upper)
+        if not (lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= 20):
+            raise Meaningless("the limits of this sum are not numbers", node.span)
+        values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(int(lower), int(upper) + 1)]
+        value = values[0]
+        for each in values[1:]:
+            value = value + each if node.name == "sum" else value * each
+        return value
+
+    def of_condition(self, node: Condition) -> Any:
+        raise Meaningless("this is a condition", node.span)
+
+
+def _replaced(letter: Letter, **changes: Any) -> Letter:
+    from dataclasses import replace
+
+    return replace(letter, **changes)
+
+
+def _indexed(sub: str, index: str) -> str:
+    return f"{sub},{index}" if sub else index
+
+
+def _letter_in(node: Node) -> Letter | None:
+    while isinstance(node, Group):
+        node = node.inner
+    return node if isinstance(node, Letter) else None
+
+
+_inner_letter = _letter_in
+
+
+def _all_signs_first(node: Int) -> bool:
+    kinds = [isinstance(each, Sign) for each in node.items]
+    return kinds == sorted(kinds, reverse=True)
+
+
+def _with_index(node: Node, index: Letter, value: Integer) -> Node:
+    """Return a term of a sum, with a number in place of its index in letters and in subscripts."""
+    from dataclasses import fields, replace
+
+    if isinstance(node, Letter):
+        if node.identity == index.identity:
+            return Num(node.span, str(value))
+        if index.base in node.sub:
+            return replace(node, sub=node.sub.replace(index.base, str(value)))
+        return node
+
+    def changed(item: Any) -> Any:
+        if isinstance(item, Node):
+            return _with_index(item, index, value)
+        return tuple(map(changed, item)) if isinstance(item, tuple) else item
+
+    return replace(node, **{each.name: changed(getattr(node, each.name)) for each in fields(node) if each.name != "span"})

@@ -1,0 +1,1269 @@
+r"""The tokens of one side of a statement as nodes: a recursive descent through sums, products, factors and scripts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from derive.documents.macros import argument_at
+from derive.documents.source import Span
+from derive.documents.syntax import (
+    Abs,
+    Add,
+    Apply,
+    Condition,
+    Der,
+    Diff,
+    EvalBar,
+    Frac,
+    Fun,
+    Group,
+    Int,
+    Letter,
+    Mat,
+    Mul,
+    Node,
+    Num,
+    Open,
+    Pow,
+    Root,
+    Sign,
+    Sum,
+    Text,
+    Vec,
+)
+from derive.documents.tokens import GREEK_LETTERS, Kind, Token, tokens_of, without_spaces
+
+DEEPEST = 60
+
+GREEK = frozenset(GREEK_LETTERS.values()) - {"partial", "nabla", "infty", "sqrt"} | {
+    "varphi", "varepsilon", "varrho", "varsigma", "varpi", "imath", "jmath", "Re", "Im", "wp", "digamma", "hslash",
+}  # fmt: skip
+SAME_LETTER = {"varphi": "phi", "varepsilon": "epsilon", "vartheta": "theta", "imath": "i", "jmath": "j", "hslash": "hbar"}
+FUNCTIONS = frozenset(
+    "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin acos"
+    " atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh".split()
+)
+DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
+MARKS = {
+    "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
+    "bar": "bar", "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "boldsymbol": "vec", "mathbf": "vec",
+    "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
+    "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
+}  # fmt: skip
+TEXTS = frozenset("text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf"
+                  " hbox symrm symup mathup".split())  # fmt: skip
+IGNORED = frozenset(
+    r", ; : ! > thinspace medspace thickspace negthinspace quad qquad hfill displaystyle textstyle scriptstyle"
+    " scriptscriptstyle limits nolimits nonumber notag big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr"
+    " bigm Bigm middle mathstrut strut allowbreak nobreak break relax vphantom kern unboldmath protect noindent boldmath"
+    " mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large rm it bf up".split()
+) - {"rm", "bf"}  # fmt: skip
+IGNORED_WITH_ARGUMENT = frozenset("hspace vspace phantom hphantom label tag color textcolor vphantom hskip ref eqref cite"
+                                  " footnote".split())  # fmt: skip
+DECORATED = frozenset(
+    "underbrace overbrace boxed fbox cancel bcancel xcancel ensuremath mathchoice colorbox underbracket smash emph"
+    " hl tightboxed Aboxed framebox raisebox".split()
+)  # fmt: skip
+OPENERS = {"(": ")", "[": "]", "{": "}", "lbrace": "}", "langle": ">", "lvert": "|", "lVert": "|", "|": "|", "<": ">",
+           "lbrack": "]", "lfloor": "]", "lceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
+CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": "|", "rVert": "|", "|": "|", ">": ">",
+           "rbrack": "]", "rfloor": "]", "rceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
+INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
+MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix".split())
+ELLIPSES = frozenset("ldots cdots dots dotsb vdots ddots dotsm dotsc".split())
+UNIT_WORDS = frozenset("sec rad rpm rev deg kg cm mm km ms Hz kHz min hr yr mol Pa".split())
+
+
+class Unreadable(Exception):
+    """A side cannot be read; `span` is the place in the tidied text."""
+
+    def __init__(self, message: str, span: Span):
+        super().__init__(message)
+        self.message, self.span = message, span
+
+
+def parsed(tokens: Sequence[Token]) -> Node:
+    """Return the node of one side of a statement."""
+    reader = _Reader(without_spaces(list(tokens)))
+    if not reader.tokens:
+        raise Unreadable("this side is empty", Span(0, 0))
+    node = reader.sum()
+    if reader.at < len(reader.tokens):
+        token = reader.tokens[reader.at]
+        shown = ("\\" if token.kind is Kind.COMMAND else "") + token.text
+        raise Unreadable(f"`{shown}` was not expected here", token.span)
+    return node
+
+
+class _Reader:
+    def __init__(self, tokens: list[Token], depth: int = 0):
+        self.tokens, self.at, self.depth = _without_empty_braces(tokens), 0, depth
+        self.in_integral = False
+        if depth > DEEPEST:
+            raise Unreadable(f"this formula is nested more than {DEEPEST} levels deep", tokens[0].span)
+
+    # The next token
+
+    def peek(self, ahead: int = 0) -> Token | None:
+        at = self.at + ahead
+        return self.tokens[at] if at < len(self.tokens) else None
+
+    def skip_spacing(self) -> None:
+        while (token := self.peek()) is not None and token.kind is Kind.COMMAND:
+            if token.text in IGNORED or token.text == " ":
+                self.at += 1
+            elif token.text in IGNORED_WITH_ARGUMENT:
+                self.at = argument_at(self.tokens, self.at + 1)[1]
+            else:
+                break
+
+    def next_is_mark(self, *marks: str) -> bool:
+        token = self.peek()
+        return token is not None and token.is_mark(*marks)
+
+    def next_is(self, *names: str) -> bool:
+        token = self.peek()
+        return token is not None and token.is_command(*names)
+
+    def argument(self) -> list[Token]:
+        """Return the tokens of the next argument; of a number without braces, only its first digit."""
+        self.skip_spacing()
+        token = self.peek()
+        if token is None:
+            raise Unreadable("an argument is missing", self.tokens[-1].span if self.tokens else Span(0, 0))
+        if token.kind is Kind.NUMBER and len(token.text) > 1:
+            at = token.span.start
+            self.tokens[self.at : self.at + 1] = [
+                replace(token, text=digit, span=Span(at + i, at + i + 1) if not token.origin else token.span)
+                for i, digit in enumerate(token.text)
+            ]
+            token = self.tokens[self.at]
+        if token.kind is Kind.COMMAND and token.text in {*DOTS, *MARKS, *TEXTS, "frac", "sqrt"}:
+            begins = self.at
+            self.at += 1
+            for _ in range(2 if token.text == "frac" else 1):
+                _, self.at = argument_at(self.tokens, self.at)
+            return self.tokens[begins : self.at]
+        value, self.at = argument_at(self.tokens, self.at)
+        return value
+
+    def inside(self, tokens: list[Token], span: Span) -> Node:
+        """Return the node of tokens that stand in an argument or in brackets."""
+        if not tokens:
+            raise Unreadable("something is missing here", span)
+        reader = _Reader(tokens, self.depth + 1)
+        reader.in_integral = self.in_integral
+        node = reader.whole()
+        return node
+
+    def whole(self) -> Node:
+        if over := next((i for i, each in self.outside() if each.is_command("over", "atop")), None):
+            top, bottom = self.tokens[:over], self.tokens[over + 1 :]
+            span = self.tokens[0].span.to(self.tokens[-1].span)
+            return self.fraction(top, bottom, span)
+        node = self.sum()
+        if self.at < len(self.tokens):
+            token = self.tokens[self.at]
+            shown = ("\\" if token.kind is Kind.COMMAND else "") + token.text
+            raise Unreadable(f"`{shown}` was not expected here", token.span)
+        return node
+
+    def outside(self) -> list[tuple[int, Token]]:
+        found, depth = [], 0
+        for i, token in enumerate(self.tokens):
+            depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
+            if depth == 0:
+                found.append((i, token))
+        return found
+
+    # Sums and products
+
+    def sum(self) -> Node:
+        self.skip_spacing()
+        terms: list[tuple[str, Node]] = []
+        sign = self.sign() or "+"
+        first_sign = sign
+        while True:
+            self.skip_spacing()
+            term = self.product()
+            terms.append((sign, term))
+            self.skip_spacing()
+            new_sign = self.sign()
+            if new_sign is None:
+                break
+            sign = new_sign
+        if len(terms) == 1 and first_sign == "+":
+            return terms[0][1]
+        return Add(terms[0][1].span.to(terms[-1][1].span), tuple(terms))
+
+    def sign(self) -> str | None:
+        """Return the next sign, with several signs in a row made one."""
+        sign = None
+        while (token := self.peek()) is not None:
+            if token.is_mark("+", "-"):
+                new = token.text
+            elif token.is_command("pm", "mp"):
+                new = "±" if token.text == "pm" else "∓"
+            else:
+                break
+            sign = new if sign in (None, "+") else {"-": {"-": "+", "+": "-"}.get(new, new)}.get(str(sign), sign)
+            self.at += 1
+            self.skip_spacing()
+        return sign
+
+    def product(self) -> Node:
+        factors: list[tuple[str, Node]] = []
+        mark = ""
+        while True:
+            self.skip_spacing()
+            token = self.peek()
+            if token is None:
+                break
+            if token.is_command("cdot", "times", "ast", "wedge", "vdot", "cross", "bullet", "star") or token.is_mark("*"):
+                if not factors:
+                    raise Unreadable("a factor is missing before this sign", token.span)
+                mark = {"times": "times", "cross": "times", "wedge": "times"}.get(token.text, "cdot")
+                self.at += 1
+                self.skip_spacing()
+                if (sign := self.sign()) is not None:  # `a \cdot -b`
+                    factor = self.factor()
+                    factors.append((mark, Add(factor.span, ((sign, factor),))))
+                    mark = ""
+                    continue
+                if self.ends():
+                    raise Unreadable("a factor is missing after this sign", token.span)
+                continue
+            if (token.is_mark("/") or token.is_command("div", "slash")) and factors:
+                self.at += 1
+                self.divide(factors)
+                continue
+            if self.ends():
+                if self.is_bar_with_limits() and factors:
+                    factors = [("", self.evaluated(_product(factors)))]
+                    continue
+                break
+            factor = self.factor()
+            if isinstance(factor, Der) and factor.of is None:
+                factor = self.with_operand(factor)
+            factors.append((mark, factor))
+            mark = ""
+        if not factors:
+            token = self.peek()
+            span = token.span if token else (self.tokens[-1].span if self.tokens else Span(0, 0))
+            raise Unreadable("a term is missing here", span)
+        return _product(factors)
+
+    def ends(self) -> bool:
+        """Whether no further factor can begin at the next token."""
+        token = self.peek()
+        if token is None:
+            return True
+        if token.kind in (Kind.CLOSE, Kind.CELL):
+            return True
+        if token.kind is Kind.MARK:
+            return not (token.text in "([|" and not (token.text == "|" and self.bar_closes()))
+        return token.is_command("right", "}", "rbrace", "rangle", "rvert", "rVert", "end", "pm", "mp", "\\")
+
+    bars = 0
+
+    def bar_closes(self) -> bool:
+        return self.bars > 0 or self.is_bar_with_limits()
+
+    def is_bar_with_limits(self) -> bool:
+        token, after = self.peek(), self.peek(1)
+        bar = token is not None and (token.is_mark("|") or token.is_command("vert", "|"))
+        return bar and after is not None and after.kind is Kind.SCRIPT and self.bars == 0
+
+    def evaluated(self, inner: Node) -> Node:
+        self.at += 1
+        lower, upper = self.scripts()
+        return EvalBar(inner.span, inner, lower, upper)
+
+    def scripts(self) -> tuple[Node | None, Node | None]:
+        """Return the subscript and the superscript that follow, as nodes."""
+        lower = upper = None
+        while (token := self.peek()) is not None and token.kind is Kind.SCRIPT:
+            self.at += 1
+            node = self.limit(self.argument(), token.span)
+            lower, upper = (node, upper) if token.text == "_" else (lower, node)
+        return lower, upper
+
+    def limit(self, tokens: list[Token], span: Span) -> Node:
+        """Return a limit or condition: a value, or `x = value`."""
+        tokens = without_spaces(tokens)
+        equals = next((i for i, each in enumerate(tokens) if each.is_mark("=")), None)
+        if equals:
+            left = self.inside(tokens[:equals], span)
+            right = self.inside(tokens[equals + 1 :], span)
+            return Condition(left.span.to(right.span), left, right)
+        try:
+            return self.inside(tokens, span)
+        except Unreadable:
+            return Text(span, "".join(each.text for each in tokens))
+
+    def divide(self, factors: list[tuple[str, Node]]) -> None:
+        """Read the denominator after a slash; a run of factors is open between `(a/b)c` and `a/(bc)`."""
+        top = _product(factors)
+        self.skip_spacing()
+        if self.ends():
+            raise Unreadable("a denominator is missing here", self.tokens[min(self.at, len(self.tokens) - 1)].span)
+        first = self.factor()
+        run = [first]
+        while not self.ends():
+            self.skip_spacing()
+            token = self.peek()
+            if token is None or token.is_command("cdot", "times", "div") or token.is_mark("/", "*"):
+                break
+            if isinstance(first, Group):
+                break
+            run.append(self.factor())
+        near = Frac(top.span.to(first.span), top, first)
+        if len(run) == 1:
+            factors[:] = [("", near)]
+            return
+        rest: list[tuple[str, Node]] = [("", each) for each in run]
+        span = top.span.to(run[-1].span)
+        far = Frac(span, top, _product(rest))
+        factors[:] = [("", Open(span, "slash", (Mul(span, (("", near), *rest[1:])), far)))]
+
+    def with_operand(self, operator: Der) -> Node:
+        """Return a derivative with the factor in brackets after it, or the rest of the product."""
+        self.skip_spacing()
+        if self.ends():
+            return operator
+        token = self.peek()
+        if token is not None and (token.is_mark("(", "[") or token.is_command("left", "{")):
+            operand = self.factor()
+        else:
+            factors: list[tuple[str, Node]] = []
+            while not self.ends():
+                self.skip_spacing()
+                token = self.peek()
+                if token is None or token.is_mark("/"):
+                    break
+                mark = ""
+                if token.is_command("cdot", "times"):
+                    mark = token.text
+                    self.at += 1
+                    self.skip_spacing()
+                    if self.ends():
+                        break
+                factor = self.factor()
+                if isinstance(factor, Der) and factor.of is None:
+                    factor = self.with_operand(factor)
+                factors.append((mark, factor))
+            operand = _product(factors)
+        return replace(operator, of=operand, span=operator.span.to(operand.span))
+
+    # Factors
+
+    def factor(self) -> Node:
+        """Return an atom with its scripts and primes, or the function of a bracket after a letter."""
+        self.skip_spacing()
+        token = self.peek()
+        if token is None:
+            raise Unreadable("a factor is missing here", self.tokens[-1].span)
+        if self.is_differential():
+            return self.differential()
+        atom = self.atom()
+        node = self.scripted(atom)
+        if isinstance(node, Letter) and self.opens_bracket():
+            return self.maybe_applied(node)
+        if isinstance(node, Pow) and isinstance(node.base, Letter) and self.opens_bracket() and self.is_call():
+            applied = self.maybe_applied(node.base)
+            if isinstance(applied, Apply):
+                return Pow(node.span.to(applied.span), applied, node.exponent)
+            return Mul(node.span.to(applied.span), (("", node), ("", self.second(applied))))
+        return node
+
+    @staticmethod
+    def second(applied: Node) -> Node:
+        """Return the bracket of a product of a letter with a bracket."""
+        product = applied.alternatives[1] if isinstance(applied, Open) else applied
+        return product.factors[1][1] if isinstance(product, Mul) else product
+
+    def is_call(self) -> bool:
+        """Whether the bracket that follows contains a comma: `f^2(x, y)`."""
+        depth = 0
+        for token in self.tokens[self.at :]:
+            depth += token.is_mark("(") - token.is_mark(")")
+            if depth == 0:
+                return False
+            if depth == 1 and token.is_mark(","):
+                return True
+        return False
+
+    def opens_bracket(self) -> bool:
+        token, after = self.peek(), self.peek(1)
+        if token is None:
+            return False
+        return token.is_mark("(") or (token.is_command("left") and after is not None and after.is_mark("("))
+
+    def maybe_applied(self, head: Letter) -> Node:
+        group = self.bracketed()
+        inner = group.entries if isinstance(group, Vec) else (group.inner,) if isinstance(group, Group) else None
+        if inner is None:
+            return Mul(head.span.to(group.span), (("", head), ("", self.scripted(group))))
+        applied = Apply(head.span.to(group.span), head, inner)
+        if isinstance(group, Vec) or isinstance(inner[0], Condition):
+            return self.scripted(applied)
+        begins = self.at
+        as_function = self.scripted(applied)
+        self.at = begins
+        as_product = self.scripted(group)
+        span = head.span.to(as_product.span)
+        return Open(span, "apply", (as_function, Mul(span, (("", head), ("", as_product)))))
+
+    def is_differential(self) -> bool:
+        """Whether `d` begins a differential: inside of an integral always, elsewhere one of two readings."""
+        token = self.peek()
+        if token is None:
+            return False
+        if token.is_command("dd", "diff", "differential"):
+            return True
+        upright = token.is_command("mathrm", "rm", "text", "operatorname") and self.word_at(1) == "d"
+        plain = token.kind is Kind.LETTER and token.text == "d"
+        if not (upright or plain):
+            return False
+        after_at = argument_at(self.tokens, self.at + 1)[1] if upright and token.text != "rm" else self.at + 1
+        if upright and token.text == "rm":
+            after_at += 1
+        after = self.tokens[after_at] if after_at < len(self.tokens) else None
+        while after is not None and after.is_command(",", "!", ";"):
+            after_at += 1
+            after = self.tokens[after_at] if after_at < len(self.tokens) else None
+        if after is None:
+            return False
+        if after.kind is Kind.SCRIPT and after.text == "^" and (self.in_integral or upright):
+            return True  # d^3 r
+        letter = after.kind is Kind.LETTER or (
+            after.kind is Kind.COMMAND and (after.text in GREEK or after.text in MARKS or after.text in DOTS)
+        )
+        return letter and (upright or self.in_integral or after.kind is Kind.COMMAND or after.text != "d")
+
+    def word_at(self, ahead: int) -> str:
+        value, _ = argument_at(self.tokens, self.at + ahead)
+        return "".join(each.text for each in value if each.kind is not Kind.SPACE)
+
+    def differential(self) -> Node:
+        token = self.tokens[self.at]
+        self.at += 1
+        plain = token.kind is Kind.LETTER
+        if not plain and token.text not in ("dd", "diff", "differential"):
+            _, self.at = argument_at(self.tokens, self.at)
+        order = 1
+        if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and script.text == "^":
+            self.at += 1
+            raised = self.argument()
+            order = int(raised[0].text) if len(raised) == 1 and raised[0].text.isdigit() else 1
+        if token.text == "dd" and (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
+            of = self.inside(self.argument(), token.span)
+        else:
+            self.skip_spacing()
+            of = self.subscripted(self.atom())
+        made = Diff(token.span.to(of.span), of, order)
+        if plain and not self.in_integral:
+            d = Letter(token.span, "d")
+            with_power = self.scripted(of)
+            return Open(made.span.to(with_power.span), "letter d", (
+                replace(made, of=of) if with_power is of else Pow(made.span.to(with_power.span), made, _exponent(with_power)),
+                Mul(made.span.to(with_power.span), (("", d), ("", with_power))),
+            ))  # fmt: skip
+        return self.scripted(made)
+
+    def subscripted(self, atom: Node) -> Node:
+        """Return a letter with its subscript only: the letter after `d`."""
+        while isinstance(atom, Letter) and (token := self.peek()) is not None and token.kind is Kind.SCRIPT:
+            if token.text != "_":
+                break
+            self.at += 1
+            atom = replace(atom, sub=_joined(atom.sub, self.label(self.argument())))
+        while isinstance(atom, Letter) and self.next_is_mark("'"):
+            self.at += 1
+            atom = replace(atom, primes=atom.primes + 1)
+        return atom
+
+    def scripted(self, node: Node) -> Node:
+        """Return a node with the subscript, superscript and primes that follow it."""
+        while (token := self.peek()) is not None:
+            if token.kind is Kind.OPEN and self.peek(1) is not None and self.tokens[self.at + 1].kind is Kind.CLOSE:
+                self.at += 2  # `x_1{}^2`
+                continue
+            if token.is_mark("'"):
+                self.at += 1
+                node = self.primed(node, 1, token.span)
+                continue
+            if token.is_mark("!") and not isinstance(node, Text):
+                self.at += 1
+                node = Fun(node.span.to(token.span), "factorial", node)
+                continue
+            if token.kind is not Kind.SCRIPT:
+                break
+            if isinstance(node, Group | Mat | Abs) and self.has_both_scripts():
+                lower, upper = self.scripts()
+                if isinstance(lower, Text):
+                    node = self.with_power(self.labelled(node, lower.text), upper, token.span)
+                else:
+                    node = EvalBar(node.span, node, lower, upper)
+                continue
+            self.at += 1
+            value = self.argument()
+            node = self.with_subscript(node, value, token) if token.text == "_" else self.raised(node, value, token)
+        return node
+
+    def has_both_scripts(self) -> bool:
+        first = self.at
+        self.at += 1
+        try:
+            self.argument()
+            token = self.peek()
+            return token is not None and token.kind is Kind.SCRIPT and token.text != self.tokens[first].text
+        except Unreadable:
+            return False
+        finally:
+            self.at = first
+
+    def primed(self, node: Node, count: int, span: Span) -> Node:
+        if isinstance(node, Letter):
+            return replace(node, primes=node.primes + count, span=node.span.to(span))
+        raise Unreadable("a prime can stand only at a letter", span)
+
+    def with_subscript(self, node: Node, value: list[Token], script: Token) -> Node:
+        label = self.label(value)
+        if isinstance(node, Letter):
+            return replace(node, sub=_joined(node.sub, label), span=node.span.to(script.span))
+        if isinstance(node, Pow) and isinstance(node.base, Letter):
+            return replace(node, base=replace(node.base, sub=_joined(node.base.sub, label)))
+        if isinstance(node, Group | Abs | Vec | Mat):
+            if any(each.is_mark("=") for each in value):
+                return EvalBar(node.span, node, self.limit(value, script.span), None)
+            return self.labelled(node, label)
+        if isinstance(node, Der | Frac | Fun | Root | Apply | Open):
+            return self.labelled(node, label)
+        raise Unreadable("a subscript can stand only at a letter or a bracket", script.span)
+
+    def labelled(self, node: Node, label: str) -> Node:
+        inner = node.inner if isinstance(node, Group) else node
+        if isinstance(inner, Letter):
+            return replace(inner, sub=_joined(inner.sub, label))
+        return EvalBar(node.span, node, Text(node.span, label), None)
+
+    def raised(self, node: Node, value: list[Token], script: Token) -> Node:
+        plain = without_spaces(value)
+        if plain and all(each.is_command("prime") or each.is_mark("'") for each in plain):
+            return self.primed(node, len(plain), script.span)
+        if plain and any(each.is_command("prime") for each in plain[:1]):
+            rest = [each for each in plain if not each.is_command("prime")]
+            node = self.primed(node, len(plain) - len(rest), script.span)
+            return self.with_power(node, self.inside(rest, script.span), script.span)
+        if plain and (plain[0].is_command("circ", "degree", "textdegree") or "".join(t.text for t in plain) == "o"):
+            return Fun(node.span.to(plain[0].span), "degrees", node)
+        if plain and (plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")):
+            label = self.label(plain)
+            if isinstance(node, Letter):
+                return replace(node, label=_joined(node.label, label))
+            raise Unreadable("a superscript in words can stand only at a letter", script.span)
+        if plain and plain[0].is_mark("(") and plain[-1].is_mark(")") and isinstance(node, Letter):
+            return replace(node, label=_joined(node.label, self.label(plain[1:-1])))
+        power = self.inside(plain, script.span)
+        return self.with_power(node, power, script.span)
+
+    def with_power(self, node: Node, power: Node | None, span: Span) -> Node:
+        if power is None:
+            return node
+        if isinstance(node, Pow):
+            raise Unreadable("two superscripts follow each other", span)
+        end = power.span if power.span.end > node.span.end else span
+        made = Pow(node.span.to(end), node, power)
+        if isinstance(node, Num) and isinstance(power, Num) and power.text == "0":
+            return Open(made.span, "superscript", (Fun(made.span, "degrees", node), made))
+        if isinstance(node, Letter) and isinstance(power, Mul) and _is_word(power):
+            word = "".join(each.base for _, each in power.factors if isinstance(each, Letter))
+            return Open(made.span, "superscript", (made, replace(node, label=_joined(node.label, word))))
+        return made
+
+    def label(self, tokens: list[Token]) -> str:
+        """Return a subscript as a word: `1`, `xx`, `cm`, `i+1`."""
+        words = []
+        at = 0
+        while at < len(tokens):
+            token = tokens[at]
+            at += 1
+            if token.kind is Kind.COMMAND and token.text in {*TEXTS, *MARKS, *DOTS}:
+                value, at = argument_at(tokens, at)
+                words.append(self.label(value))
+            elif token.kind is Kind.COMMAND and (token.text in IGNORED or token.text == " "):
+                continue
+            elif token.kind in (Kind.OPEN, Kind.CLOSE, Kind.SPACE):
+                continue
+            else:
+                words.append(SAME_LETTER.get(token.text, token.text))
+        return "".join(words)
+
+    # Atoms
+
+    def atom(self) -> Node:
+        token = self.tokens[self.at]
+        if token.kind is Kind.NUMBER:
+            self.at += 1
+            return Num(token.span, token.text)
+        if token.kind is Kind.LETTER:
+            self.at += 1
+            return Letter(token.span, token.text)
+        if token.kind is Kind.OPEN:
+            return self.braced(token)
+        if token.is_mark("(", "["):
+            return self.bracketed()
+        if token.is_mark("|"):
+            return self.between_bars()
+        if token.is_mark("<"):
+            return self.bracketed()
+        if token.kind is Kind.COMMAND:
+            return self.command(token)
+        raise Unreadable(f"`{token.text}` was not expected here", token.span)
+
+    def braced(self, token: Token) -> Node:
+        value = self.argument()
+        if not value:
+            raise Unreadable("these braces are empty", token.span)
+        if value[0].is_command("rm", "bf", "mathrm") and value[0].text != "mathrm":
+            return self.command_word(value[0], value[1:])
+        inner = self.inside(value, token.span)
+        return inner if isinstance(inner, Letter | Num | Frac | Fun | Root | Group) else Group(inner.span, inner, "{")
+
+    def command(self, token: Token) -> Node:
+        name = token.text
+        self.at += 1
+        if name in ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "flatfrac"):
+            top, bottom = self.argument(), self.argument()
+            return self.fraction(top, bottom, self.since(token))
+        if name == "sqrt" or name == "root":
+            return self.root(token)
+        if name in ("dv", "pdv", "derivative", "pderivative", "odv", "fdv", "deriv", "pd", "od"):
+            return self.short_derivative(token)
+        if name in FUNCTIONS:
+            return self.function(token, name)
+        if name in GREEK:
+            base = SAME_LETTER.get(name, name)
+            return Letter(token.span, base)
+        if name in DOTS:
+            return self.dotted(token, DOTS[name])
+        if name in MARKS:
+            return self.marked(token, MARKS[name])
+        if name in TEXTS:
+            return self.command_word(token, self.argument())
+        if name in INTEGRALS:
+            return self.integral(token)
+        if name in ("sum", "prod"):
+            return self.summed(token)
+        if name == "lim":
+            lower, _ = self.scripts()
+            return Text(token.span, "lim")
+        if name in ("left", "{", "lbrace", "langle", "lvert", "lVert", "|", "vert", "Vert"):
+            self.at -= 1
+            return self.between_bars() if name in ("|", "vert", "Vert") else self.bracketed()
+        if name in ("abs", "norm", "qty", "pqty", "bqty", "Bqty", "vqty", "paren", "order"):
+            return self.quantity(token)
+        if name in DECORATED:
+            if name == "raisebox":
+                self.argument()
+            node = self.inside(self.argument(), token.span)
+            if name in ("underbrace", "overbrace", "underbracket"):
+                while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+                    self.at += 1
+                    self.argument()
+            return node if isinstance(node, Letter | Num) else Group(node.span, node, "{")
+        if name in ("underset", "overset", "stackrel"):
+            self.argument()
+            return self.inside(self.argument(), token.span)
+        if name in ("cancelto",):
+            return self.inside(self.argument(), token.span)
+        if name == "begin":
+            return self.environment(token)
+        if name in ("infty",):
+            return Letter(token.span, "infty")
+        if name in ("nabla", "grad", "div", "curl", "laplacian"):
+            return Text(token.span, "nabla")
+        if name in ("partial",):
+            return self.curly_differential(token)
+        if name in ELLIPSES:
+            return Text(token.span, "...")
+        if name in ("circ", "degree"):
+            return Text(token.span, "degrees")
+        if name in ("ell", "hbar", "prime"):
+            return Letter(token.span, name)
+        if name in ("SI", "qty*", "si", "unit", "num", "ang"):
+            return self.with_unit(token)
+        if name in ("i", "j", "k"):
+            return Letter(token.span, name)
+        if name in ("&", "%", "#", "$", "_"):
+            raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
+        raise Unreadable(f"`\\{name}` is not known", token.span)
+
+    def since(self, token: Token) -> Span:
+        last = self.tokens[self.at - 1].span
+        return Span(token.span.start, max(last.end, token.span.end))
+
+    def with_unit(self, token: Token) -> Node:
+        if token.text in ("si", "unit"):
+            return Text(token.span, "unit " + self.label(self.argument()))
+        number = self.inside(self.argument(), token.span)
+        if token.text == "ang":
+            return Fun(number.span, "degrees", number)
+        if token.text == "num":
+            return number
+        unit = Text(token.span, "unit " + self.label(self.argument()))
+        return Mul(self.since(token), (("", number), ("", unit)))
+
+    def fraction(self, top: list[Token], bottom: list[Token], span: Span) -> Node:
+        top, bottom = without_spaces(top), without_spaces(bottom)
+        derivative = self.derivative(top, bottom, span)
+        if derivative is not None:
+            return derivative
+        return Frac(span, self.inside(top, span), self.inside(bottom, span))
+
+    def derivative(self, top: list[Token], bottom: list[Token], span: Span) -> Node | None:
+        r"""Return `\frac{d^n f}{dx^n}` as a derivative, or None if it is a fraction."""
+        head = _head_of(bottom)
+        if head is None or _head_of(top) != head:
+            return None
+        width = _width_of_head(bottom)
+        by: list[tuple[Node, int]] = []
+        reader = _Reader(bottom, self.depth + 1)
+        while reader.at < len(reader.tokens):
+            if _head_of(reader.tokens[reader.at :]) != head:
+                reader.skip_spacing()
+                if reader.at >= len(reader.tokens):
+                    break
+                if _head_of(reader.tokens[reader.at :]) != head:
+                    return None
+            reader.at += width
+            reader.skip_spacing()
+            if reader.at >= len(reader.tokens):
+                return None
+            try:
+                letter = reader.subscripted(reader.atom())
+                order = 1
+                token = reader.peek()
+                if token is not None and token.kind is Kind.SCRIPT and token.text == "^":
+                    reader.at += 1
+                    raised = reader.argument()
+                    if all(each.is_command("prime") for each in raised) and isinstance(letter, Letter):
+                        letter = replace(letter, primes=len(raised))
+                    elif len(raised) == 1 and raised[0].text.isdigit():
+                        order = int(raised[0].text)
+                    else:
+                        return None
+            except Unreadable:
+                return None
+            if isinstance(letter, Group):
+                letter = letter.inner
+            if not isinstance(letter, Letter):
+                return None
+            by.append((letter, order))
+        if not by:
+            return None
+        rest = top[_width_of_head(top) :]
+        if rest and rest[0].kind is Kind.SCRIPT and rest[0].text == "^":
+            _, after = argument_at(rest, 1)
+            rest = rest[after:]
+        of = self.inside(rest, span) if rest else None
+        return Der(span, head == "partial", tuple(by), of)
+
+    def short_derivative(self, token: Token) -> Node:
+        r"""Read `\dv[n]{f}{x}` of the package physics; `\dv{x}` is an operator."""
+        order = 1
+        if self.next_is_mark("*"):
+            self.at += 1
+        if self.next_is_mark("["):
+            self.at += 1
+            number = self.peek()
+            order = int(number.text) if number is not None and number.text.isdigit() else 1
+            while not self.next_is_mark("]") and self.peek() is not None:
+                self.at += 1
+            self.at += 1
+        first = self.inside(self.argument(), token.span)
+        groups = []
+        while (brace := self.peek()) is not None and brace.kind is Kind.OPEN and len(groups) < 3:
+            groups.append(self.inside(self.argument(), token.span))
+        of, letters = (first, groups) if groups else (None, [first])
+        partial = token.text.startswith("p")
+        return Der(self.since(token), partial, tuple((each, order) for each in letters), of)
+
+    def curly_differential(self, token: Token) -> Node:
+        node = self.subscripted(self.atom()) if not self.ends() else Text(token.span, "partial")
+        if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and isinstance(node, Text):
+            return Text(token.span, "partial")
+        return Text(token.span, "partial")
+
+    def root(self, token: Token) -> Node:
+        index = None
+        if self.next_is_mark("["):
+            close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), None)
+            if close is not None:
+                index = self.inside(self.tokens[self.at + 1 : close], token.span)
+                self.at = close + 1
+        inner = self.inside(self.argument(), token.span)
+        return Root(self.since(token), inner, index)
+
+    def dotted(self, token: Token, count: int) -> Node:
+        inner = self.inside(self.argument(), token.span)
+        while isinstance(inner, Group):
+            inner = inner.inner
+        if isinstance(inner, Letter):
+            return replace(inner, dots=inner.dots + count, span=self.since(token))
+        time = Letter(token.span, "t")
+        return Der(self.since(token), False, ((time, count),), inner)
+
+    def marked(self, token: Token, mark: str) -> Node:
+        if self.next_is_mark("*"):
+            self.at += 1
+        value = self.argument()
+        inner = self.inside(value, token.span)
+        while isinstance(inner, Group):
+            inner = inner.inner
+        if isinstance(inner, Letter):
+            return replace(inner, marks=inner.marks | {mark}, span=self.since(token))
+        if isinstance(inner, Mul) and _is_word(inner):
+            word = "".join(each.base for _, each in inner.factors if isinstance(each, Letter))
+            return Letter(self.since(token), word, marks=frozenset({mark}))
+        if isinstance(inner, Num):
+            return Letter(self.since(token), inner.text, marks=frozenset({mark}))
+        if isinstance(inner, Pow | Mul | Add | Open | Apply):
+            return Group(inner.span, inner, "{")
+        raise Unreadable(f"`\\{token.text}` can stand only at a letter", token.span)
+
+    def command_word(self, token: Token, value: list[Token]) -> Node:
+        r"""Read `\mathrm{...}` or `\operatorname{...}`: a function, a letter, a unit, or a word."""
+        plain = without_spaces(value)
+        word = "".join(each.text for each in plain)
+        span = self.since(token)
+        if word in UNIT_WORDS:
+            return Text(span, f"unit {word}")
+        if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
+            return self.function(token, word)
+        if len(plain) == 1 and plain[0].kind is Kind.LETTER:
+            return Letter(span, word)
+        if len(plain) == 1 and plain[0].kind is Kind.COMMAND and plain[0].text in GREEK:
+            return Letter(span, SAME_LETTER.get(word, word))
+        if len(plain) > 1 and all(each.kind is Kind.LETTER for each in plain):
+            letters = tuple(("", Letter(each.span, each.text)) for each in plain)
+            return Open(span, "word", (Letter(span, word), Mul(span, letters)))
+        if plain and plain[0].kind is Kind.NUMBER:
+            return self.inside(plain, span)
+        return Text(span, " ".join(each.text for each in value if each.kind is not Kind.SPACE))
+
+    def function(self, token: Token, name: str) -> Node:
+        name = {"cosec": "csc", "Tr": "tr", "asin": "arcsin", "acos": "arccos", "atan": "arctan", "arsinh": "arcsinh",
+                "arcosh": "arccosh", "artanh": "arctanh", "sgn": "sign"}.get(name, name)  # fmt: skip
+        power = base = None
+        while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+            self.at += 1
+            value = self.inside(self.argument(), script.span)
+            power, base = (value, base) if script.text == "^" else (power, value)
+        self.skip_spacing()
+        while self.next_is(*IGNORED):
+            self.skip_spacing()
+        following = self.peek()
+        if following is None or (self.ends() and not following.is_mark("-", "+")):
+            raise Unreadable(f"`{name}` has no argument", token.span)
+        bracket = following.is_mark("(", "[") or following.is_command("left", "{")
+        if bracket or following.kind is Kind.OPEN:
+            argument = self.bracketed() if bracket else self.braced(following)
+            if following.kind is Kind.OPEN and (after := self.peek()) is not None and after.kind is Kind.SCRIPT:
+                argument = self.scripted(argument)  # `\sin {\theta}_1`
+            elif (after := self.peek()) is not None and after.kind is Kind.SCRIPT and after.text == "^" and power is None:
+                # `\cos(x)^2` is the square of the cosine
+                self.at += 1
+                power = self.inside(self.argument(), after.span)
+            inner = argument.inner if isinstance(argument, Group) else argument
+            return Fun(token.span.to(argument.span), name, inner, power, base)
+        sign = self.sign()
+        run = self.run_of_argument()
+        if not run:
+            raise Unreadable(f"`{name}` has no argument", token.span)
+
+        def of(count: int) -> Fun:
+            argument: Node = _product([("", each) for each in run[:count]])
+            if sign is not None:
+                argument = Add(argument.span, ((sign, argument),))
+            return Fun(token.span.to(argument.span), name, argument, power, base)
+
+        shortest = next((i + 1 for i, each in enumerate(run) if not isinstance(each, Num)), len(run))
+        if shortest == len(run):
+            return of(len(run))
+        span = token.span.to(run[-1].span)
+        alternatives = []
+        for count in range(len(run), shortest - 1, -1):
+            rest: tuple[tuple[str, Node], ...] = tuple(("", each) for each in run[count:])
+            alternatives.append(Mul(span, (("", of(count)), *rest)) if rest else of(count))
+        return Open(span, "extent", tuple(alternatives))
+
+    def run_of_argument(self) -> list[Node]:
+        """Return the factors that can belong to the argument of a function without brackets."""
+        run: list[Node] = []
+        while not self.ends():
+            token = self.peek()
+            assert token is not None
+            if token.kind is Kind.COMMAND:
+                if token.text in (",", ";", ":", "quad", "!") and run:
+                    break
+                if token.text in FUNCTIONS or token.text in INTEGRALS or token.text in ("sum", "cdot", "times", "left"):
+                    break
+                if token.text in TEXTS and self.word_at(1) in (*FUNCTIONS, "d"):
+                    break
+                if token.text in ("frac", "dfrac", "tfrac", "sqrt") and run and not isinstance(run[-1], Num):
+                    break
+            if token.is_mark("(", "[", "|", "/"):
+                break
+            if run and self.in_integral and self.is_differential():
+                break
+            if len(run) >= 4:
+                break
+            begins = self.at
+            node = self.factor()
+            if isinstance(node, Pow) and run and isinstance(run[0], Letter):  # `\sin\theta r^2`: a power is a factor
+                self.at = begins
+                break
+            run.append(node)
+            if isinstance(node, Pow | Frac | Open | Apply | Group | Text | Der | Diff):
+                break
+        if (slash := self.peek()) is not None and slash.is_mark("/") and run:
+            self.at += 1
+            bottom = self.factor()
+            top = _product([("", each) for each in run])
+            run = [Frac(top.span.to(bottom.span), top, bottom)]
+        return run
+
+    def integral(self, token: Token) -> Node:
+        lower, upper = self.scripts() if self.has_scripts() else (None, None)
+        count = INTEGRALS[token.text]
+        signs: list[Node] = [Sign(token.span, lower, upper, token.text.startswith("o")) for _ in range(count)]
+        items: list[Node] = signs
+        before, self.in_integral = self.in_integral, True
+        needed = count
+        try:
+            while True:
+                self.skip_spacing()
+                needed += self.factors_of_integral(items)
+                missing = sum(isinstance(each, Sign) for each in items) - sum(_orders(each) for each in items)
+                following = self.peek()
+                if missing > 0 and following is not None and following.is_mark("+", "-") and self.differential_ahead():
+                    self.sum_in_integral(items)
+                    continue
+                break
+        finally:
+            self.in_integral = before
+        return Int(token.span.to(items[-1].span if items[-1].span.end > token.span.end else token.span), tuple(items))
+
+    def has_scripts(self) -> bool:
+        self.skip_spacing()
+        token = self.peek()
+        return token is not None and token.kind is Kind.SCRIPT
+
+    def factors_of_integral(self, items: list[Node]) -> int:
+        """Read the factors up to the end of the product, with inner integrals made one with this one."""
+        while not self.ends():
+            self.skip_spacing()
+            token = self.peek()
+            if token is None:
+                break
+            if token.is_command("cdot", "times", "vdot", "cross") or token.is_mark("*"):
+                mark = "times" if token.text in ("times", "cross") else "cdot"
+                self.at += 1
+                self.skip_spacing()
+                if self.ends():
+                    raise Unreadable("a factor is missing after this sign", token.span)
+                right = self.factor()
+                left = items.pop() if items and not isinstance(items[-1], Sign | Diff) else None
+                items.append(right if left is None else Mul(left.span.to(right.span), (("", left), (mark, right))))
+                continue
+            if token.is_mark("/"):
+                self.at += 1
+                bottom = self.factor()
+                top = items.pop() if items and not isinstance(items[-1], Sign | Diff) else Num(token.span, "1")
+                items.append(Frac(top.span.to(bottom.span), top, bottom))
+                continue
+            factor = self.factor()
+            if isinstance(factor, Der) and factor.of is None:
+                factor = self.with_operand(factor)
+            if isinstance(factor, Int):
+                items += factor.items
+            elif isinstance(factor, Frac) and (split := _with_differential_on_top(factor)) is not None:
+                items += split
+            else:
+                items.append(factor)
+        return 0
+
+    def differential_ahead(self) -> bool:
+        """Whether a differential follows outside of brackets."""
+        depth = 0
+        for at in range(self.at, len(self.tokens)):
+            token = self.tokens[at]
+            depth += token.kind is Kind.OPEN or token.is_mark("(", "[")
+            depth -= token.kind is Kind.CLOSE or token.is_mark(")", "]")
+            if depth < 0:
+                return False
+            if depth == 0 and token.is_command(*INTEGRALS):
+                return False
+            if depth == 0 and (token.is_command("dd") or (token.kind is Kind.LETTER and token.text == "d")):
+                return True
+            if depth == 0 and token.is_command("mathrm"):
+                value, _ = argument_at(self.tokens, at + 1)
+                if "".join(each.text for each in value) == "d":
+                    return True
+        return False
+
+    def sum_in_integral(self, items: list[Node]) -> None:
+        r"""Read the rest of an integrand that is a sum without brackets: `\int a + b \, dx`."""
+        last_sign = max(i for i, each in enumerate(items) if isinstance(each, Sign | Diff))
+        first = items[last_sign + 1 :]
+        del items[last_sign + 1 :]
+        terms: list[tuple[str, Node]] = [("+", _product([("", each) for each in first]))] if first else []
+        rest: list[Node] = []
+        while (sign := self.sign()) is not None:
+            rest = []
+            self.factors_of_integral(rest)
+            cut = next((i for i, each in enumerate(rest) if isinstance(each, Diff)), len(rest))
+            terms.append((sign, _product([("", each) for each in rest[:cut]] or [("", Num(self.tokens[self.at - 1].span, "1"))])))
+            if cut < len(rest):
+                rest = rest[cut:]
+                break
+            rest = []
+        items.append(Add(terms[0][1].span.to(terms[-1][1].span), tuple(terms)))
+        items += rest
+
+    def summed(self, token: Token) -> Node:
+        lower, upper = self.scripts() if self.has_scripts() else (None, None)
+        body = self.product()
+        index = None
+        if isinstance(lower, Condition):
+            index, lower = lower.left, lower.right
+        elif lower is not None:
+            index, lower = lower, None
+        return Sum(token.span.to(body.span), token.text, index, lower, upper, body)
+
+    # Brackets
+
+    def closing_of(self, opener: Token) -> tuple[int, bool]:
+        """Return the position of the bracket that closes the one at the current position."""
+        depth = 0
+        for at in range(self.at, len(self.tokens)):
+            token = self.tokens[at]
+            if at > self.at and self.tokens[at - 1].is_command("left", "right") and not opener.is_command("left"):
+                continue
+            if opener.is_command("left"):
+                depth += token.is_command("left") - token.is_command("right")
+                if depth == 0:
+                    return at, True
+                continue
+            if token.kind is Kind.OPEN or token.is_mark("(", "[") or token.is_command("{", "langle", "lbrace", "left"):
+                depth += 1
+            elif token.is_mark("<") and opener.is_mark("<"):
+                depth += 1
+            elif token.kind is Kind.CLOSE or token.is_mark(")", "]") or token.is_command("}", "rangle", "rbrace", "right"):
+                depth -= 1
+                if depth == 0:
+                    return at, True
+            elif token.is_mark(">") and opener.is_mark("<"):
+                depth -= 1
+                if depth == 0:
+                    return at, True
+        return len(self.tokens), False
+
+    def bracketed(self) -> Node:
+        r"""Read a bracket: a group, a triple, or the absolute value after `\left|`."""
+        opener = self.tokens[self.at]
+        close, found = self.closing_of(opener)
+        if not found:
+            raise Unreadable("this bracket is not closed", opener.span)
+        begins = self.at + 1
+        kind = opener.text
+        if opener.is_command("left"):
+            kind = self.tokens[begins].text if begins < len(self.tokens) else "("
+            begins += 1
+        inner = self.tokens[begins:close]
+        self.at = close + 1
+        last = self.tokens[close]
+        if opener.is_command("left") and self.at < len(self.tokens):
+            last = self.tokens[self.at]
+            self.at += 1
+        span = opener.span.to(last.span)
+        if kind == "." and last.text in ("|", "vert", "rvert"):
+            content = self.inside(inner, span)
+            lower, upper = self.scripts()
+            return EvalBar(span, content, lower, upper)
+        if kind in ("|", "vert", "lvert", "Vert", "lVert"):
+            return self.of_bars(inner, span)
+        if not inner:
+            raise Unreadable("this bracket is empty", span)
+        return self.contents(inner, span, OPENERS.get(kind, ")") if kind != "." else ".")
+
+    def contents(self, tokens: list[Token], span: Span, closing: str) -> Node:
+        pieces = _split(tokens, lambda each: each.is_mark(",", ";"))
+        if len(pieces) > 1:
+            return Vec(span, tuple(self.limit(each, span) if each else Text(span, "") for each in pieces), closing)
+        node = self.limit(tokens, span) if any(each.is_mark("=") for each in tokens) else self.inside(tokens, span)
+        if isinstance(node, Mat):
+            return node
+        return Group(span, node, closing)
+
+    def of_bars(self, tokens: list[Token], span: Span) -> Node:
+        node = self.inside(tokens, span)
+        if isinstance(node, Mat):
+            return replace(node, determinant=True)
+        return Abs(span, node)
+
+    def between_bars(self) -> Node:
+        opener = self.tokens[self.at]
+        depth = 0
+        close = None
+        for at in range(self.at + 1, len(self.tokens)):
+            token = self.tokens[at]
+            depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
+            depth += token.is_mark("(", "[") - token.is_mark(")", "]")
+            if depth < 0:
+                break
+            if depth == 0 and token.text == opener.text and token.kind is opener.kind:
+                close = at
+                break
+        if close is None:
+            raise Unreadable("this bar is not closed", opener.span)
+        inner = self.tokens[self.at + 1 : close]
+        span = opener.span.to(self.tokens[close].span)
+        self.at = close + 1
+        return self.of_bars(inner, span)
+
+    def quantity(self, token: Token) -> Node:
+        r"""Read `\abs{...}`, `\qty(...)` and their like of the package physics."""
+        if self.next_is_mark("*"):
+            self.at += 1
+        following = self.peek()
+        if following is not None and following.kind is Kind.OPEN:
+            node = self.inside(self.argument(), token.span)
+        else:
+            node = self.bracketed()
+        return Abs(node.span, node) if token.text in ("abs", "norm", "vqty") else node if isinstance(
+            node, Group | Vec | Mat
+        ) else Group(node.span, node, ")")  # fmt: skip
+
+    def environment(self, token: Token) -> Node:
+        name_tokens, after = argument_at(self.tokens, self.at)
+        name = "".join(each.text for each in name_tokens).rstrip("*")
+        depth, close = 1, None
+        for at in range(after, len(self.tokens)):
+            depth += self.tokens[at].is_command("begin") - self.tokens[at].is_command("end")
+            if depth == 0:
+                close = at
+                break
+        if close is None:
+            raise Unreadable(f"`\\begin{{{name}}}` is not closed", token.span)
+        inner = self.tokens[after:close]
+        _, self.at = argument_at(self.tokens, close + 1)
+        if name not in MATRICES:
+            raise Unreadable(f"`{name}` inside of a formula is not read", token.span)
+        if name == "array":
+            _, skip = argument_at(inner, 0)
+            inner = inner[skip:]
+        rows = []
+        for row in _split(inner, lambda each: each.is_command("\\", "cr", "newline")):
+            row = [each for each in row if not each.is_command("hline")]
+            if row and row[0].is_mark("[") and rows:
+                end = next((i for i, each in enumerate(row) if each.is_mark("]")), -1)
+                row = row[end + 1 :]
+            if not row:
+                continue
+            rows.append(tuple(
+                self.inside(cell, token.span) if cell else Text(token.span, "")
+                for cell in _split(row, lambda each: each.kind is Kind.CELL)
+            ))  # fmt: skip
+        if not rows:
+            raise Unreadable("this matrix is empty", token.span)
+        return Mat(self.since(token), tuple(rows), name in ("vmatrix",))
+
+
+def _without_empty_braces(tokens: list[Token]) -> list[Token]:
+    """Leave out `{}` that only separates, as in `x_1{}^2`."""
+    found: list[Token] = []
+    for token in tokens:
+        empty = token.kind is Kind.CLOSE and bool(found) and found[-1].kind is Kind.OPEN
+        if empty and not (len(found) > 1 and found[-2].kind is Kind.SCRIPT):
+            found.pop()
+        else:
+            found.append(token)
+    return found
+
+
+def _product(factors: Sequence[tuple[str, Node]]) -> Node:
+    if len(factors) == 1 and not factors[0][0]:
+        return factors[0][1]
+    return Mul(factors[0][1].span.to(factors[-1][1].span), tuple(factors))
+
+
+def _split(tokens: Sequence[Token], separates: Callable[[Token], bool]) -> list[list[Token]]:
+    """Split tokens at the separators outside of brackets, braces and environments."""
+    pieces: list[list[Token]] = [[]]
+    depth = 0
+    for token in tokens:
+        if token.kind is Kind.OPEN or token.is_command("begin", "left", "{") or token.is_mark("(", "["):
+            depth += 1
+        elif token.kind is Kind.CLOSE or token.is_command("end", "right", "}") or token.is_mark(")", "]"):
+            depth -= 1
+        if depth <= 0 and separates(token):
+            pieces.append([])
+        else:
+            pieces[-1].append(token)
+    return pieces
+
+
+def _head_of(tokens: Sequence[Token]) -> str | None:
+    """Return `d` or `partial` if the tokens begin with the head of a derivative."""
+    if not tokens:
+        return None
+    if tokens[0].kind is Kind.LETTER and tokens[0].text == "d":
+        return "d"
+    if tokens[0].is_command("partial"):
+        return "partial"
+    if tokens[0].is_command("mathrm", "text", "operatorname", "rm"):
+        value, _ = argument_at(tokens, 1)
+        if "".join(each.text for each in value) == "d":
+            return "d"
+    return None
+
+
+def _width_of_head(tokens: Sequence[Token]) -> int:
+    return argument_at(tokens, 1)[1] if tokens[0].is_command("mathrm", "text", "operatorname", "rm") else 1
+
+
+def _is_word(product: Mul) -> bool:
+    return all(
+        not mark and isinstance(each, Letter) and len(each.base) == 1 and not each.sub and not each.dots and not each.marks
+        for mark, each in product.factors
+    )
+
+
+def _joined(first: str, second: str) -> str:
+    return f"{first},{second}" if first and second else first or second
+
+
+def _exponent(node: Node) -> Node:
+    return node.exponent if isinstance(node, Pow) else Num(node.span, "1")
+
+
+def _orders(node: Node) -> int:
+    return node.order if isinstance(node, Diff) else 0
+
+
+def _with_differential_on_top(fraction: Frac) -> list[Node] | None:
+    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`."""
+    top = fraction.top
+    factors = [each for _, each in top.factors] if isinstance(top, Mul) else [top]
+    if not isinstance(factors[-1], Diff):
+        return None
+    rest = factors[:-1]
+    number: Node = _product([("", each) for each in rest]) if rest else Num(fraction.span, "1")
+    return [replace(fraction, top=number), factors[-1]]
+
+
+__all__ = ["FUNCTIONS", "Unreadable", "parsed", "tokens_of"]

@@ -1,0 +1,201 @@
+"""The text of a document, tidied for reading, and the place in the file that each of its characters comes from."""
+
+from __future__ import annotations
+
+import json
+import re
+from array import array
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
+
+from derive.errors import Complaint, Misused, Place, Rejected
+
+LARGEST = 4_000_000  # characters
+
+
+class Format(StrEnum):
+    TEX = "tex"
+    MARKDOWN = "md"
+    NOTEBOOK = "ipynb"
+    PLAIN = "plain"
+
+
+SUFFIXES = {
+    ".tex": Format.TEX,
+    ".ltx": Format.TEX,
+    ".md": Format.MARKDOWN,
+    ".markdown": Format.MARKDOWN,
+    ".ipynb": Format.NOTEBOOK,
+    ".txt": Format.PLAIN,
+    "": Format.PLAIN,
+}
+
+
+@dataclass(frozen=True, order=True)
+class Span:
+    """A part of the tidied text: the position of its first character and the position after its last."""
+
+    start: int
+    end: int
+
+    def to(self, other: Span) -> Span:
+        return Span(self.start, other.end)
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One change made by the tidying: what stood at a line of the file, and what is read instead."""
+
+    line: int
+    was: str
+    reads: str
+
+
+@dataclass
+class Source:
+    """A document: `written` is the text of the file; `text` is the tidied text that all later layers read."""
+
+    path: str
+    format: Format
+    written: str
+    text: str = ""
+    origins: array[int] = field(default_factory=lambda: array("L"))
+    edits: list[Edit] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if not self.text:
+            self.text = self.written
+        if len(self.origins) != len(self.text):
+            self.origins = array("L", range(len(self.text)))
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        return [0, *(found.end() for found in re.finditer(r"\n", self.written))]
+
+    def line_of(self, position: int) -> int:
+        """Return the line of the file, counted from 1, for a position in the tidied text."""
+        return bisect_right(self.line_starts, self._origin(position))
+
+    def place(self, span: Span) -> Place:
+        start, end = self._origin(span.start), self._origin(max(span.start, span.end - 1)) + 1
+        line = bisect_right(self.line_starts, start)
+        begins = self.line_starts[line - 1]
+        text = self.written[begins:].partition("\n")[0]
+        width = max(1, min(end, begins + len(text)) - start)
+        return Place(self.path, line, start - begins + 1, text, width)
+
+    def _origin(self, position: int) -> int:
+        if not self.origins:
+            return 0
+        return self.origins[position] if position < len(self.origins) else self.origins[-1] + 1
+
+    def replace(self, pattern: str, reads: str | Callable[[re.Match[str]], str], within: str | None = None) -> None:
+        """Replace each match of a pattern, and log it; with `within`, only inside of matches of that pattern."""
+        zones = [(0, len(self.text))]
+        if within is not None:
+            zones = [found.span() for found in re.finditer(within, self.text, re.DOTALL)]
+        pieces, places, done = [], array("L"), 0
+        for zone_start, zone_end in zones:
+            for found in re.compile(pattern).finditer(self.text, zone_start, zone_end):
+                new = reads(found) if callable(reads) else found.expand(reads)
+                if new == found[0]:
+                    continue
+                self.edits.append(Edit(self.line_of(found.start()), found[0], new))
+                pieces += [self.text[done : found.start()], new]
+                places += self.origins[done : found.start()]
+                places.extend([self._origin(found.start())] * len(new))
+                done = found.end()
+        if pieces:
+            places += self.origins[done:]
+            self.text, self.origins = "".join([*pieces, self.text[done:]]), places
+
+
+def read_source(path: Path, shown: str | None = None) -> Source:
+    """Return a document as tidied text."""
+    kind = SUFFIXES.get(path.suffix.lower())
+    if kind is None:
+        known = ", ".join(sorted(filter(None, SUFFIXES)))
+        raise Misused(Complaint("unknown-format", f"`{path.name}` is not a document that derive reads", help=known))
+    name = shown or str(path)
+    try:
+        if path.stat().st_size > 4 * LARGEST:
+            raise Rejected(Complaint("too-large", f"`{name}` is larger than {LARGEST // 1_000_000} million characters"))
+        text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except OSError as error:
+        raise Misused(Complaint("no-such-file", f"`{name}` cannot be read: {error.strerror}")) from error
+    except UnicodeDecodeError as error:
+        message = f"`{name}` is not in UTF-8; the first other byte is at position {error.start}"
+        raise Rejected(Complaint("encoding", message)) from error
+    return source_of(text, kind, name)
+
+
+def source_of(text: str, kind: Format, path: str = "") -> Source:
+    """Return a text as a tidied document."""
+    if len(text) > LARGEST:
+        raise Rejected(Complaint("too-large", f"`{path}` is larger than {LARGEST // 1_000_000} million characters"))
+    source = Source(path, kind, text)
+    if kind is Format.NOTEBOOK:
+        _keep_prose_of_notebook(source)
+    if kind in (Format.MARKDOWN, Format.NOTEBOOK):
+        _undo_escapes(source)
+    return source
+
+
+_FORMULA = r"(?<!\\)\$\$.*?\$\$|(?<![\\$])\$(?![$\s]).*?(?<![\\$\s])\$|\\\[.*?\\\]|\\\(.*?\\\)"
+
+
+def _undo_escapes(source: Source) -> None:
+    r"""Undo the backslashes that Markdown needs: `\\(`, `\\[` for `\(`, `\[`, and `\_`, `\*` in formulas."""
+    if re.search(r"\\\\\(.*?\\\\\)|\\\\\[.*?\\\\\]", source.text, re.DOTALL) and "$$" not in source.text:
+        source.replace(r"\\\\([()\[\]])", r"\\\1")
+        source.replace(r"\\\\(?=[{}|,;!])", r"\\", within=_FORMULA)
+        source.replace(r"\\\\\\\\", r"\\\\", within=_FORMULA)
+    source.replace(r"\\([_*])", r"\1", within=_FORMULA)
+
+
+_JSON_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
+_JSON_CHARACTER = re.compile(r"\\u[0-9a-fA-F]{4}|\\.|[^\\]", re.DOTALL)
+
+
+def _keep_prose_of_notebook(source: Source) -> None:
+    """Keep the cells in Markdown: each piece of text is found in the file, so that its place is known."""
+    try:
+        read = json.loads(source.written)
+        cells = [(cell["cell_type"], cell["source"]) for cell in read["cells"]]
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise Rejected(Complaint("notebook", f"`{source.path}` is not a notebook: {error}")) from error
+    literals = iter(_JSON_STRING.finditer(source.written))
+    pieces, places = [], array("L")
+    for kind, lines in cells:
+        for line in [lines] if isinstance(lines, str) else lines:
+            wanted = str(line)
+            literal = next((each for each in literals if _decoded(each[0]) == wanted), None)
+            if literal is None:
+                break
+            if kind == "markdown":
+                for text, start in _characters(literal):
+                    pieces.append(text)
+                    places.append(start)
+        if kind == "markdown" and places:
+            pieces.append("\n\n")
+            places.extend([places[-1]] * 2)
+    source.text, source.origins = "".join(pieces), places
+
+
+def _decoded(literal: str) -> str | None:
+    try:
+        return str(json.loads(literal, strict=False))
+    except ValueError:
+        return None
+
+
+def _characters(literal: re.Match[str]) -> list[tuple[str, int]]:
+    found = []
+    for each in _JSON_CHARACTER.finditer(literal[0], 1, len(literal[0]) - 1):
+        text = each[0] if len(each[0]) == 1 else str(json.loads(f'"{each[0]}"'))
+        found.append((text, literal.start() + each.start()))
+    return found
