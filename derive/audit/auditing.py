@@ -14,7 +14,7 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision
-from derive.audit.known import Known
+from derive.audit.known import Definition, Known
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
@@ -62,6 +62,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
     sides, equations, unread = [], [], []
     for row in document.rows:
         faults = [row.fault[0]] if row.fault else []
+        scope = scope_of(document, row)
         for statement in row.statements:
             read: list[tuple[Node | None, str]] = []
             for side in statement.sides:
@@ -75,9 +76,10 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
                     faults.append("this formula is nested too deep")
             nodes[id(statement)] = read
             sides += [node for node, _ in read if node is not None]
-            equations += [
-                (a[0], b[0]) for a, b in zip(read, read[1:], strict=False) if a[0] is not None and b[0] is not None
-            ]
+            first = nodes.get(id(_head(statement)), read)[0][0]
+            for (one, _), (other, _) in zip(read, read[1:], strict=False):
+                equations += [(one, other, scope)] if one is not None and other is not None else []
+                equations += [(first, other, scope)] if first is not None and other is not None else []
         if faults:
             unread.append((row, faults[0]))
     facts = facts_of(sides, equations)
@@ -99,6 +101,22 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             if before is not None:
                 last_of[id(statement)] = before
     return claims, facts, unread
+
+
+def scope_of(document: Document, row: Row) -> int:
+    """Return the number of the heading that begins the problem or section of a row; -1 before the first one."""
+    for index in range(row.block.heading, -1, -1):
+        heading = document.headings[index]
+        if heading.level <= 1 or _NEW_SCOPE.search(heading.text):
+            return index
+    return -1
+
+
+def _head(statement: Statement) -> Statement:
+    """Return the statement with which a chain begins."""
+    while statement.follows is not None:
+        statement = statement.follows
+    return statement
 
 
 def audited(
@@ -126,11 +144,12 @@ class _Auditor:
         self.known = Known(self.meaning)
 
     def decide(self, claim: Claim) -> None:
-        scope = self.scope_of(claim.row)
+        scope = scope_of(self.document, claim.row)
         if scope != self.scope:
             self.scope = scope
+            self.meaning.scope = scope
             self.known = Known(self.meaning)
-        if claim.left is None or claim.right is None:
+        if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
         if claim.relation in ("to", "in"):
@@ -145,32 +164,29 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
         self.remember(claim)
 
-    def scope_of(self, row: Row) -> int:
-        for index in range(row.block.heading, -1, -1):
-            heading = self.document.headings[index]
-            if heading.level <= 1 or _NEW_SCOPE.search(heading.text):
-                return index
-        return -1
-
     def best(self, claim: Claim) -> Verdict:
         """Return the verdict for the reading that makes the claim hold, or for the likeliest reading."""
         first: Verdict | None = None
         reason = ""
         seen: list[tuple[Value, Value]] = []
-        assert claim.left is not None and claim.right is not None
+        assert claim.right is not None
+        left_side = self.last_good_side(claim)
+        if left_side is None:
+            return Verdict(Outcome.UNDECIDED, "the side before this one has no value")
         cues = claim.row.block.cues
-        pairs = product(readings(claim.left, self.facts), readings(claim.right, self.facts))
+        pairs = product(readings(left_side, self.facts), readings(claim.right, self.facts))
         for (left_node, left_choices), (right_node, right_choices) in islice(pairs, MOST_READINGS):
             for plain in PLAIN:
                 meaning = Meaning(
-                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols, plain=plain
+                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
+                    parents=self.meaning.parents, scope=self.meaning.scope, plain=plain,
                 )
                 try:
                     left, right = self.sides(left_node, right_node, meaning)
                     if (left, right) in seen:
                         continue
                     seen.append((left, right))
-                    verdict = Decision(claim, left, right, meaning, self.known, cues).verdict()
+                    verdict = self.of_values(claim, left, right, meaning, cues)
                 except Meaningless as error:
                     reason = reason or error.reason
                     continue
@@ -185,6 +201,48 @@ class _Auditor:
                     first, claim.values = verdict, (left, right)
         return first or Verdict(Outcome.UNDECIDED, reason or "this has no value")
 
+    def of_values(
+        self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]
+    ) -> Verdict:
+        """Return the verdict; a claim that follows only from a wrong row carries the slip of this row on."""
+        verdict = Decision(claim, left, right, meaning, self.known, cues).verdict()
+        if verdict.outcome in GOOD:
+            return verdict
+        if claim.before is not None and claim.before.verdict is not None and claim.before.values is not None:
+            wrong = claim.before
+            if wrong.verdict is not None and wrong.verdict.outcome is Outcome.DIFFERS:
+                return self.after_slip(claim, wrong, left, right, meaning, cues, verdict)
+        believed = self.known.with_slips()
+        if believed is not None:
+            again = Decision(claim, left, right, meaning, believed, cues).verdict()
+            slips = {each.claim for each in self.known.slips.values()}
+            if again.outcome is Outcome.HOLDS and slips & set(again.given):
+                again.inherits = min(slips & set(again.given))
+                again.because = "it follows from a wrong row"
+                return again
+        return verdict
+
+    def after_slip(
+        self, claim: Claim, wrong: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], verdict: Verdict
+    ) -> Verdict:
+        """Compare the row after a wrong one with the side before the slip, too."""
+        assert wrong.values is not None
+        again = Decision(claim, wrong.values[0], right, meaning, self.known, cues).verdict()
+        if again.outcome in GOOD:
+            again.because += ", compared with the row before the slip"
+            return again
+        return verdict
+
+    def last_good_side(self, claim: Claim) -> Node | None:
+        """Return the left side, or the side before it in its chain if the left side is not read or has no value."""
+        while claim.before is not None and (
+            claim.left is None or claim.before.right is None or claim.before.values is None
+        ):
+            if claim.before.left is None and claim.before.before is None:
+                return None
+            claim = claim.before
+        return claim.left
+
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:
         """Return the values of two sides; a letter that is set equal to a list is a vector, but a number in the list."""
         for letter, other, first in ((left, right, True), (right, left, False)):
@@ -192,7 +250,8 @@ class _Auditor:
             if isinstance(letter, Letter) and shape is not None and any(
                 isinstance(each, Letter) and each.identity == letter.identity for each in other.walk()
             ):  # fmt: skip
-                value = Meaning(self.facts, derivatives=meaning.derivatives, symbols=meaning.symbols, plain="all").of(other)
+                value = Meaning(self.facts, derivatives=meaning.derivatives, symbols=meaning.symbols, plain="all",
+                                scope=meaning.scope).of(other)
                 named = meaning.components(letter, *shape)
                 return (named, value) if first else (value, named)
         return meaning.of(left), meaning.of(right)
@@ -207,13 +266,18 @@ class _Auditor:
         while first.before is not None:
             first = first.before
         head = first.values[0] if first.values is not None else left
+        wrong = claim.verdict.outcome is Outcome.DIFFERS
+        pairs = [(head, right)] if not isinstance(head, MatrixBase) and not isinstance(right, MatrixBase) else []
         if isinstance(head, MatrixBase) and isinstance(right, MatrixBase) and head.shape == right.shape:
-            for symbol, value in zip(head, right, strict=True):
-                if isinstance(symbol, Symbol) and not isinstance(value, MatrixBase):
-                    self.known.define(symbol, value, number)
+            pairs = list(zip(head, right, strict=True))
+        for symbol, value in pairs:
+            if isinstance(symbol, Symbol) and wrong:
+                self.known.slips[symbol] = Definition(symbol, value, number)
+            elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
+                self.known.define(symbol, value, number)
+                self.known.slips.pop(symbol, None)
+        if wrong or isinstance(head, MatrixBase):
             return
-        if isinstance(head, Symbol) and isinstance(right, Expr) and claim.verdict.outcome is not Outcome.DIFFERS:
-            self.known.define(head, right, number)
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
             return
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):

@@ -112,6 +112,10 @@ class Decision:
         """A letter that has no value yet gets one."""
         if self.claim.relation not in ("=", ":="):
             return None
+        if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
+            entries = [each for each in self.left if isinstance(each, Symbol)]
+            if len(set(entries)) == len(self.left) and not any(map(self.known.is_defined, entries)):
+                return Verdict(Outcome.DEFINES, "values for the components of a vector or matrix")
         for letter, value in ((self.left, self.right), (self.right, self.left)):
             if letter is self.right and self.claim.is_step:
                 continue
@@ -156,6 +160,7 @@ class Decision:
         if not self.meaning.decimals:
             return None
         pairs: list[tuple[tuple[Value, ...], tuple[int, ...]]] = [((self.left, self.right), ()), *self.expansions]
+        pairs += [(values, (*used, *more)) for both, used in pairs for values, more in [self.known.with_numbers(*both)] if more]
         for (left, right), used in pairs:
             errors = [
                 _relative_error(one, other)
@@ -224,6 +229,15 @@ class Decision:
         for equation, number in reversed(recent):
             if _is_multiple(wanted, equation):
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
+        if Cue.ZERO in self.cues:
+            for equation, number in list(reversed(recent))[:MOST_COMBINED]:
+                names = [each for each in equation.free_symbols if each in self.meaning.derivatives or not self.wants(each)]
+                for name in names:
+                    at_zero = equation.subs(name, 0)
+                    if _is_multiple(wanted, at_zero):
+                        return Verdict(Outcome.HOLDS, f"{_word(name)} set to zero", (number,))
+                    if Cue.APPROXIMATE in self.cues and _approximate_multiple(wanted, at_zero, self.meaning):
+                        return Verdict(Outcome.APPROXIMATES, f"{_word(name)} set to zero, to the leading order", (number,))
         if (numbers := _combination(wanted, recent[-MOST_COMBINED:])) is not None:
             return Verdict(Outcome.HOLDS, "a sum or difference of earlier equations", numbers)
         for (left, right), used in self.expansions:
@@ -237,6 +251,9 @@ class Decision:
                 if ratio is not None:
                     return Verdict(Outcome.APPROXIMATES, "an earlier equation to the leading order", (number,))
         return None
+
+    def wants(self, symbol: Symbol) -> bool:
+        return symbol in self.difference.free_symbols
 
     def implied(self) -> Verdict | None:
         """A step brings in a letter: it holds if a relation that is not written holds."""
@@ -258,33 +275,33 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which the document does not say before")
 
     def otherwise(self) -> Verdict:
+        """Accuse only a step whose sides are known completely; every other claim stays undecided."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
-        if not self.claim.is_step:
+        computed = isinstance(self.left, Symbol) and self.known.computed(self.left) is not None
+        if not self.claim.is_step and not computed:
             if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
                 return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
             return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
-        if self.claim.relation not in ("=",):
+        if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
-        opaque = self.opaque(left) | self.opaque(right)
-        if opaque:
+        if opaque := self.opaque(left) | self.opaque(right):
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
-        one_sided = left.free_symbols ^ right.free_symbols
-        if one_sided and not _is_zero_sided(left, right) and (right.free_symbols - left.free_symbols):
-            words = ", ".join(sorted(map(_word, one_sided)))
-            return Verdict(Outcome.UNDECIDED, f"only one of the two sides contains {words}")
+        new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
+        new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
+        if new - self.left.free_symbols:
+            return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
         if left.has(Integral) or right.has(Integral):
             return Verdict(Outcome.UNDECIDED, "an integral that derive cannot evaluate")
-        if Cue.APPROXIMATE in self.cues:
+        if Cue.APPROXIMATE in self.cues and self.claim.row.block.display:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
-        if one_sided and self.special_case(left, right):
+        if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=counterexample(left, right))
 
     def special_case(self, left: Value, right: Value) -> bool:
         """Whether letters of the left side may have got values in words."""
-        return bool(left.free_symbols - right.free_symbols) and not _is_zero_sided(left, right) and bool(
-            self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE}
-        )  # fmt: skip
+        lost = (left.free_symbols - right.free_symbols) & (self.left.free_symbols - self.right.free_symbols)
+        return bool(lost) and bool(self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE})
 
     def opaque(self, value: Value) -> set[Symbol]:
         found = {each for each in value.free_symbols if each in self.meaning.derivatives or "(" in each.name}
@@ -293,10 +310,6 @@ class Decision:
 
 def _names(meaning: Meaning) -> set[str]:
     return {each.name for each in meaning.symbols}
-
-
-def _is_zero_sided(left: Value, right: Value) -> bool:
-    return left == 0 or right == 0
 
 
 def _entries(value: Value) -> list[Expr]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import sympy
-from sympy import Expr, MatrixBase, Symbol
+from sympy import Expr, Integral, MatrixBase, Symbol
 
 from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
@@ -30,12 +30,17 @@ class Known:
 
     meaning: Meaning
     definitions: dict[Symbol, list[Definition]] = field(default_factory=dict)
+    numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values for an example or at one moment
     equations: list[tuple[Expr, int]] = field(default_factory=list)
+    slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
 
     def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:
-        if symbol in value.free_symbols:
+        if symbol in value.free_symbols or value.has(Integral):
             return
-        self.definitions.setdefault(symbol, []).append(Definition(symbol, value, claim, implied))
+        letter = self.meaning.symbols.get(symbol)
+        component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
+        where = self.definitions if value.free_symbols or component else self.numbers
+        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied))
 
     def state(self, difference: Value, claim: int) -> None:
         """Remember an equation: the difference of its sides vanishes."""
@@ -43,6 +48,13 @@ class Known:
         for each in entries:
             if each != 0 and each.free_symbols:
                 self.equations.append((each, claim))
+
+    def with_slips(self) -> Known | None:
+        """Return the knowledge of a reader who believes the wrong rows, or None if there are none."""
+        if not self.slips:
+            return None
+        believed = {symbol: [definition] for symbol, definition in self.slips.items()}
+        return Known(self.meaning, {**self.definitions, **believed}, self.numbers, self.equations)
 
     def is_defined(self, symbol: Symbol) -> bool:
         return symbol in self.definitions
@@ -61,6 +73,12 @@ class Known:
                 return None
             time = self.meaning.symbol(Letter(letter.span, "t"))
             return Definition(symbol, self.meaning.differentiated(inner.value, time, False), inner.claim)
+        if symbol in self.meaning.parents:
+            parent, variable = self.meaning.parents[symbol]
+            inner = self.latest(parent)
+            if inner is None:
+                return None
+            return Definition(symbol, self.meaning.differentiated(inner.value, variable, False), inner.claim)
         if symbol in self.meaning.derivatives:
             letter, by, partial = self.meaning.derivatives[symbol]
             inner = self.latest(self.meaning.symbol(letter))
@@ -106,8 +124,30 @@ class Known:
                 return
             yield values, tuple(dict.fromkeys(used))
 
+    def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
+        """Return the values with the numbers put in that letters have in an example."""
+        free = set().union(*(each.free_symbols for each in values))
+        found = {symbol: each[-1] for symbol, each in self.numbers.items() if symbol in free}
+        put_in = {symbol: each.value for symbol, each in found.items()}
+        return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
+
     def recent(self) -> list[tuple[Expr, int]]:
-        return self.equations[-LAST_EQUATIONS:]
+        """Return the last equations, and the last few also with the letters that are zero left out."""
+        last = self.equations[-LAST_EQUATIONS:]
+        zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
+        put_in = [(each.subs(zeros), number) for each, number in last[-6:] if each.free_symbols & set(zeros)] if zeros else []
+        last = last + [(each, number) for each, number in put_in if each != 0 and each.free_symbols]
+        return last + [pair for each in last[-6:] for pair in self.with_derivatives(*each)]
+
+    def with_derivatives(self, equation: Expr, number: int) -> Iterator[tuple[Expr, int]]:
+        """Yield an equation with the values of its derivatives put in."""
+        found = {
+            symbol: definition.value
+            for symbol in equation.free_symbols
+            if symbol in self.meaning.derivatives and (definition := self.latest(symbol)) is not None
+        }
+        if found:
+            yield sympy.expand(equation.xreplace(found)), number
 
 
 def _size(value: Value) -> int:

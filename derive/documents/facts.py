@@ -39,8 +39,8 @@ class Facts:
     functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
     products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is no argument
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
-    vectors: set[Identity] = field(default_factory=set)
-    tensors: set[Identity] = field(default_factory=set)
+    marked: set[Identity] = field(default_factory=set)  # vectors by an arrow or bold type
+    shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # in the scopes of the document
     whole_arguments: Counter[Identity] = field(default_factory=Counter)
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
@@ -61,24 +61,32 @@ class Facts:
             return True
         return any(base == "t" for base, *_ in self.variables_of(letter))
 
-    def is_vector(self, letter: Letter) -> bool:
-        return letter.identity in self.vectors or ("vec" in letter.marks and "hat" not in letter.marks)
+    def shape(self, letter: Letter, scope: int) -> tuple[int, int] | None:
+        """Return the shape of the list or matrix that a letter is set equal to in a scope, or None."""
+        return self.shapes.get((scope, letter.identity))
+
+    def is_vector(self, letter: Letter, scope: int) -> bool:
+        shape = self.shape(letter, scope)
+        if shape is None:
+            return "vec" in letter.marks and "hat" not in letter.marks
+        return shape[1] == 1
 
     @property
     def has_axes(self) -> bool:
         """Whether bold i, j and k all occur, so that they are the unit vectors of the axes."""
         return all(self.seen[each, "", frozenset({"vec"}), 0, ""] for each in "ijk")
 
-    def is_tensor(self, letter: Letter) -> bool:
-        return letter.identity in self.tensors
+    def is_tensor(self, letter: Letter, scope: int) -> bool:
+        shape = self.shape(letter, scope)
+        return shape is not None and shape[1] > 1
 
 
 def _timeless(letter: Letter) -> tuple[str, str, frozenset[str], str]:
     return letter.base, letter.sub, letter.marks, letter.label
 
 
-def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node]]) -> Facts:
-    """Return the facts that the sides of all statements show."""
+def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]]) -> Facts:
+    """Return the facts that the sides of all statements show; an equation has two sides and a scope."""
     facts = Facts()
     for side in sides:
         if isinstance(side, Letter):
@@ -89,12 +97,17 @@ def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node]]) -> F
             call = side.alternatives[0]
             if isinstance(call, Apply) and len(call.arguments) == 1 and isinstance(call.arguments[0], Letter):
                 facts.functions[call.head.identity][call.arguments[0].identity] += 2  # `x(t)` alone
-    for left, right in equations:
+    for left, right, scope in equations:
         for one, other in ((left, right), (right, left)):
             one = _bare(one)
-            if isinstance(one, Letter) and (shape := shape_of(other)) is not None:
-                (facts.vectors if shape[1] == 1 else facts.tensors).add(one.identity)
+            if isinstance(one, Letter) and (shape := shape_of(other)) is not None and not _contains(other, one):
+                facts.shapes.setdefault((scope, one.identity), shape)
     return facts
+
+
+def _contains(node: Node, letter: Letter) -> bool:
+    """Whether a list contains the letter that it is set equal to: `a = {a, 2a, 3a}`, a vector and one of its lengths."""
+    return any(isinstance(each, Letter) and each.identity == letter.identity for each in node.walk())
 
 
 def shape_of(node: Node) -> tuple[int, int] | None:
@@ -124,7 +137,9 @@ def _bare(node: Node) -> Node:
 def _preferred(node: Node) -> Iterable[Node]:
     """Yield the nodes of a side; of an open node, those of its first alternative only."""
     yield node
-    kids = node.alternatives[:1] if isinstance(node, Open) and node.kind != "apply" else node.kids
+    kids = node.alternatives[:1] if isinstance(node, Open) else node.kids
+    if isinstance(node, Open) and node.kind == "apply":  # its letter and its argument, but not a call yet
+        kids = node.alternatives[1:]
     for kid in kids:
         yield from _preferred(kid)
 
@@ -135,10 +150,9 @@ def _look_at(node: Node, facts: Facts) -> None:
         if node.dots:
             facts.timed.add(_timeless(node))
         if "vec" in node.marks:
-            facts.vectors.add(node.identity)
+            facts.marked.add(node.identity)
     elif isinstance(node, Open) and node.kind == "apply":
         call, product = node.alternatives
-        assert isinstance(call, Apply | Pow | Fun | EvalBar) or True
         _look_at_call(call, product, facts)
     elif isinstance(node, Apply):
         for argument in node.arguments:

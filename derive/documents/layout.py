@@ -50,6 +50,7 @@ class Cue(StrEnum):
     APPROXIMATE = "to first order"
     CONSTANT = "constant"
     INCORRECT = "not"
+    ZERO = "set to zero"
 
 
 CUES = {
@@ -61,6 +62,7 @@ CUES = {
     Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
     Cue.CONSTANT: r"\bconstant\b|\bconst\b",
+    Cue.ZERO: r"\bzero\b|\bvanish\w*|\bstationary\b|\bextrem\w+|\bminimum\b",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
 _CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}
@@ -115,7 +117,12 @@ class Block:
 
     @cached_property
     def cues(self) -> frozenset[Cue]:
-        return frozenset(cue for cue, pattern in _CUES.items() if pattern.search(self.sentence))
+        near = self.before[-400:]
+        return frozenset(
+            cue
+            for cue, pattern in _CUES.items()
+            if pattern.search(near if cue in (Cue.APPROXIMATE, Cue.ZERO) and self.display else self.sentence)
+        )
 
 
 @dataclass(frozen=True)

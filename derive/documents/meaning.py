@@ -96,9 +96,11 @@ class Meaning:
     variables: tuple[Symbol, ...] = ()  # the variables of integrals, for brackets with limits
     decimals: list[tuple[Expr, int]] = field(default_factory=list)  # each decimal, with its digits after the point
     units: bool = False
+    scope: int = -1
     plain: str = ""  # which letters of vectors stand for numbers: those without a mark, all, or also those of tensors
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
+    parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # a derivative of a derivative
     two_signs: bool = False
 
     def of(self, node: Node) -> Value:
@@ -137,12 +139,12 @@ class Meaning:
             return self.unit_vector(node)
         if "vec" in node.marks and node.base in "ijk" and not node.sub and self.facts.has_axes:
             return self.unit_vector(node)
-        if self.facts.is_tensor(node) and self.plain != "tensors":
-            return self.components(node, 3, 3)
-        if self.facts.is_vector(node) and not (self.plain == "unmarked" and "vec" not in node.marks) and self.plain not in (
+        if self.facts.is_tensor(node, self.scope) and self.plain != "tensors":
+            return self.components(node, *(self.facts.shape(node, self.scope) or (3, 3)))
+        if self.facts.is_vector(node, self.scope) and not (self.plain == "unmarked" and "vec" not in node.marks) and self.plain not in (
             "all", "tensors"
         ):  # fmt: skip
-            return self.components(node, 3, 1)
+            return self.components(node, (self.facts.shape(node, self.scope) or (3, 1))[0], 1)
         return self.symbol(node)
 
     def unit_vector(self, node: Letter) -> Any:
@@ -215,12 +217,18 @@ class Meaning:
         return Total(*terms)
 
     def of_mul(self, node: Mul) -> Any:
-        unit = [i for i, (_, each) in enumerate(node.factors) if isinstance(each, Text) and each.text.startswith("unit")]
-        del unit
-        value: Any = None
+        """Return a product; factors side by side are multiplied before those with a dot or a cross between them."""
+        parts: list[tuple[str, Any, Span]] = []
         for mark, factor in node.factors:
             new = self._of(factor)
-            value = new if value is None else self.times(value, new, mark, factor.span)
+            if parts and not mark:
+                before, value, span = parts[-1]
+                parts[-1] = (before, self.times(value, new, "", factor.span), span)
+            else:
+                parts.append((mark, new, factor.span))
+        value = parts[0][1]
+        for mark, new, span in parts[1:]:
+            value = self.times(value, new, mark, span)
         return value
 
     def times(self, left: Any, right: Any, mark: str, span: Span) -> Any:
@@ -357,7 +365,7 @@ class Meaning:
             variable for variable, _ in values
         ):
             return self.function_letter(head)
-        if self.facts.is_vector(head):
+        if self.facts.is_vector(head, self.scope):
             raise Meaningless("a vector at one moment has no value here", node.span)
         text = ",".join(str(self._of(value)) for _, value in values)
         del bare
@@ -390,13 +398,15 @@ class Meaning:
         for letter, order in node.by:
             if not isinstance(letter, Letter):
                 raise Meaningless("this is not a variable of differentiation", letter.span)
-            if self.facts.is_vector(letter):
+            if self.facts.is_vector(letter, self.scope):
                 raise Meaningless("this is a derivative by a vector", letter.span)
             by.append((self.symbol(letter), order))
         of = _inner_letter(node.of)
-        if of is not None and not self.facts.is_vector(of) and not self.facts.is_tensor(of):
+        if of is not None and not self.facts.is_vector(of, self.scope) and not self.facts.is_tensor(of, self.scope):
             return self.of_lone_letter(of, tuple(by), node.partial)
         value = self._of(node.of)
+        if isinstance(value, Expr) and value in self.derivatives and len(by) == 1 and by[0][1] == 1:
+            return self.rate_of(value, by[0][0], node.partial) or self.derivative_of_symbol(value, by[0][0])
         for symbol, order in by:
             for _ in range(order):
                 value = self.differentiated(value, symbol, node.partial)
@@ -414,6 +424,13 @@ class Meaning:
             if variables and self.is_variable(variables.most_common(1)[0][0], first):
                 return self.derivative_symbol(bare, ((first, order + letter.primes),), False)
         return self.derivative_symbol(letter, by, partial)
+
+    def derivative_of_symbol(self, symbol: Symbol, by: Symbol) -> Symbol:
+        made = Symbol(f"d({symbol})/d{by}", real=True)
+        letter, already, partial = self.derivatives[symbol]
+        self.derivatives[made] = (letter, (*already, (by, 1)), partial)
+        self.parents[made] = (symbol, by)
+        return made
 
     def is_variable(self, identity: Any, symbol: Symbol) -> bool:
         letter = self.symbols.get(symbol)
@@ -438,6 +455,7 @@ class Meaning:
                     return self.derivative_symbol(letter, ((by, already[0][1] + 1),), was_partial)
                 made = Symbol(f"d({symbol})/d{by}", real=True)
                 self.derivatives[made] = (letter, (*already, (by, 1)), was_partial)
+                self.parents[made] = (symbol, by)
                 return made
             return Integer(0)
         found = self.symbols.get(symbol)
@@ -480,7 +498,8 @@ class Meaning:
         if open_signs:
             raise Meaningless("an integral sign has no differential", signs[open_signs[-1]][1].span)
         inner = Meaning(
-            self.facts, (*self.variables, *pairs.values()), plain=self.plain, derivatives=self.derivatives, symbols=self.symbols,
+            self.facts, (*self.variables, *pairs.values()), scope=self.scope, plain=self.plain, derivatives=self.derivatives, symbols=self.symbols,
+            parents=self.parents,
         )
         factors = [inner._of(each) for each in nodes]
         self.decimals += inner.decimals
