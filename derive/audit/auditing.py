@@ -13,16 +13,17 @@ import sympy
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
-from derive.audit.deciding import Decision
+from derive.audit.deciding import Decision, same
 from derive.audit.known import Definition, Known
+from derive.audit.slips import WHY, nearest_edit
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
-from derive.documents.syntax import Letter, Node
+from derive.documents.syntax import Int, Letter, Node
 
-SECONDS = 4.0  # of processor time for one claim
+SECONDS = 8.0  # of processor time for one claim
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
@@ -199,7 +200,78 @@ class _Auditor:
                     return verdict
                 if first is None or (first.outcome is Outcome.DIFFERS and verdict.outcome is Outcome.UNDECIDED):
                     first, claim.values = verdict, (left, right)
-        return first or Verdict(Outcome.UNDECIDED, reason or "this has no value")
+        if first is None:
+            return self.of_missing_differential(claim, left_side) or Verdict(
+                Outcome.UNDECIDED, reason or "this has no value"
+            )
+        if first.outcome is Outcome.DIFFERS and not first.suggestion:
+            self.suggest(claim, left_side, first)
+        return first
+
+    def suggest(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
+        """Find the nearest change of the right side that makes the claim hold."""
+        assert claim.right is not None and claim.values is not None
+        right_node = readings(claim.right, self.facts)[0][0]
+        self.find_edit(claim, claim.values[0], right_node, left_side, verdict)
+
+    def find_edit(self, claim: Claim, left: Value, right_node: Node, left_side: Node, verdict: Verdict) -> bool:
+        text = self.document.source.text
+        letters = {
+            (each.identity, each.dots): each
+            for side in (left_side, right_node)
+            for each in side.walk()
+            if isinstance(each, Letter)
+        }
+        expanded_left = self.expanded(left)
+        for symbol in left.free_symbols | expanded_left.free_symbols:
+            if (letter := self.meaning.symbols.get(symbol)) is not None:
+                letters.setdefault((letter.identity, letter.dots), letter)
+
+        def is_right(node: Node) -> bool:
+            for plain in PLAIN[:2]:
+                meaning = Meaning(
+                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
+                    parents=self.meaning.parents, scope=self.meaning.scope, plain=plain,
+                )  # fmt: skip
+                try:
+                    value = meaning.of(node)
+                    if isinstance(value, MatrixBase) != isinstance(left, MatrixBase):
+                        continue
+                    if same(left, value) or same(expanded_left, self.expanded(value)):
+                        return True
+                except (Meaningless, *FAULTS):
+                    continue
+            return False
+
+        edit = nearest_edit(
+            right_node, list(letters.values()), is_right, lambda span: text[span.start : span.end].strip()
+        )
+        if edit is None:
+            return False
+        verdict.suggestion = f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+        return True
+
+    def expanded(self, value: Value) -> Value:
+        found = list(self.known.expanded(value))
+        return found[-1][0][0] if found else value
+
+    def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
+        """An integral sign without its differential is a slip if a differential in place of a letter makes it right."""
+        assert claim.right is not None
+        if not any(isinstance(each, Int) for each in claim.right.walk()):
+            return None
+        right_node = readings(claim.right, self.facts)[0][0]
+        try:
+            self.meaning.of(right_node)
+        except Meaningless as error:
+            if "no differential" not in error.reason:
+                return None
+            verdict = Verdict(Outcome.DIFFERS, error.reason, span=error.span)
+            left = self.meaning.of(readings(left_side, self.facts)[0][0])
+            claim.values = None
+            return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
+        return None
 
     def of_values(
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]
