@@ -418,7 +418,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     if found is None:
         message = f"`{condition.key}` does not express one coordinate by others, so it cannot be a part of a `System`"
         help_line = Spelled(
-            "enforce a rolling condition that cannot be integrated: `*rolling_constraint(...)`",
+            'if the rolling condition cannot be integrated, use a contact: `*contact(..., rolling="F")`',
             "give the symbol of the friction that enforces the condition, `friction: {rolling: F}`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
