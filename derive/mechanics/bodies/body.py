@@ -489,7 +489,7 @@ def centre_of_mass(
 
     body         a body with a mass and a region
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
-    coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
+    coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
     step derives each component that is not zero.
     Second route: the mean position of the body's equimomental particles.

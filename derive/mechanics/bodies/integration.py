@@ -182,8 +182,8 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """The product of the factors of a term. In a line with brackets, values and integrals of 1 come first, and each
-    integral of 1 is written as upper minus lower limit."""
+    """The product of the factors of a term. In a line with brackets, the factors that need no bracket come first:
+    values, and integrals with the integrand 1, each written as the upper minus the lower limit."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]

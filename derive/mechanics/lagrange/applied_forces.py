@@ -332,8 +332,8 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return `first - second`. Several terms of `second` are in brackets; if all of them are negative, `-second` is
-    added in brackets."""
+    """Return `first - second`. If `second` has several terms, they are written in brackets; if all of them are
+    negative, the brackets contain `-second`, with a plus sign in front."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first

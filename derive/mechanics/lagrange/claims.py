@@ -461,7 +461,8 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
         number = value_at(explicit(facts.result), point)
         if found.free_symbols:
             return False  # too few equations
-        # A result that is zero is the difference of terms with rounding errors, so their size counts as well.
+        # A result of zero is a difference of terms with rounding errors, so the tolerance also depends on the size of
+        # these terms.
         terms = max(abs(each) for each in at_zero) / max(abs(each) for row in slopes for each in row)
         apart = as_rational(found - number)
         return bool(abs(apart) <= (abs(found) + abs(number) + terms) / 10**12)

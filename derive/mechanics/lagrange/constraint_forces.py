@@ -344,8 +344,9 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this relation. The sentence states it in
-        words, "with r = l and r_ddot = 0", unless it substitutes one equation into another or has no other equation."""
+        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint. The sentence states both
+        in words, "with r = l and r_ddot = 0". The mapping is empty if one equation is substituted in another, or if
+        there are no other equations."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]

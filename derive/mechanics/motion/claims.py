@@ -308,7 +308,7 @@ def sticks_where(wanted: bool | None) -> Predicate:
     """Judge whether, numerically, |F| <= mu_s N if and only if the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
-    for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.
+    for one of the two signs of F, numbers with the other sign are not tested, but both signs must occur.
     """
 
     def is_so(facts: Judged) -> bool:

@@ -73,7 +73,8 @@ def arrivals(
     """Return how motions come to the places at which a result is evaluated.
 
     of, others   the result, and other results that are substituted in it
-    places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression there
+    places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the
+                 place
     limit        a function that returns the limit of f at the place, as for `condition_to_reach`
     If one of the other results was derived from this motion, such as the place of a first slip, its step already states
     the condition; the `Arrival` then has none.

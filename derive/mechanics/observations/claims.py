@@ -489,7 +489,7 @@ def is_in_both(facts: Judged, letter: Symbol) -> bool:
 
 
 def is_fraction_of_the_familiar(facts: Judged) -> bool:
-    """Whether, at all trial points, the magnitude of the acceleration is the result times that of the familiar
+    """Whether, at all trial points, the magnitude of the acceleration is the result times the magnitude of the familiar
     acceleration. The result must be a rational number between 0 and 1."""
     of, familiar = explicit(facts.quantities["of"].value), facts.inputs["familiar"]
     part = facts.result
