@@ -193,7 +193,9 @@ def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
 
 
 def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
-    """Return the horizontal distance of the point of action from the centre of mass, and its height above it."""
+    """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
+    the centre.
+    """
     x, y, _ = _vector(scene, *(drawn.at - of.centre).components)
     return abs(x), y
 

@@ -110,7 +110,7 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 class ShownMode:
     """A normal mode that a drawing shows.
 
-    frequency   the symbol of its frequency, or of the rate at which it grows
+    frequency   the symbol of the frequency or of the growth rate of the mode
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
     lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends

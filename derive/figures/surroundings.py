@@ -17,7 +17,7 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 PEG = 2.2  # radius of a bare peg
-ABOVE = 0.1  # least height above a pivot of the end of a rod or a string, relative to its length, of a part "above"
+ABOVE = 0.1  # a part is "above" its pivot if its end is higher by at least this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
 MOVES, BESIDE_RAIL = 14.0, 12.0  # half the length of the double arrow of a moving support, and its distance
@@ -113,9 +113,9 @@ class FixedEnd(Surface):
 
     away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
-    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, the
-            ceiling would be in its way: a pivot is then above hatched ground, and the end of a string is a bare peg,
-            because the string goes round
+    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, no
+            ceiling is drawn, because it would be in the way: a pivot is then drawn above hatched ground, and the end of
+            a string as a bare peg, because the string moves round the point
     """
 
     at: Position

@@ -469,7 +469,6 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
-            message = f"`stability`: `{place.potential.key}` need not have a minimum there, depending on the values"
-            message += f" of the symbols, but forces linear in the rates of {q.name} and {p.name} may stabilise"
-            message += " the equilibrium"
+            message = f"`stability`: `{place.potential.key}` need not have a minimum at the equilibrium, but"
+            message += f" forces linear in the rates of {q.name} and {p.name} may stabilise the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

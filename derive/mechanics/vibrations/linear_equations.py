@@ -31,7 +31,7 @@ class Equations(Generic[Kind]):
     block     the indices of the coupled coordinates
     letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
-    before    the number of the modes that belong to other coordinates and have lower numbers
+    before    how many modes of other coordinates are numbered before the modes of these coordinates
     number    the end of the key of the characteristic equation
     """
 
