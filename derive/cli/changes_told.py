@@ -59,7 +59,7 @@ def told(problem_id: str, diff: Diff, coloured: bool) -> str:
 
 
 def told_of_set(set_id: str, diff: SetDiff, coloured: bool) -> str:
-    """Return the changes of the set itself, and those of each problem that has changed."""
+    """Return the changes of the set itself, and the changes of each problem that has changed."""
     each = {set_id: diff.own, **diff.problems}
     changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
     return "\n\n".join(changed) or told(set_id, diff.own, coloured)

@@ -240,8 +240,8 @@ def _axis(unit: str) -> Axis:
 
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
-    """Return the ends of the range; if the engine draws the plot, the ends in `plot` already are those that the problem
-    states."""
+    """Return the ends of the range; if the engine draws the plot, the ends in `plot` are already the ends that the
+    problem states."""
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)

@@ -158,8 +158,8 @@ class Quantity:
 
     @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates on which the value may depend, with their kinds: those of the step, and those of its
-        parents that no fact eliminates."""
+        """Return the coordinates on which the value may depend, with their kinds: the coordinates of the step, and the
+        coordinates of its parents that no fact eliminates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}

@@ -611,7 +611,7 @@ SIGNS: dict[str, Predicate] = {
 
 
 def oscillates_exactly(facts: Judged, q: Any) -> bool:
-    """Whether the equation of motion, with all its terms, is the equation of a harmonic oscillator with this frequency."""
+    """Whether the equation of motion, with all its terms, describes a harmonic oscillator with this frequency."""
     left = facts.inputs["left"]
     inertia = diff(left, rate(q, 2))
     return not inertia.has(q, rate(q)) and is_zero(left - inertia * (rate(q, 2) + explicit(facts.result) ** 2 * q))

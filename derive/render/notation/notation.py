@@ -191,8 +191,8 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots and perhaps functions. Divided by 2, such factors are
-        written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
+        """Return whether the factors are one letter without dots, with or without functions. Divided by 2, such factors
+        are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         return isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
