@@ -1,4 +1,4 @@
-"""Points at which two expressions are compared, and the values of expressions there.
+"""Points at which two expressions are compared, and the values of the expressions at these points.
 
 A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
 seed of the random numbers is computed from the expressions, so each run has the same points for the same expressions.
@@ -63,7 +63,7 @@ class NoNumber(Exception):
 
 @dataclass(frozen=True)
 class Sample:
-    """The values of two expressions at a point, and whether they agree there."""
+    """The values of two expressions at a point, and whether these values agree."""
 
     point: SamplePoint
     left: Any

@@ -144,7 +144,7 @@ class Problem:
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
         """Return the numbers of each case of a part, by the label of the case.
 
-        A case states only the numbers that differ from those of the first case.
+        A case states only the numbers that differ from the numbers of the first case.
         """
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)

@@ -54,7 +54,7 @@ class BranchLine:
 @dataclass(frozen=True)
 class Change:
     """A value of the parameter at which equilibria change their number or their stability, and the values of the
-    coordinate there."""
+    coordinate at which this happens."""
 
     at: float
     places: tuple[float, ...]
@@ -315,7 +315,9 @@ def _grid(searched: tuple[float, float], is_periodic: bool) -> list[float]:
 
 
 def _within(known: Sequence[tuple[float, bool]], grid: Sequence[float], is_periodic: bool) -> list[tuple[float, bool]]:
-    """Return the equilibria within the grid; an angle is moved there by full turns, and equal angles are one."""
+    """Return the equilibria within the grid; an angle is moved into the grid by full turns, and equal angles are
+    returned once.
+    """
     if not is_periodic:
         return [(y, state) for y, state in known if grid[0] < y < grid[-1]]
     found: list[tuple[float, bool]] = []

@@ -393,7 +393,7 @@ class Connections:
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
         """Return the floor under blocks. If a spring or a string ends at a fixed place at the height of the floor, such
-        as a wall or a pulley, the floor also ends there."""
+        as a wall or a pulley, the floor also ends at this place."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]

@@ -308,7 +308,7 @@ class Plot:
     kind, of         the kind of the quantity, and the kind of the symbol, for their units
     unit             the SI unit of a quantity without a kind
     across           the quantity on the horizontal axis of a path, along which `variable` increases
-    levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
+    levels           the curves of a phase portrait of `expr`; `label` and `unit` belong to its vertical axis
     others           curves of other quantities of the same kind in the same panel
     outlines         surfaces in the plane of a path
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
@@ -365,7 +365,7 @@ class Plot:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """Return the ends of the range; for a phase portrait or a diagram, also those of the vertical axis."""
+        """Return the ends of the range; for a phase portrait or a diagram, also the ends of the vertical axis."""
         up = (self.levels.low, self.levels.high) if self.levels else self.diagram.ends if self.diagram else ()
         return (self.lower, self.upper, *up)
 

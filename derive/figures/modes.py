@@ -62,7 +62,8 @@ class DisplacementArrow(Mark):
     at       the place of the mass
     value    its displacement, up to a factor that all masses have in common
     others   the displacements of all masses; the greatest displacement has the longest arrow
-    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts there
+    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts at the
+             mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses; None for a single mass

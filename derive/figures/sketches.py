@@ -577,7 +577,7 @@ class _Scene:
 
     def _between(self, each: Central) -> Iterable[Mark]:
         """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
-        this source, and the line between its ends unless a link is drawn there."""
+        this source, and the line between its ends, unless a link is drawn along this line."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:

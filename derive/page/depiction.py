@@ -309,7 +309,7 @@ def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[S
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each symbol of the problem that has a value for a drawing but does not occur there."""
+    """Return a warning for each symbol of the problem that has a value for a drawing in which it does not occur."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
@@ -622,8 +622,8 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch: its ends, the values there, whether it is stable, and
-    whether its values vary."""
+    """Return the names for the words about a part of a branch: its ends, the values at its ends, whether it is stable,
+    and whether its values vary."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}

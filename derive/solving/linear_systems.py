@@ -82,7 +82,7 @@ class Factor:
 
     coefficients   from the highest power down; the first coefficient is positive if its sign is known
     times          the power of the factor in the determinant
-    even           whether only even powers of omega occur; the coefficients are then those of a polynomial in omega^2
+    even           whether only even powers of omega occur; the coefficients then belong to a polynomial in omega^2
     mirrored       whether the factor also represents its mirror image, in which -omega replaces omega
     """
 

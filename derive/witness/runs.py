@@ -204,7 +204,7 @@ def _margin(claim: Claim) -> Expr | None:
 
 def slips(claim: Claim) -> Verdict | None:
     """Test whether |F| <= mu_s N if and only if the stated condition holds. If the step states where the body begins to
-    slip, test instead whether the motion first violates |F| <= mu_s N there."""
+    slip, test instead whether the motion first violates |F| <= mu_s N at this place."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")

@@ -87,7 +87,7 @@ def limiting_case(
              near
     order    the highest power of the small quantity that is kept; by default only the leading term
 
-    For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
+    For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
     omega_lim, and results computed from this symbol are approximate.
     Check: adding, multiplying and dividing power series, without a derivative, gives the same terms. Numerically, on

@@ -366,7 +366,7 @@ class Hollow(Body):
         return Hollowed(*(each.boundary for each in self.whole_and_removed()))
 
     def particles(self) -> Particles:
-        """The particles of the full body, and those of the removed body with negative masses."""
+        """The particles of the full body, and the particles of the removed body with negative masses."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 

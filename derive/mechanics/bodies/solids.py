@@ -414,7 +414,7 @@ def _by_pappus(body: Cone) -> Expr:
 
 
 def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
-    """Whether r^2 + (z - c)^2 is constant for some c: the cross-sections are those of a ball."""
+    """Whether r^2 + (z - c)^2 is constant for some c, so that the cross-sections are the cross-sections of a ball."""
     return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
 
 

@@ -248,8 +248,8 @@ def is_stretched(facts: Judged) -> bool:
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
     length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
-    contains the derivatives of r with respect to the coordinates, and a contains those of f. The length of this
-    gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
+    contains the derivatives of r with respect to the coordinates, and a contains the derivatives of f. The length of
+    this gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
     force.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))

@@ -287,7 +287,9 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the body that would slip is its name in the contact, or "body" if it has no name there."""
+    """Whether the word for the body that would slip is its name in the contact, or "body" if the contact gives it no
+    name.
+    """
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -337,7 +339,7 @@ def _as_wanted(wanted: bool, verdict: bool | None) -> bool | None:
 
 
 def _room(facts: Judged, at: Expr, point: Point) -> Expr | None:
-    """Return mu_s N - |F| at a place; None if N is not positive there, or a force is not real."""
+    """Return mu_s N - |F| at a place; None if N is not positive at this place, or a force is not real."""
     there = {**point, facts.inputs["coordinate"]: at}
     F, N, mu = (real_at(with_numbers(facts.inputs[role]), there) for role in ("friction", "normal", "coefficient"))
     return None if F is None or N is None or mu is None or not N > 0 else mu * N - abs(F)
@@ -357,7 +359,9 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive before the place and zero there, under the stated conditions."""
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place, under the stated
+    conditions.
+    """
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)
     conditions, told = assumptions_about(letters), facts.inputs.get("starts")

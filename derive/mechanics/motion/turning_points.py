@@ -135,8 +135,8 @@ def _may_end(speed: Quantity) -> str:
 def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
     """Whether a motion whose rate vanishes at the place is known to come to this place, where it turns back.
 
-    If the slope of f = q_dot^2 vanishes there too, the place is an unstable equilibrium, and the motion only approaches
-    it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
+    If the slope of f = q_dot^2 also vanishes at the place, the place is an unstable equilibrium, and the motion only
+    approaches it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
     """
     if place in (oo, -oo):
         return True

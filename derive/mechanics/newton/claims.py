@@ -131,7 +131,7 @@ def point_of_the_torques(facts: Judged, outcome: str) -> bool:
 
 
 def _letters_at(facts: Judged, place: Vector) -> list[Any]:
-    """The symbols of the forces that act at a place, and None for each known force there."""
+    """The symbols of the forces that act at a place, and None for each known force that acts at this place."""
     forces = facts.inputs["forces"]
     return [letter for at, letter in forces if all(is_zero(a - b) for a, b in zip(at, place, strict=True))]
 

@@ -374,8 +374,8 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign there if and
-    only if `sign_changes` is true."""
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign at this
+    value if and only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
         of, place = facts.quantities["of"], facts.result

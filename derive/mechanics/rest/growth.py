@@ -67,8 +67,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; then the kinetic energy is not
-    negative there."""
+    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; the kinetic energy is then not
+    negative at equilibrium."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:

@@ -1,4 +1,5 @@
-"""Stability of an equilibrium: whether the potential energy has a minimum there, and for which values of the symbols.
+"""Stability of an equilibrium: whether the potential energy has a minimum at the equilibrium, and for which values of
+the symbols.
 
 For one coordinate the curvature decides; on the boundary of stability the next nonzero order decides. For several
 coordinates the leading minors of the second derivatives decide (Sylvester's criterion).

@@ -334,8 +334,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from those
-    of the whole body if and only if `turned` is true."""
+    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from the
+    axes of the whole body if and only if `turned` is true."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]

@@ -55,7 +55,7 @@ class Trace:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a branch of a bifurcation diagram: its points, and whether the equilibrium is stable there."""
+    """A part of a branch of a bifurcation diagram: its points, and whether the equilibrium is stable on this part."""
 
     points: tuple[Spot, ...]
     is_stable: bool
