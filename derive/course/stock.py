@@ -161,8 +161,8 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader with these symbols in addition to its own. This reader and the new one replace equal numbers
-        by the same symbol."""
+        """Return a reader that knows these symbols in addition to the symbols of this reader. This reader and the new
+        one replace equal numbers by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found

@@ -455,7 +455,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
-        if size == 1:  # a friction force: its direction contains its true size
+        if size == 1:  # the direction of a friction force also contains its size
             size, direction = _size_and_direction(direction, letters)
         value = times * size.xreplace(values) if values.keys() >= {*letters} else None
         at = _beside(force) if isinstance(of, PlacedBody) else of.at

@@ -48,7 +48,7 @@ ROUND = 24.0  # the radius of the arrow of a rotation
 OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ALONG = 0.45  # a line at a mass counts as along its arrow if the sine of their angle is smaller
+ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 FREE_MOTION, TO_SCALE = "free", "to_scale"

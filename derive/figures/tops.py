@@ -70,7 +70,8 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
-    body, and the angle between these two axes. Yield nothing if the rotations are not Euler angles that all vary.
+    body, and the angle between these two axes. Yield nothing unless the rotations are Euler angles and all of them
+    vary.
 
     size   the length of the axis of the body
     """

@@ -51,7 +51,8 @@ class _Hints:
     answers         results that the parts ask for
     shown           the results on the page, and the components of vectors and tensors among them
     introduced      symbols that the statement or a hint has explained
-    worded_answers  keys of the answers that the author words; these words may give the answer away: "no, unless"
+    worded_answers  keys of the answers for which the author wrote the sentence; such a sentence may give the answer
+                    away: "no, unless"
     """
 
     steps: Sequence[Step]

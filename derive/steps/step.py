@@ -56,7 +56,7 @@ class Step:
 
     The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
     key of the exact equation. `about` is true if the step is derived from such a limit or series without having the
-    same symbol; its own symbol then only approximately equals the first line.
+    same symbol; the symbol of the step then equals the first line only approximately.
 
     Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of the theorems that state the law of the step.

@@ -502,7 +502,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum is positive if its symbol is, and otherwise that it is not zero.
+        """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero.
 
         The second assumption is left out if there are other coordinates, and if the force of the effective potential on
         them does not depend on this momentum.

@@ -360,7 +360,9 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns, if these are few, with one equation for each."""
+        """Return the substitutions that eliminate the other unknowns, with one equation for each unknown; empty if
+        there are too many.
+        """
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()

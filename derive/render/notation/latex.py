@@ -406,7 +406,9 @@ def escaped(text: str) -> str:
 
 
 def unprintable(text: str) -> int | None:
-    """Return the index of the first character that the fonts of the page do not have; None if they have all."""
+    """Return the index of the first character that the fonts of the page do not have; None if the fonts have all
+    characters.
+    """
     return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
 
 

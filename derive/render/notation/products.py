@@ -86,8 +86,8 @@ def rounded_number(text: str) -> Layout:
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
     """Split a number below 10^-4, or a round number from 10^7 on, into a power of ten and a factor from 1 to 10.
 
-    For any other number the power is 0, and the factor is the number. A number is round if it has at most four digits
-    before its zeros, or fewer digits before its zeros than zeros.
+    For any other number the power is 0, and the factor is the number. A number is round if at most four digits precede
+    its final zeros, or if fewer digits precede them than there are zeros.
     """
     power = 0
     while number and number * Integer(10) ** -power < 1:

@@ -43,8 +43,8 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values to draw with: the radius of the section of a torus, or of a hole, is a fixed fraction of the radius
-    of the body."""
+    """Return substitute values for the drawing: the radius of the section of a torus, or of a hole, is a fixed fraction
+    of the radius of the body."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
