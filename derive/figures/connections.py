@@ -59,7 +59,7 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a table in space, relative to `ball_size`
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`

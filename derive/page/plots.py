@@ -114,8 +114,8 @@ class Curves:
     is_together: bool = False
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
-        """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
-        zero.
+        """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
+        is a zero.
 
         They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
         the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.

@@ -598,8 +598,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return the steps that derive constraint forces, by the symbols of the forces; and the steps that express such
-    forces without rates, by conservation of energy along a motion."""
+    """Return two mappings from symbols of constraint forces to steps: to the steps that derive the forces, and to the
+    steps that express them without rates, by conservation of energy along a motion."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}
