@@ -30,9 +30,10 @@ REAL = 1e-6  # greatest imaginary part of a value that is real within the precis
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
 NEAR, DIGITS = 5, 40  # the rise of the energy is found at 10^-5 of the vertical axis, with 40 digits
 SHRUNK = 1e-6  # at a zero, the slope is below this fraction of its values beside it; at a pole, it is not
-# The second route also counts zeros beyond the ends of the vertical axis, by these parts of its length.
+# The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
+# length.
 WIDENED = 0.0731, 0.0917
-EDGE = 1e-5  # no zero is counted so close to the end of the range of a coordinate, in parts of the vertical axis
+EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
 FULL_TURN = 2 * exact_pi
 OFFSET = 0.01234  # the grid of a full turn begins here, because the slope may vanish at a multiple of pi
 

@@ -96,8 +96,8 @@ SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject parts that no body can have. These are a hole that is not inside the body, holes that leave nothing of the
-    body, and a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
+    """Reject parts that no body can have: a hole that is not inside the body, holes that leave nothing of the body, and
+    a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
     for part in parts:
         if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
             message = "a particle cannot be cut out of a body"

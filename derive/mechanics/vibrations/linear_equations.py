@@ -31,7 +31,7 @@ class Equations(Generic[Kind]):
     block     the indices of the coupled coordinates
     letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
-    before    how many modes of other coordinates are numbered before the modes of these coordinates
+    before    the count of the modes of other coordinates that come first in the numbering
     number    the end of the key of the characteristic equation
     """
 

@@ -44,7 +44,7 @@ class UncoupledModes:
     alone    the indices of these coordinates
     letter   the symbol of a frequency, without its index
     start    the beginning of all keys
-    before   how many modes of coupled coordinates are numbered before these modes
+    before   the count of the modes of coupled coordinates, which come first in the numbering
     """
 
     linear: Sequence[Quantity]
