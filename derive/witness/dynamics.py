@@ -211,8 +211,8 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Yield weights, each with two places: a mass with its position as both places, and a second moment with the
-        two body axes to which it belongs."""
+        """Yield triples: each mass with its position twice, and each second moment with the two body axes to which it
+        belongs."""
         for mass, place in self._weighed(at):
             yield mass, place, place
         for body, (_, _, spread) in zip(at.bodies, self._bodies, strict=True):

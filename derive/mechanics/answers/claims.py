@@ -444,8 +444,8 @@ def near_that(facts: Judged, place: Any) -> bool:
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """Whether the power is the requested order, and, for a finite limit, no higher power of the small quantity is kept.
-    For an infinite limit, also return True if no order is requested."""
+    """Whether the power is the requested order and, for a finite limit, no higher power of the small quantity is kept.
+    Also return True if no order is requested."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)

@@ -132,7 +132,7 @@ def with_variables(n: int) -> Predicate:
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
     """Whether the stated size of a cell is positive at random points, and the result is the square of this size (for a
-    solid, the size itself)."""
+    solid, the size itself up to its sign)."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)
