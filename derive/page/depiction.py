@@ -292,7 +292,7 @@ def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivati
 
 
 def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:
-    """Whether a condition does not hold for these numbers; it is not broken if a symbol has no number.
+    """Whether these numbers violate a condition; False if a symbol of the condition has no number.
 
     names   the values of the symbols that steps introduce
     """

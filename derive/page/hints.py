@@ -168,8 +168,8 @@ class _Hints:
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
         """Return whether the line shows a result. This is so if its right side is the result of some step. It is also
-        so if nothing is left to do: no symbol of another step to replace, and no integral or derivative to evaluate,
-        except those in the result."""
+        so if nothing is left to do: no symbol of another step has to be replaced, and no integral or derivative has to
+        be evaluated, except those in the result."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

@@ -368,8 +368,8 @@ class System:
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """The forces for which the script does not state the body on which they act: the part, the name of the force,
-        and the place where the force acts."""
+        """For each force for which the script does not state the body on which it acts: the part, the name of the
+        force, and the place where it acts."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property

@@ -87,9 +87,9 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
     A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
-    each place must also lie ahead of the start or, if the motion turns back first, behind it. A sentence with a
-    condition must say that contact must last if the system has a surface, or that a string must stay taut if the system
-    has a string; for any other system it must say neither.
+    each place must also lie ahead of the start or, if the motion turns back first, behind it. If the system has a
+    surface, a sentence with a condition must also require that contact lasts; if the system has a string, that the
+    string stays taut; for any other system it must require neither.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
