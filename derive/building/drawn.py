@@ -98,7 +98,8 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change its digest."""
+    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change the digest of the
+    drawing."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]

@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # of many lines before the result of a step, only this number is shown
+_MOST_LINES = 3  # the greatest number of changed lines before the result of a step that are shown
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:

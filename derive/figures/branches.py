@@ -29,7 +29,7 @@ TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at whi
 REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
 NEAR, DIGITS = 5, 40  # the rise of the energy is found at 10^-5 of the vertical axis, with 40 digits
-SHRUNK = 1e-6  # at a zero, the slope is below this fraction of its values beside it; at a pole, it is not
+SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
 # length.
 WIDENED = 0.0731, 0.0917

@@ -69,10 +69,10 @@ BEYOND = Rational(6, 5)  # the radius of a table, relative to the greatest dista
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
-ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
+ROUND = Rational(3, 5)  # angle between the vertical and the line from the centre of a circle to a body on the circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
-FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
+FAR = Rational(8, 5)  # the coordinate of a wire is drawn up to this multiple of its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 

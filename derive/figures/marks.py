@@ -346,7 +346,7 @@ class Plot:
 
     @property
     def shown(self) -> tuple[Any, ...]:
-        """Return the values that the plot shows, without those of `others`."""
+        """Return the values that the plot shows, except the values of the quantities in `others`."""
         if self.diagram is not None:
             return self.diagram.drawn
         return (self.expr,) if self.across is None else (self.across.expr, self.expr)

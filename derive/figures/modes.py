@@ -38,17 +38,18 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["draw_modes"]
 
-ANGLE = Rational(2, 5)  # about the greatest angle of displacement, in radians
-MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative to the least distance in the system
+ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
+MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
 SHORTEST = 14.0  # the length of the shortest arrow
-LONGEST = 42.0, 56.0  # the usual length of the longest arrow, and its limit if another arrow would be too short
+# The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
+LONGEST = 42.0, 56.0
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
 ROUND = 24.0  # the radius of the arrow of a rotation
 OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller
+ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller than this number
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 FREE_MOTION, TO_SCALE = "free", "to_scale"

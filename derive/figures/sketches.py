@@ -41,7 +41,7 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a curve, relative to its value in the drawing
+FAR = Rational(8, 5)  # the coordinate of a curve is drawn up to this multiple of its value in the drawing
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer

@@ -20,7 +20,8 @@ PEG = 2.2  # radius of a bare peg
 ABOVE = 0.1  # a part is "above" its pivot if its end is higher by at least this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
-MOVES, BESIDE_RAIL = 14.0, 12.0  # half the length of the double arrow of a moving support, and its distance
+# Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
+MOVES, BESIDE_RAIL = 14.0, 12.0
 ARC = (11.0, 27.0)  # least and greatest radius of an arc, unless its angle is small
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
@@ -205,7 +206,7 @@ class SurfacePiece(Surface):
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
-    below          the distance of a surface with hatches below `at`, in points: the radius of the disc of a particle
+    below          how far below `at` a surface with hatches is drawn, in points: the radius of a drawn particle
     half           half the length of the piece, in points
     """
 

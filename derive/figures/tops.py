@@ -31,7 +31,8 @@ NODES_IN_FRONT = -pi / 18
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
-CLEAR, APART = 17.0, 20.0  # extra distance of the first dimension line, and distance between these lines, in points
+# Extra distance of the first dimension line from the body, and distance between two dimension lines, in points.
+CLEAR, APART = 17.0, 20.0
 CENTRE = "C"
 
 

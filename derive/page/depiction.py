@@ -388,7 +388,8 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """Return the index of the earliest part for a drawing; None if there is no such part.
 
     If the drawing is placed before steps, the part is the one that derives the first of these steps. Otherwise the part
-    is the first one after which all steps of the drawing are derived. The index -1 means the statement.
+    is the first one after which all steps of the drawing are derived. The index -1 means that the drawing belongs to
+    the statement.
     """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)

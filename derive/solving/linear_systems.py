@@ -73,7 +73,7 @@ LAMBDA, OMEGA, S = (
 # the number of coordinates and the number of symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
-FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
+FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole numbers b below this number
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,8 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
-MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # points to try, a number for infinity, a small step
+# Number of points to try; a number for infinity; a small relative step.
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # comparison sign -> index of the bound: x_min for x >= f
 
 

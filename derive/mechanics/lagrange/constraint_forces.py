@@ -542,7 +542,7 @@ def _multiplier(
     )
 
 
-ONE_SIDED = {  # enforcer -> what it would have to do, and help
+ONE_SIDED = {  # enforcer -> what it would have to do if its force were negative, and a help line
     "surface": ("the surface would have to pull", "put the body on the other side, or describe a rail, `side: both`"),
     "string": ("the string would have to push", "describe a massless rod, which can push"),
 }

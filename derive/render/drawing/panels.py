@@ -33,7 +33,7 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
-USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
+USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
