@@ -339,7 +339,9 @@ class _Displaced:
                 yield DisplacementArrow(self._start(at), displacement, moved, *beside, room, exact, keys=keys)
 
     def _start(self, at: Location) -> Position:
-        """Return the place at which the arrow of a mass starts: its place, or the middle of a wedge or plank."""
+        """Return the place at which the arrow of a mass starts: the place of the mass, or the middle of a wedge or
+        plank.
+        """
         own = column_of(at)
         for mark in self.things:
             if isinstance(mark, WedgeMark):

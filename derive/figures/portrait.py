@@ -49,7 +49,7 @@ def portrait_of(
 
     plane    the coordinate and the momentum
     box      the ends of the ranges of the coordinate and the momentum: left, right, below, above
-    values   pairs of a value and whether its curves are thick
+    values   the values, each with `True` if its curves are thick, and `False` otherwise
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)

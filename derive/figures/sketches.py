@@ -320,7 +320,7 @@ class _Scene:
                 yield mark
 
     def _is_held(self, particle: Particle, link: Link | None) -> bool:
-        """Whether a connection holds the particle or is drawn along its link."""
+        """Whether a connection holds the particle, or is drawn along the link that leads to the particle."""
         return self.connections.holds(particle) or link is not None and self.connections.runs_along(link)
 
     def _is_drawn(self, particle: Particle, link: Link) -> bool:

@@ -342,8 +342,8 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle that does not affect the choice of the view, because the values in the drawing already turn its vertical
-    plane towards the viewer."""
+    """An angle that does not affect the choice of the view, because the values in the drawing already turn the vertical
+    plane of the angle towards the viewer."""
 
     @property
     def directions(self) -> tuple[Position, ...]:

@@ -205,7 +205,7 @@ class Formulas:
         """Warn if an equation between two formulas does not hold for the results of the page.
 
         There is no warning if the equation contains fewer than two results, because it may be a condition, such as
-        v^2 = g R. Nor is there a warning if it contains a symbol that is neither given nor derived.
+        v^2 = g R. There is also no warning if the equation contains a symbol that is neither given nor derived.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):

@@ -116,7 +116,7 @@ class _Hints:
         return (*shown, Text(f" ({name})")) if name else shown
 
     def _laws(self, sentence: Sentence) -> list[Block]:
-        """Return the laws of a sentence, after its words if the words contain no answer."""
+        """Return the laws of a sentence; if its words contain no answer, return the words and then the laws."""
         words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
         is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
         laws = self._cut(sentence, slice(1))

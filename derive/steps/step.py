@@ -50,7 +50,7 @@ class Step:
     A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
     coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
     the second root of an equation that has only one root here. `names` are the names that earlier steps introduced and
-    that occur in the lines, with their values. `motion` are the values of rates that follow from the equations of
+    that occur in the lines, with their values. `motion` contains the values of rates that follow from the equations of
     motion; a line that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law
     in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 

@@ -29,7 +29,7 @@ CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # number of sets of numbers that are tried, because it may depend on them whether a motion reaches a position
+MANY = 6  # number of sets of numbers that are tried, because a motion may not reach the position with some numbers
 # A motion begins at this fraction of the distance between its given start and the stated position, because the given
 # start may be an equilibrium.
 NUDGE = 2e-3

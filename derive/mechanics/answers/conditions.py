@@ -217,8 +217,8 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     solved relation holds above, at and below the bound. The second vector has the values that the sign of the
     difference requires.
 
-    If this sign is unknown above the bound, the result is the difference at the bound, and zero. If a positive symbol
-    would have a negative bound, the result is 1 and 0, so the check fails.
+    If this sign is unknown above the bound, return the difference at the bound, and 0. If a positive symbol would have
+    a negative bound, return 1 and 0, so that the check fails.
     """
     alone, place = found.sides
     d = Dummy("d", positive=True)

@@ -67,7 +67,9 @@ class Nested:
         return Nested(factor_terms(value), self.limits[:-1])
 
     def _parts(self, depth: int) -> list[Expr]:
-        """The factors of the integrand, grouped by the innermost variable that they contain, outermost first."""
+        """The factors of the integrand, multiplied together for each variable of integration, the outermost variable
+        first. A factor belongs to the innermost variable that it contains.
+        """
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)

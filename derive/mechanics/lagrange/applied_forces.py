@@ -129,7 +129,7 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
 
 
 def _velocity_of(place: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
-    """Return the components of a velocity, each with the sign that has no leading minus."""
+    """Return the components of a velocity; the sign of each component is chosen so that no minus sign leads."""
     found = [explicit(TimeRate(c, *moving)) for c in place]
     return [-v if v.could_extract_minus_sign() else v for v in found]
 

@@ -78,8 +78,8 @@ def _is_fixed(place: Vector, moving: Any) -> bool:
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the mass times the acceleration along the displacement of the coordinate, and not
-    against it. For an outcome at rest, the left side must be zero, and so must this product if all rates and
-    accelerations are zero."""
+    against it. For an outcome at rest, the left side must be zero, and mass times acceleration must be zero if all
+    rates and accelerations are zero."""
     way, moving = _way(facts), list(facts.inputs["moving"])
     along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
     left = explicit(facts.result).left

@@ -293,7 +293,9 @@ class Notation:
         return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
-        """Return a vector or tensor for use next to another, in brackets if needed; a final w x L has no brackets."""
+        """Return a factor of a product of vectors or tensors, in brackets if needed; w x L as the last factor has no
+        brackets.
+        """
         if not leads and begins_with_number(inner):
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)

@@ -150,7 +150,9 @@ def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
 
 
 def roots_last(terms: list[Any]) -> list[Any]:
-    """Put terms with roots of sums last if any term has a unit, so that the order is the same as in symbols."""
+    """If any term has a unit, put terms with roots of sums last. Then the sum has the same order with numbers as with
+    symbols.
+    """
 
     def is_root(term: Any) -> bool:
         return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))
