@@ -30,8 +30,8 @@ class LevelLine:
 
 @dataclass(frozen=True)
 class Portrait:
-    """A phase portrait: the range of its vertical axis, pairs of a value and whether its curves are thick, and the
-    curves of all values."""
+    """A phase portrait: the range of its vertical axis; the values, each with `True` if its curves are thick and
+    `False` otherwise; and the curves of all values."""
 
     low: float
     high: float

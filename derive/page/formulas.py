@@ -186,8 +186,8 @@ class Formulas:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
         There is no warning if the right side is zero, or a symbol or its negative: such an equation is a condition, for
-        example for resonance. Nor is there one if the right side contains a symbol that is neither given nor derived,
-        such as a rate of steady motion.
+        example for resonance. There is also no warning if the right side contains a symbol that is neither given nor
+        derived, such as a rate of steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())

@@ -55,8 +55,8 @@ class Step:
     in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 
     The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
-    key of the exact equation. `about` is true if the step is derived from such a limit or series without having the
-    same symbol; the symbol of the step then equals the first line only approximately.
+    key of the exact equation. `about` is true if the step is derived from such a limit or series, but has another
+    symbol; the symbol of the step then equals the first line only approximately.
 
     Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of the theorems that state the law of the step.
