@@ -1,4 +1,4 @@
-"""Rolling without slipping: the particle of the body at the contact has the velocity of the surface there."""
+"""Rolling without slipping: the particle of the body at the contact has the velocity of the surface at the contact."""
 
 from __future__ import annotations
 
