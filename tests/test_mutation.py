@@ -147,9 +147,9 @@ PRINTED_SOMETHING_FALSE = {  # run -> the beginnings of the ids of its mutants
         "mechanics.vibrations.about_steady_motion:frequency_squared_about: role: {'potential': about.potential",
         "mechanics.vibrations.oscillations:_rate: outcome: 'unstable' -> 'conditional'",
     ],
-    "library/spherical_pendulum": ["mechanics.answers.roots:_excluded: condition: f not in"],
     "library/thrown_plate": ["mechanics.rotation.steady:_given: outcome: 'momentary' -> 'generic'"],
     "library/turning_parabola": ["mechanics.rest.equilibria:_level_where: index: 0 -> 1 (2)"],
+    "own/conical_pendulum": ["mechanics.answers.roots:_excluded: condition: f not in"],
     "own/damped_carts": ["mechanics.vibrations.damped:_frequency: sign: Root(turned * equations.system.square(root))"],
     "own/solids": [
         "mechanics.bodies.edged_bodies:Triangle.on_base: order: (base, ZERO) -> [ZERO, base]",

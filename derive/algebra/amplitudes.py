@@ -112,8 +112,8 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
 
 
 def _places(matrix: MatrixBase, row: int, taken: tuple[int, ...]) -> tuple[int, ...]:
-    """Return a column for each row, all distinct, such that none of the chosen entries vanishes; empty if there is no
-    such choice."""
+    """Choose a different column for each row, so that no chosen entry vanishes; return an empty result if this is
+    impossible."""
     if row == matrix.shape[0]:
         return taken
     free = (j for j in range(matrix.shape[1]) if j not in taken and matrix[row, j] != 0)

@@ -107,8 +107,8 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers that the
-    symbols have there."""
+    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers of the
+    symbols at this point."""
 
     grade: Grade
     detail: str = ""

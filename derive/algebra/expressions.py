@@ -342,9 +342,9 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    The value follows from the chain rule. The partial derivative of f with respect to each coordinate, and to each rate
-    up to the second, is multiplied by the next rate. The partial derivative with respect to the time is added; it
-    includes the rates of prescribed functions.
+    The value follows from the chain rule. The partial derivative of f with respect to each coordinate, rate and
+    acceleration is multiplied by the time derivative of this coordinate, rate or acceleration. The partial derivative
+    with respect to the time is added; it includes the rates of prescribed functions.
     """
 
     def doit(self, **hints: Any) -> Expr:

@@ -148,7 +148,7 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first angle so far that is equal to this angle; otherwise the angle itself."""
+        """The first of the earlier angles that is equal to this angle; if there is none, the angle itself."""
         try:
             return super().angle(angle)
         except Outside:

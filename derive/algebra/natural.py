@@ -88,7 +88,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
     value = value.xreplace(real)
     for some in _some_of(near):
         chosen = {name: near[name] for name in some}
-        # a whole formula, such as that of a reduced mass, may also be replaced by its quantity
+        # a whole formula, such as the formula of a reduced mass, may also be replaced by its quantity
         whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
         eliminations = (each for each in _eliminations(chosen, kept) if _brings(each, value, chosen))
         for known in (whole, *eliminations):

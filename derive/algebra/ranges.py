@@ -202,7 +202,7 @@ def _ends_included(letter: Any) -> list[Expr]:
 
 
 def never_vanishes_within(expr: Expr) -> bool:
-    """Whether the assumptions and ranges of its symbols show that the expression is nowhere zero."""
+    """Whether the assumptions and the ranges of the symbols show that the expression is nowhere zero."""
     return all(
         bool(base.is_nonzero) or strict_sign_within(base) is not None
         for base in (factor.as_base_exp()[0] for factor in Mul.make_args(expr))

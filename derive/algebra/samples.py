@@ -1,4 +1,4 @@
-"""Points at which two expressions are compared, and the values of expressions there.
+"""Points at which two expressions are compared, and the values of the expressions at these points.
 
 A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
 seed of the random numbers is computed from the expressions, so each run has the same points for the same expressions.
@@ -63,7 +63,7 @@ class NoNumber(Exception):
 
 @dataclass(frozen=True)
 class Sample:
-    """The values of two expressions at a point, and whether they agree there."""
+    """The values of two expressions at a point, and whether these values agree."""
 
     point: SamplePoint
     left: Any
@@ -235,8 +235,9 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-# Largest product of an exponent and the bits of its base, because a larger power would hide the other terms of a sum;
-# for whole exponents four times this number. Also the largest argument of a function in `_GROWING`.
+# Largest size of a power: the exponent times the number of bits of the base. A larger power would hide the other terms
+# of a sum. For a whole exponent the limit is four times this number. This is also the largest argument of a function in
+# `_GROWING`.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

@@ -74,8 +74,8 @@ class SwingTimeOfNumbers(ScalarNode):
 
 
 def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | None:
-    """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive there, or if the result does not
-    converge.
+    """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive between -A and A, or if the result
+    does not converge.
 
     With q = A sin u the integrand is periodic and has the same value at u and pi - u, so the mean of equidistant
     values converges fast. The number of values is doubled until two results agree.

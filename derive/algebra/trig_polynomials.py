@@ -227,8 +227,8 @@ class TrigRing(Ring):
         return False
 
     def cleared(self, form: Form) -> Form:
-        """A multiple of the form in which no known power of a letter occurs; the last introduced letter is eliminated
-        first."""
+        """Return a multiple of the form in which each known power of a letter is replaced by the form that it equals
+        (see `related_letter`); the letter that was introduced last is replaced first."""
         for place, order, of in reversed(self._relations):
             present = self.letters_in(form.terms) & self._related
             if not present:

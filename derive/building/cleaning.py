@@ -1,4 +1,4 @@
-"""Removal of files that builds wrote: the folders of sets, or only the data stored there for later builds."""
+"""Removal of files that builds wrote: the folders of sets, or only the data in these folders for later builds."""
 
 from __future__ import annotations
 

@@ -98,7 +98,8 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change its digest."""
+    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change the digest of the
+    drawing."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -165,7 +166,7 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
     """Return a number for each symbol of a problem and of a drawing: from the entry of the drawing in the problem, from
     the given values, or a substitute number. The drawing of a normal mode also uses the numbers of the sketch of the
-    system, except those of coordinates."""
+    system, except the numbers of coordinates."""
     said = dict(placement.values) if placement else {}
     if isinstance(drawing, Drawing) and drawing.mode is not None:
         sketch = placement_of(problem, drawing.mode.like)

@@ -52,7 +52,7 @@ class Options:
     jobs: int = 0  # the number of jobs at a time; 0: as many as there are processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
-    documents: tuple[str, ...] = ()  # documents to make; empty: those of the set, see `derive.building.documents`
+    documents: tuple[str, ...] = ()  # documents to make; empty: the documents of the set, see `building.documents`
     evidence: str | None = None  # how much solutions show of their checks; default: as the set states
 
 

@@ -108,7 +108,7 @@ def _edited(problem: Problem, begun: int) -> bool:
 
 @lru_cache(maxsize=4)  # one process may need the same steps more than once
 def _kept(cache: Cache, key: str) -> Solved:
-    """Return the steps stored under a key; raise `KeyError` if nothing is stored there."""
+    """Return the steps stored under a key; raise `KeyError` if no steps are stored under it."""
     kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)

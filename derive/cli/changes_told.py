@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # of many lines before the result of a step, only this number is shown
+_MOST_LINES = 3  # the greatest number of changed lines before the result of a step that are shown
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -59,7 +59,7 @@ def told(problem_id: str, diff: Diff, coloured: bool) -> str:
 
 
 def told_of_set(set_id: str, diff: SetDiff, coloured: bool) -> str:
-    """Return the changes of the set itself, and those of each problem that has changed."""
+    """Return the changes of the set itself, and the changes of each problem that has changed."""
     each = {set_id: diff.own, **diff.problems}
     changed = [told(name, one, coloured) for name, one in each.items() if one.changes]
     return "\n\n".join(changed) or told(set_id, diff.own, coloured)

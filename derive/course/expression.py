@@ -150,7 +150,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether the first token is a number and the second its unit, as in `30 deg`, not a declared letter."""
+        """Return whether the first token is a number, and the second is a unit and not a declared letter: `30 deg`."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 

@@ -401,8 +401,8 @@ def _is_exact_angle(angle: Expr) -> bool:
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """Return the smallest entry if all entries are positive numbers and integer multiples, at most 12 times, of the
-    smallest; else None."""
+    """Return the smallest entry if all entries are positive numbers, each at most 12 times the smallest and an integer
+    multiple of it; else None."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

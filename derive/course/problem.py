@@ -144,7 +144,7 @@ class Problem:
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
         """Return the numbers of each case of a part, by the label of the case.
 
-        A case states only the numbers that differ from those of the first case.
+        A case states only the numbers that differ from the numbers of the first case.
         """
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
@@ -368,8 +368,8 @@ def deriving(problem: Problem, record: Run) -> Iterator[None]:
 
 
 def _letters_of(problem: Problem) -> set[str]:
-    """Return the names of the letters in the givens, of those that a description introduces itself, of the defined
-    letters, and of the letters with numbers."""
+    """Return the names of all letters: those in the givens, those that a description introduces, the defined ones, and
+    those with numbers."""
     own = problem.described.letters if problem.described else {}
     given = {letter.name for each in problem.givens for letter in each.letters}
     named = {each.name for each in problem.defined}

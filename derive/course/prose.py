@@ -208,7 +208,9 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _blanked(match: re.Match[str]) -> str:
-    """Return blanks for a formula or a dollar sign, and letters for a mention, because `<<x>>^2` contains LaTeX."""
+    """Replace a match before the search for LaTeX: a formula or a dollar sign by blanks, and a mention by letters,
+    because `<<x>>^2` contains LaTeX.
+    """
     return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
 
 

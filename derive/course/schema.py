@@ -164,8 +164,8 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed, or None. The words of
-    a text are not checked here."""
+    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed; None if there is no
+    such node. The words of a text are not checked here."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 

@@ -64,7 +64,7 @@ class Described:
     told      given values other than symbols, which prose can mention by their keys
     several   the names of the bodies if there are several; the name of each answer then begins with the name of a body
     results   quantities computed from answers; each has a name, and the names of the answers that it uses
-    without   keys, each with the names of the answers that do not depend on the key
+    without   a mapping from keys to the names of the answers that do not depend on the key
     assumed   relations between symbols that are assumed to hold
     methods   the methods with which the equations of motion are derived
     """
@@ -161,8 +161,8 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader with these symbols in addition to its own. This reader and the new one replace equal numbers
-        by the same symbol."""
+        """Return a reader that knows these symbols in addition to the symbols of this reader. This reader and the new
+        one replace equal numbers by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found

@@ -39,7 +39,7 @@ SHORT = 3  # the components of a point are described only if they contain at mos
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 ROUND = 10.0  # least radius of a rotation arrow, in points
-STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and of a body above the ground, in points
+STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
 
 @dataclass(frozen=True)

@@ -194,7 +194,7 @@ def _profile(boundary: Round) -> tuple[tuple[Expr, Expr], ...]:
 
 
 def widest_of(boundary: Round) -> tuple[Expr, Expr]:
-    """Return the height, in body axes, at which a round body is widest, and its radius there."""
+    """Return the height, in body axes, at which a round body is widest, and the radius at this height."""
     return max(_profile(boundary), key=lambda ring: numeric(ring[1]))
 
 
@@ -222,7 +222,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
             return []
         told = [mark.label for mark in marks]
         marks += [mark for mark in found if mark.label is None or mark.label not in told]
-    # In its plane a thin rod is drawn over the other parts, so that the whole rod is visible.
+    # If the body is drawn in its plane, thin rods are drawn over its other parts, so that they are visible as a whole.
     return sorted(marks, key=lambda mark: in_plane and isinstance(mark, ThinRod))
 
 

@@ -1,7 +1,8 @@
 """The branches of a bifurcation diagram: where each equilibrium exists, where it is stable, and where this changes.
 
 The conditions of the solution decide both. A second route then uses the potential energy alone: for many values of the
-parameter, its slope must vanish just at the branches, and it must have a minimum just at the stable ones.
+parameter, the slope of this energy must vanish at the branches and nowhere else, and the energy must have minima at the
+stable branches and nowhere else.
 """
 
 from __future__ import annotations
@@ -28,10 +29,11 @@ TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at whi
 REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
 NEAR, DIGITS = 5, 40  # the rise of the energy is found at 10^-5 of the vertical axis, with 40 digits
-SHRUNK = 1e-6  # at a zero, the slope is below this fraction of its values beside it; at a pole, it is not
-# The second route also counts zeros beyond the ends of the vertical axis, by these parts of its length.
+SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
+# The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
+# length.
 WIDENED = 0.0731, 0.0917
-EDGE = 1e-5  # no zero is counted so close to the end of the range of a coordinate, in parts of the vertical axis
+EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
 FULL_TURN = 2 * exact_pi
 OFFSET = 0.01234  # the grid of a full turn begins here, because the slope may vanish at a multiple of pi
 
@@ -53,7 +55,7 @@ class BranchLine:
 @dataclass(frozen=True)
 class Change:
     """A value of the parameter at which equilibria change their number or their stability, and the values of the
-    coordinate there."""
+    coordinate at which this happens."""
 
     at: float
     places: tuple[float, ...]
@@ -314,7 +316,9 @@ def _grid(searched: tuple[float, float], is_periodic: bool) -> list[float]:
 
 
 def _within(known: Sequence[tuple[float, bool]], grid: Sequence[float], is_periodic: bool) -> list[tuple[float, bool]]:
-    """Return the equilibria within the grid; an angle is moved there by full turns, and equal angles are one."""
+    """Return the equilibria within the grid; an angle is moved into the grid by full turns, and equal angles are
+    returned once.
+    """
     if not is_periodic:
         return [(y, state) for y, state in known if grid[0] < y < grid[-1]]
     found: list[tuple[float, bool]] = []

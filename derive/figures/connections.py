@@ -59,7 +59,7 @@ ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values for a table in space, relative to `ball_size`
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
@@ -69,10 +69,10 @@ BEYOND = Rational(6, 5)  # the radius of a table, relative to the greatest dista
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
-ROUND = Rational(3, 5)  # the angle from the vertical of a body on a circle
+ROUND = Rational(3, 5)  # angle between the vertical and the line from the centre of a circle to a body on the circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
-FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a wire, relative to its value in the drawing
+FAR = Rational(8, 5)  # the coordinate of a wire is drawn up to this multiple of its value in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 
@@ -393,7 +393,7 @@ class Connections:
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
         """Return the floor under blocks. If a spring or a string ends at a fixed place at the height of the floor, such
-        as a wall or a pulley, the floor also ends there."""
+        as a wall or a pulley, the floor also ends at this place."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]

@@ -141,7 +141,7 @@ def wedge(*corners: Any, label: Any = None) -> Mark:
 def floor(start: Any, end: Any, under: Any = None) -> Mark:
     """Hatched ground from one point to another, with its solid side below.
 
-    under   a block or a cart, whose `at` is on this line; the ground is then drawn at its base
+    under   a block or a cart, whose `at` is on this line; the ground is then drawn at the base of this part
     """
     return _ground(start, end, "down", under)
 

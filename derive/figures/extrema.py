@@ -19,7 +19,9 @@ from derive.errors import Complaint, Rejected, Unverified
 STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is inside a step, not at its end
 POLE = 1e4  # a value above POLE times the greatest value of the grid is a pole, not an extremum
 MINIMUM, MAXIMUM = "minimum", "maximum"
-NEAR_ZERO = 1e-3  # relative size of a value at the end of a range that counts as zero, if the end has three figures
+# A value at the end of the range counts as zero below this fraction of the greatest value, because the end may be
+# rounded to three figures.
+NEAR_ZERO = 1e-3
 NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
 
 

@@ -45,17 +45,19 @@ from derive.steps.trial_numbers import assumptions_about, trial_points
 
 __all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state"]
 
-LONG = Rational(4, 5)  # about the drawn length of the greatest force on a rod, relative to the size of the rod
+LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force on a rod, relative to the size of the rod
 # The drawn size of a body that is not a rod, in a plane and in space, in points. The radius of a disc in a plane is 0.7
 # times this size.
 BODY, BODY_IN_SPACE = 32.0, 20.0
-LEAST = Rational(1, 4)  # the drawn length of a small force, relative to the greatest force
-VISIBLE, LONGER = Rational(1, 2), 2  # the desired length of the least force, and the limit of its enlargement
+LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
+# All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
+# at most by the factor LONGER.
+VISIBLE, LONGER = Rational(1, 2), 2
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
-ALONG = 1.8  # the distance of a force along a surface from this surface, on the side of the body, in points
-# A round body whose weight and normal force are on one line: its drawn size in points, and the limit of the length of
-# the arrows, in units of FORCE points. Then the weight ends above the contact.
+ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
+# A round body whose weight and normal force are on one line: its drawn size in points, and the length of its longest
+# arrow, in units of FORCE points. Then the weight ends above the contact.
 STANDING, SHORT = 57.0, Rational(29, 50)
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
@@ -193,7 +195,9 @@ def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
 
 
 def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
-    """Return the horizontal distance of the point of action from the centre of mass, and its height above it."""
+    """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
+    the centre.
+    """
     x, y, _ = _vector(scene, *(drawn.at - of.centre).components)
     return abs(x), y
 
@@ -453,7 +457,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
     for force, times in Counter(acting).items():  # a string pulls a pulley twice
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
-        if size == 1:  # a friction force: its direction contains its true size
+        if size == 1:  # the direction of a friction force also contains its size
             size, direction = _size_and_direction(direction, letters)
         value = times * size.xreplace(values) if values.keys() >= {*letters} else None
         at = _beside(force) if isinstance(of, PlacedBody) else of.at

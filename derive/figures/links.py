@@ -44,7 +44,7 @@ def _pairs(a: Location, b: Location) -> zip[tuple[Expr, Expr]]:
 
 
 def moving_in(system: System, *things: Expr) -> set[Symbol]:
-    """Return the coordinates that these expressions contain, and time if they contain it."""
+    """Return the coordinates that these expressions contain, and the time if an expression contains the time."""
     known = {*system.coordinates, TIME}
     return {letter for thing in things for letter in thing.free_symbols if letter in known}
 

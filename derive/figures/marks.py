@@ -110,7 +110,7 @@ Marks: TypeAlias = Mark | Iterable["Marks"]
 class ShownMode:
     """A normal mode that a drawing shows.
 
-    frequency   the symbol of its frequency, or of the rate at which it grows
+    frequency   the symbol of the frequency or of the growth rate of the mode
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
     lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
@@ -308,7 +308,7 @@ class Plot:
     kind, of         the kind of the quantity, and the kind of the symbol, for their units
     unit             the SI unit of a quantity without a kind
     across           the quantity on the horizontal axis of a path, along which `variable` increases
-    levels           the curves of a phase portrait of `expr`; `label` and `unit` are those of its vertical axis
+    levels           the curves of a phase portrait of `expr`; `label` and `unit` belong to its vertical axis
     others           curves of other quantities of the same kind in the same panel
     outlines         surfaces in the plane of a path
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
@@ -346,7 +346,7 @@ class Plot:
 
     @property
     def shown(self) -> tuple[Any, ...]:
-        """Return the values that the plot shows, without those of `others`."""
+        """Return the values that the plot shows, except the values of the quantities in `others`."""
         if self.diagram is not None:
             return self.diagram.drawn
         return (self.expr,) if self.across is None else (self.across.expr, self.expr)
@@ -365,7 +365,7 @@ class Plot:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """Return the ends of the range; for a phase portrait or a diagram, also those of the vertical axis."""
+        """Return the ends of the range; for a phase portrait or a diagram, also the ends of the vertical axis."""
         up = (self.levels.low, self.levels.high) if self.levels else self.diagram.ends if self.diagram else ()
         return (self.lower, self.upper, *up)
 

@@ -38,17 +38,18 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["draw_modes"]
 
-ANGLE = Rational(2, 5)  # about the greatest angle of displacement, in radians
-MOVED = Rational(1, 6)  # about the greatest displacement of a length, relative to the least distance in the system
+ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
+MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
 SHORTEST = 14.0  # the length of the shortest arrow
-LONGEST = 42.0, 56.0  # the usual length of the longest arrow, and its limit if another arrow would be too short
+# The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
+LONGEST = 42.0, 56.0
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
 ROUND = 24.0  # the radius of the arrow of a rotation
 OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
-ALONG = 0.45  # a line at a mass counts as along its arrow if the sine of their angle is smaller
+ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller than this number
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 FREE_MOTION, TO_SCALE = "free", "to_scale"
@@ -62,7 +63,8 @@ class DisplacementArrow(Mark):
     at       the place of the mass
     value    its displacement, up to a factor that all masses have in common
     others   the displacements of all masses; the greatest displacement has the longest arrow
-    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts there
+    side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts at the
+             mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses; None for a single mass
@@ -337,7 +339,9 @@ class _Displaced:
                 yield DisplacementArrow(self._start(at), displacement, moved, *beside, room, exact, keys=keys)
 
     def _start(self, at: Location) -> Position:
-        """Return the place at which the arrow of a mass starts: its place, or the middle of a wedge or plank."""
+        """Return the place at which the arrow of a mass starts: the place of the mass, or the middle of a wedge or
+        plank.
+        """
         own = column_of(at)
         for mark in self.things:
             if isinstance(mark, WedgeMark):

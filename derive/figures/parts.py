@@ -162,7 +162,7 @@ class DashpotMark(_Stretched):
 
 @dataclass(frozen=True)
 class RopeMark(_Piecewise):
-    """A taut string through points; its bend at a wheel decides on which side of the wheel it passes.
+    """A taut string through points; the bend at a wheel decides on which side of the wheel the string passes.
 
     along   the points through which the string runs, in order
     radii   the radius of the wheel at each point: zero for no wheel, None for a wheel of the usual size

@@ -58,8 +58,8 @@ class Tag:
               other side
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
-    outside   for a label on a block, the distance from the spot at which the label is outside the block, in points; the
-              label is there if there is no room on the block
+    outside   for a label on a block: if the block has no room, the label is outside the block at this distance from the
+              spot, in points
     """
 
     label: Any

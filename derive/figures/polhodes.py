@@ -28,8 +28,9 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import NOUGHT, Vector, cross, dot, plus, rim, unit
 from derive.figures.surfaces import parts_where
 
-DISTANCES = (22, 44, 64)  # in degrees: the distances of the curves from their axis, towards the intermediate one
-STEPS = 144  # of a curve
+# In degrees: distances of three curves from the axis that they surround, measured towards the intermediate axis.
+DISTANCES = (22, 44, 64)
+STEPS = 144  # number of steps of a curve
 FACING = 0.3  # least cosine of the angle between the line of sight and the normal at an arrowhead
 EQUAL = 1e-3  # relative difference of two moments below which they count as equal
 EVERY = 8  # only every eighth point of the sections determines the size

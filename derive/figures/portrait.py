@@ -15,7 +15,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected
 
 STEPS = 240  # number of steps of the grid in each direction
-EDGE = 0.1  # fraction of the horizontal axis at each end; an arrowhead is there only if the whole curve is there
+EDGE = 0.1  # width of a margin, relative to the horizontal axis; only a curve within a margin has an arrowhead there
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class LevelLine:
 
 @dataclass(frozen=True)
 class Portrait:
-    """A phase portrait: the range of its vertical axis, pairs of a value and whether its curves are thick, and the
-    curves of all values."""
+    """A phase portrait: the range of its vertical axis; the values, each with `True` if its curves are thick and
+    `False` otherwise; and the curves of all values."""
 
     low: float
     high: float
@@ -48,8 +48,8 @@ def portrait_of(
     """Return the curves on which the expression has these values.
 
     plane    the coordinate and the momentum
-    box      the ends of their ranges: left, right, below, above
-    values   pairs of a value and whether its curves are thick
+    box      the ends of the ranges of the coordinate and the momentum: left, right, below, above
+    values   the values, each with `True` if its curves are thick, and `False` otherwise
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)
@@ -115,8 +115,8 @@ def _along(
 
 
 def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:
-    """Return the index of the arrowhead: where the coordinate changes fastest, away from the ends of the axis. If no
-    point of the curve is away from the ends, the arrowhead is in the middle of the curve."""
+    """Return the index of the arrowhead: where the coordinate changes fastest, among the points that are not in a
+    margin. If all points of the curve are in the margins, the arrowhead is in the middle of the curve."""
     away = (across > inner[0]) & (across < inner[1])
     if not np.any(away):
         return len(across) // 2

@@ -22,7 +22,7 @@ class PulleyRopeMark(RopeMark):
     """A taut string over pulleys of negligible radius at the corners of the string.
 
     The pulleys are drawn inside the corners, so each piece of the string has its true direction. If the string returns
-    along itself, the pulley is drawn at its place, between two parallel pieces.
+    along itself, the pulley is drawn at the corner itself, between two parallel pieces.
 
     corners   the indices of the places with such a pulley
     tied      whether each of the two ends is fixed; a fixed end may be drawn a little aside
@@ -60,8 +60,8 @@ class PulleyRopeMark(RopeMark):
 
 
 def _sense(spots: Sequence[Spot], k: int) -> float:
-    """Return the sense in which a string turns round a pulley where it reverses its direction: 1 to the left, -1 to the
-    right. The piece that leads to the pulley is on the side from which the string comes."""
+    """Return the sense in which a string turns round a pulley at which the string reverses its direction: 1 to the
+    left, -1 to the right. The piece that leads to the pulley is on the side from which the string comes."""
     along = direction(spots[k - 1], spots[k])
     offs = [_off(spot, spots[k], along) for spot in reversed(spots[: k - 1])]
     before = next((off for off in offs if abs(off) > 1e-6), -1.0)

@@ -113,7 +113,7 @@ def plot(
     shown      an expression that is drawn instead of the value of the quantity
     also       the keys of further steps that the plot shows, such as an end of the range
     unit       the SI unit of a quantity without a kind
-    above      the value of the symbol at which `shown` is zero; the label shows the difference from there
+    above      the value of the symbol at which `shown` is zero; the label shows the difference from this value
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:

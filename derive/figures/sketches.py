@@ -41,7 +41,7 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # the end of the drawn range of the coordinate of a curve, relative to its value in the drawing
+FAR = Rational(8, 5)  # the coordinate of a curve is drawn up to this multiple of its value in the drawing
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
@@ -320,7 +320,7 @@ class _Scene:
                 yield mark
 
     def _is_held(self, particle: Particle, link: Link | None) -> bool:
-        """Whether a connection holds the particle or is drawn along its link."""
+        """Whether a connection holds the particle, or is drawn along the link that leads to the particle."""
         return self.connections.holds(particle) or link is not None and self.connections.runs_along(link)
 
     def _is_drawn(self, particle: Particle, link: Link) -> bool:
@@ -577,7 +577,7 @@ class _Scene:
 
     def _between(self, each: Central) -> Iterable[Mark]:
         """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
-        this source, and the line between its ends unless a link is drawn there."""
+        this source, and the line between its ends, unless a link is drawn along this line."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:

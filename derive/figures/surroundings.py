@@ -17,10 +17,11 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 PEG = 2.2  # radius of a bare peg
-ABOVE = 0.1  # least height above a pivot of the end of a rod or a string, relative to its length, of a part "above"
+ABOVE = 0.1  # a part is "above" its pivot if its end is higher by at least this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
-MOVES, BESIDE_RAIL = 14.0, 12.0  # half the length of the double arrow of a moving support, and its distance
+# Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
+MOVES, BESIDE_RAIL = 14.0, 12.0
 ARC = (11.0, 27.0)  # least and greatest radius of an arc, unless its angle is small
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
@@ -113,9 +114,9 @@ class FixedEnd(Surface):
 
     away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
-    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, the
-            ceiling would be in its way: a pivot is then above hatched ground, and the end of a string is a bare peg,
-            because the string goes round
+    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, no
+            ceiling is drawn, because it would be in the way: a pivot is then drawn above hatched ground, and the end of
+            a string as a bare peg, because the string moves round the point
     """
 
     at: Position
@@ -205,7 +206,7 @@ class SurfacePiece(Surface):
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
-    below          the distance of a surface with hatches below `at`, in points: the radius of the disc of a particle
+    below          how far below `at` a surface with hatches is drawn, in points: the radius of a drawn particle
     half           half the length of the piece, in points
     """
 
@@ -341,8 +342,8 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle that does not affect the choice of the view, because the values in the drawing already turn its vertical
-    plane towards the viewer."""
+    """An angle that does not affect the choice of the view, because the values in the drawing already turn the vertical
+    plane of the angle towards the viewer."""
 
     @property
     def directions(self) -> tuple[Position, ...]:

@@ -31,7 +31,8 @@ NODES_IN_FRONT = -pi / 18
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
-CLEAR, APART = 17.0, 20.0  # extra distance of the first dimension line, and distance between these lines, in points
+# Extra distance of the first dimension line from the body, and distance between two dimension lines, in points.
+CLEAR, APART = 17.0, 20.0
 CENTRE = "C"
 
 
@@ -70,7 +71,8 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
-    body, and the angle between these two axes. Yield nothing if the rotations are not Euler angles that all vary.
+    body, and the angle between these two axes. Yield nothing unless the rotations are Euler angles and all of them
+    vary.
 
     size   the length of the axis of the body
     """

@@ -24,8 +24,9 @@ PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, i
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the dashed line from a point to a particle, the angle of this line, and the point, unless a spring or a
-    central force ends there. If one angle moves the particle at a constant distance, also yield its circle.
+    """Yield the dashed line from a point to a particle, and the angle of this line. Also yield the point, unless a
+    spring or a central force ends at the point. If one angle moves the particle at a constant distance, also yield its
+    circle.
 
     Along a spring, a dimension line shows the distance instead of the dashed line and the point. If the components of
     the link are coordinates, their axes are drawn instead.

@@ -98,7 +98,7 @@ def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
 
 def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:
     """Yield the initial velocity of a particle or a round body that a string, a rod or a surface guides, at its initial
-    position, and a dashed or hollow outline there, because the rest of the drawing shows a later state.
+    position, with a dashed or hollow outline at this position, because the rest of the drawing shows a later state.
 
     Yield nothing for a block, whose spring or surroundings would be covered, or if the velocity has no symbol.
     """

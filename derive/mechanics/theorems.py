@@ -56,7 +56,7 @@ MULTIPLIERS = Theorem(
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
     (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
 )
-MULTIPLIERS_OF_BOTH = Theorem(  # constraints between coordinates, and constraints between rates
+MULTIPLIERS_OF_BOTH = Theorem(  # for systems with constraints between coordinates and constraints between rates
     "multipliers_of_both",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
@@ -67,7 +67,7 @@ MULTIPLIERS_OF_BOTH = Theorem(  # constraints between coordinates, and constrain
         ("of_rate", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     ),
 )
-MULTIPLIERS_OF_RATES = Theorem(  # constraints between rates only, such as rolling
+MULTIPLIERS_OF_RATES = Theorem(  # for systems with constraints between rates only, such as rolling
     "multipliers_of_rates",
     Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",

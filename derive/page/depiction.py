@@ -292,7 +292,7 @@ def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivati
 
 
 def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:
-    """Whether a condition does not hold for these numbers; it is not broken if a symbol has no number.
+    """Whether these numbers violate a condition; False if a symbol of the condition has no number.
 
     names   the values of the symbols that steps introduce
     """
@@ -309,7 +309,7 @@ def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[S
 
 
 def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each symbol of the problem that has a value for a drawing but does not occur there."""
+    """Return a warning for each symbol of the problem that has a value for a drawing in which it does not occur."""
     found = []
     for drawing in drawings:
         placement = placement_of(problem, drawing.key)
@@ -388,7 +388,8 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
     """Return the index of the earliest part for a drawing; None if there is no such part.
 
     If the drawing is placed before steps, the part is the one that derives the first of these steps. Otherwise the part
-    is the first one after which all steps of the drawing are derived. The index -1 means the statement.
+    is the first one after which all steps of the drawing are derived. The index -1 means that the drawing belongs to
+    the statement.
     """
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
@@ -622,8 +623,8 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch: its ends, the values there, whether it is stable, and
-    whether its values vary."""
+    """Return the names for the words about a part of a branch: its ends, the values at its ends, whether it is stable,
+    and whether its values vary."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}

@@ -28,7 +28,7 @@ class Need:
 
 @dataclass(frozen=True)
 class Explanation:
-    """The explanation of a step in `part`; `own_words` is the place where the problem rewords the `sentence`.
+    """The explanation of a step in `part`; `own_words` is the place of the problem's own `wording:` for the `sentence`.
 
     A rewording may mention `names`. `names` is empty if no part shows the step, as for the numerical value of an
     answer: such a step cannot be reworded.
@@ -114,8 +114,8 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """Return the first part that asks for each answer, by the key of the answer and by the key of its numerical
-    value."""
+    """Return a mapping from the key of each answer, and from the key of its numerical value, to the first part that
+    asks for the answer."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items() if key in asked}

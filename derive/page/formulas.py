@@ -186,8 +186,8 @@ class Formulas:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
         There is no warning if the right side is zero, or a symbol or its negative: such an equation is a condition, for
-        example for resonance. Nor is there one if the right side contains a symbol that is neither given nor derived,
-        such as a rate of steady motion.
+        example for resonance. There is also no warning if the right side contains a symbol that is neither given nor
+        derived, such as a rate of steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())
@@ -205,7 +205,7 @@ class Formulas:
         """Warn if an equation between two formulas does not hold for the results of the page.
 
         There is no warning if the equation contains fewer than two results, because it may be a condition, such as
-        v^2 = g R. Nor is there a warning if it contains a symbol that is neither given nor derived.
+        v^2 = g R. There is also no warning if the equation contains a symbol that is neither given nor derived.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):

@@ -51,7 +51,8 @@ class _Hints:
     answers         results that the parts ask for
     shown           the results on the page, and the components of vectors and tensors among them
     introduced      symbols that the statement or a hint has explained
-    worded_answers  keys of the answers that the author words; these words may give the answer away: "no, unless"
+    worded_answers  keys of the answers for which the author wrote the sentence; such a sentence may give the answer
+                    away: "no, unless"
     """
 
     steps: Sequence[Step]
@@ -115,7 +116,7 @@ class _Hints:
         return (*shown, Text(f" ({name})")) if name else shown
 
     def _laws(self, sentence: Sentence) -> list[Block]:
-        """Return the laws of a sentence, after its words if the words contain no answer."""
+        """Return the laws of a sentence; if its words contain no answer, return the words and then the laws."""
         words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
         is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
         laws = self._cut(sentence, slice(1))
@@ -167,8 +168,8 @@ class _Hints:
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
         """Return whether the line shows a result. This is so if its right side is the result of some step. It is also
-        so if nothing is left to do: no symbol of another step to replace, and no integral or derivative to evaluate,
-        except those in the result."""
+        so if nothing is left to do: no symbol of another step has to be replaced, and no integral or derivative has to
+        be evaluated, except those in the result."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

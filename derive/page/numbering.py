@@ -31,7 +31,8 @@ class Numbering(dict[str, Number]):
 
     def add(self, key: str) -> None:
         """Assign a number greater than all numbers in use: the number on the page `like`, if it is greater, else the
-        next number. If the last equation later gets the number of an earlier one, its own number is assigned again."""
+        next number. If the last equation later takes over the number of an earlier equation, the number that was
+        assigned here is used again."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 

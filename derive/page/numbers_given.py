@@ -16,7 +16,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 
 
 def numbers_left(problem: Problem, shown: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return a sentence with the numbers that `shown` does not give; () if it gives all of them.
+    """Return a sentence with the numbers that `shown` does not give; () if `shown` gives all numbers.
 
     shown   the statement and the questions
     """

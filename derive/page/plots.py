@@ -114,8 +114,8 @@ class Curves:
     is_together: bool = False
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
-        """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
-        zero.
+        """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
+        is a zero.
 
         They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
         the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.
@@ -240,8 +240,8 @@ def _axis(unit: str) -> Axis:
 
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
-    """Return the ends of the range; if the engine draws the plot, the ends in `plot` already are those that the problem
-    states."""
+    """Return the ends of the range; if the engine draws the plot, the ends in `plot` are already the ends that the
+    problem states."""
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)

@@ -42,7 +42,9 @@ def pointed_out(
 
 
 def _names_of_values(step: Step, having_it: Sequence[Step], words: Phrases) -> tuple[Inline, ...]:
-    """Return each value by its names and by the symbol of its earlier line: I_1 = I_2 = I_xx and I_3 = I_zz."""
+    """Return the values, each with its names and with the symbol of the earlier line that shows it: I_1 = I_2 = I_xx
+    and I_3 = I_zz.
+    """
     letters: dict[object, Symbol] = {each.result: each.symbol for each in having_it}
     lines = listed(step.symbol, step.result)
     return joined([(Math(Relation(line.left, "=", letters[line.right])),) for line in lines], words.labels["and"])

@@ -16,7 +16,7 @@ from derive.steps.step import Level, Step
 
 Lines = tuple[Any, ...]  # the lines of a chain on the page
 Formula = tuple[Any, str, Any]
-AGAIN = ("again", "combined")  # the outcomes of a step whose sentence refers to the earlier equation
+AGAIN = ("again", "combined")  # outcomes whose sentence refers to the earlier equation
 
 
 class Stated:

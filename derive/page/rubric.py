@@ -123,7 +123,7 @@ def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fractio
 
 
 def faults_of_rubric(document: Document, said: Mapping[str, Mapping[Word, Fraction]]) -> list[Complaint]:
-    """Return an error for each step in a rubric that does not belong to its part."""
+    """Return an error for each step that is under `rubric:` of a part but does not belong to this part."""
     faults = []
     for part in document.parts_shown:
         steps = [group.key for group in _groups(part)]

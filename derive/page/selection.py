@@ -162,7 +162,7 @@ class Selection:
         return found
 
     def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps that only explain steps which the problem words itself."""
+        """Return the steps that only explain steps for which the problem has its own `wording:`."""
         found: set[str] = set()
         for step in reversed(steps) if self.worded else ():
             users = {other.key for other in steps if step.key in other.inputs}

@@ -397,7 +397,8 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
     """Return names for a step and those following steps that have no words of their own: `together` is the list of the
-    coordinates of these steps, `theta, x and y`, and `newton_together` that of the equations in the role `newton`."""
+    coordinates of these steps, `theta, x and y`, and `newton_together` is the list of the equations in the role
+    `newton`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:

@@ -27,7 +27,7 @@ LONGEST = 20  # greatest length of an unknown that is written in terms of earlie
 class Isolated:
     """The equations that give an unknown once the earlier unknowns are known.
 
-    equations   the indices of these equations, and of those by which other unknowns in them are zero
+    equations   the indices of these equations, and of the equations that make other unknowns in them zero
     eliminated  the other unknowns of these equations that are not known before this unknown
     earlier     unknowns in these equations that are found before this unknown
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short

@@ -1,4 +1,4 @@
-"""The leading terms of a result for a small symbol, a large symbol or near a value, and two methods to check them."""
+"""The leading terms of a result if a symbol is small, large or near a value, and two methods to check these terms."""
 
 from __future__ import annotations
 

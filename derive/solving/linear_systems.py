@@ -73,7 +73,7 @@ LAMBDA, OMEGA, S = (
 # the number of coordinates and the number of symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
-FINEST = 60  # the angles a pi/2b of a uniform chain are tried for b below this number
+FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole numbers b below this number
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Factor:
 
     coefficients   from the highest power down; the first coefficient is positive if its sign is known
     times          the power of the factor in the determinant
-    even           whether only even powers of omega occur; the coefficients are then those of a polynomial in omega^2
+    even           whether only even powers of omega occur; the coefficients then belong to a polynomial in omega^2
     mirrored       whether the factor also represents its mirror image, in which -omega replaces omega
     """
 

@@ -106,8 +106,8 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # number of symbols up to which squares with linear terms in them are completed
-LONGEST_SQUARED = 120  # number of operations of a quadratic form up to which squares are completed
+MOST_LETTERS = 4  # greatest number of symbols of an expression in which squares that include linear terms are completed
+LONGEST_SQUARED = 120  # greatest number of operations of a quadratic form in which squares are completed
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:

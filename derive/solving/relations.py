@@ -166,7 +166,7 @@ def without_square(condition: Relation) -> Relation:
 
 
 def _without_sign(value: Expr) -> Expr | None:
-    """The first factor whose sign is unknown, or None."""
+    """The first factor whose sign is unknown; None if all signs are known."""
     return next((f for f in Mul.make_args(tidied(value)) if sign_known(f) is None), None)
 
 

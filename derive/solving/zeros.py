@@ -61,7 +61,7 @@ class Unsolved(Exception):
 class Zero:
     """A value of the coordinate at which the force vanishes.
 
-    exists   the condition under which this value is real and in the range of the coordinate; None if it always is
+    exists   the condition under which this value is real and in the range of the coordinate; None if this is always so
     """
 
     value: Expr

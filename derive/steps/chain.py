@@ -134,8 +134,8 @@ def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
     """Check a truncated series. At the point of expansion, the series must have the value of the whole expression, and
-    its derivatives up to the order of the series must equal those of the whole expression. The series must have no term
-    beyond its order."""
+    its derivatives up to the order of the series must equal the derivatives of the whole expression. The series must
+    have no term beyond its order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -165,8 +165,8 @@ def approximation_evidence(
     The first value is the symbol of the exact expression that the result approximates, or None. The second value says
     whether the symbol of the result only approximately equals the first line. The third value is the evidence.
 
-    The symbol of a limit or a series must differ from that of the exact expression. If all approximate parents of a
-    result are limits or series with the symbol of the result, the result approximates the same exact expression. Any
+    The symbol of a limit or a series must differ from the symbol of the exact expression. If all approximate parents of
+    a result are limits or series with the symbol of the result, the result approximates the same exact expression. Any
     other result that is derived from an approximate result is itself only approximate.
     """
     last = chain[-1]

@@ -167,7 +167,7 @@ def derivation_of(
     """Divide the steps among the parts; `answers` are the keys that each part asks for.
 
     closing    the quantities of each limiting case; steps on which only limiting cases depend are in no part
-    observed   the observations of each part, which depend on steps of this part and of earlier ones
+    observed   the observations of each part, which depend on steps of this part and of earlier parts
     """
     shown: dict[str, Step] = {}
     parts = []

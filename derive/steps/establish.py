@@ -114,7 +114,8 @@ class PhraseData:
 class Scope:
     """The subject of a result, its new coordinates, and its relation to a general or exact quantity.
 
-    about         properties of the subject in addition to those of the inputs, or a function of the result that
+    about         properties of the subject in addition to the properties of the inputs, or a function of the result
+                  that
                   returns these properties
     differ        the properties in which the subjects of the inputs may differ
     coordinates   coordinates that the step introduces, with their kinds

@@ -99,8 +99,8 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Return the dimension of every name, and an error for each step that is not homogeneous or whose dimension is not
-    that of its kind.
+    """Return the dimension of every name, and an error for each step that is not homogeneous or whose dimension does
+    not fit its kind.
 
     Each symbol must be given, be a coordinate, or be introduced by a step. Any other symbol is rejected, because its
     meaning and its dependence on time are unknown; this error is reported at the place `script`.

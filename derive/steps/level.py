@@ -37,8 +37,8 @@ class Display:
     brief, standard   the manner at these levels
     told_along        whether the sentence of the step before this one may state the result of this step
     first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
-    only_explains     whether the step only explains the steps that use it, so that it is left out if the problem words
-                      these steps itself
+    only_explains     whether the step only explains the steps that use it; it is left out if the problem has its own
+                      `wording:` for these steps
     result_again      up to this level, only the result is shown if two conditions are satisfied: the step shown
                       directly before has the same rule and outcome, and a step shown earlier has the same rule and
                       kinds of lines

@@ -126,8 +126,8 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read what a call added to the record, and its result. Return None if this is not stored or cannot be read, or
-        if a question now has a different answer."""
+        """Read the result of a call, and what the call added to the record. Return None if this is not stored or cannot
+        be read, or if a question now has a different answer."""
         kept = self.store.get(key)
         if kept is None:
             return None

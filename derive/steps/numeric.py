@@ -428,7 +428,8 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
     answer       a quantity, usually a scalar with letters
     figures      the number of significant figures
-    of_vectors   whether a product of roots and pi, and a vector of numbers times letters, are also rounded
+    of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times
+                 letters
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.

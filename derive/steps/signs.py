@@ -219,5 +219,5 @@ def holds(number: Expr | int, mark: str) -> bool:
 
 def of_the_size(value: Expr, mark: str) -> Expr:
     """Return the absolute value of a difference, with the sign that the relation sign (=, < or >) requires. If the
-    relation is true, this is the difference itself."""
+    relation is true, the returned value is the difference itself."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

@@ -50,13 +50,13 @@ class Step:
     A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
     coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
     the second root of an equation that has only one root here. `names` are the names that earlier steps introduced and
-    that occur in the lines, with their values. `motion` are the values of rates that follow from the equations of
+    that occur in the lines, with their values. `motion` contains the values of rates that follow from the equations of
     motion; a line that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law
     in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 
     The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
-    key of the exact equation. `about` is true if the step is derived from such a limit or series without having the
-    same symbol; its own symbol then only approximately equals the first line.
+    key of the exact equation. `about` is true if the step is derived from such a limit or series, but has another
+    symbol; the symbol of the step then equals the first line only approximately.
 
     Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of the theorems that state the law of the step.
@@ -158,8 +158,8 @@ class Quantity:
 
     @cached_property  # cached, because quantities read the coordinates of their parents many times
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates on which the value may depend, with their kinds: those of the step, and those of its
-        parents that no fact eliminates."""
+        """Return the coordinates on which the value may depend, with their kinds: the coordinates of the step, and the
+        coordinates of its parents that no fact eliminates."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}

@@ -31,7 +31,8 @@ Point: TypeAlias = Mapping[Any, Expr]
 
 TRIED = 24  # largest number of points at which a statement is tested
 DRAWN = 240  # largest number of points that are drawn to find points that satisfy the conditions
-PAIRS, HALVINGS = 4, 10  # pairs of points, one on each side of a border; number of halvings of their distance
+# Number of pairs of points on opposite sides of a border; number of times that their distance is halved.
+PAIRS, HALVINGS = 4, 10
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
 ALLOWED = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}  # signs of (left - right)

@@ -502,7 +502,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum is positive if its symbol is, and otherwise that it is not zero.
+        """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero.
 
         The second assumption is left out if there are other coordinates, and if the force of the effective potential on
         them does not depend on this momentum.
@@ -598,8 +598,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return the steps that derive constraint forces, by the symbols of the forces; and the steps that express such
-    forces without rates, by conservation of energy along a motion."""
+    """Return two mappings from symbols of constraint forces to steps: to the steps that derive the forces, and to the
+    steps that express them without rates, by conservation of energy along a motion."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -211,7 +211,7 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Yield each mass with its position twice, and each second moment with the two body axes to which it
+        """Yield triples: each mass with its position twice, and each second moment with the two body axes to which it
         belongs."""
         for mass, place in self._weighed(at):
             yield mass, place, place

@@ -29,7 +29,7 @@ CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # number of sets of numbers that are tried: whether a motion reaches a position may depend on the numbers
+MANY = 6  # number of sets of numbers that are tried, because a motion may not reach the position with some numbers
 # A motion begins at this fraction of the distance between its given start and the stated position, because the given
 # start may be an equilibrium.
 NUDGE = 2e-3
@@ -204,7 +204,7 @@ def _margin(claim: Claim) -> Expr | None:
 
 def slips(claim: Claim) -> Verdict | None:
     """Test whether |F| <= mu_s N if and only if the stated condition holds. If the step states where the body begins to
-    slip, test instead whether the motion first violates |F| <= mu_s N there."""
+    slip, test instead whether the motion first violates |F| <= mu_s N at this place."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")

@@ -205,7 +205,8 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """Return the refutation of the stated stability; otherwise the number of equilibria (0 or 1) that were tested.
+    """Return the refutation of the stated stability; if nothing refutes it, return the number of equilibria (0 or 1)
+    that were tested.
 
     The linear motion does not refute instability if one of its eigenvalues is zero.
     """

@@ -28,6 +28,7 @@ from derive.mechanics import (
     conserved,
     constraint,
     constraint_rate,
+    contact,
     coordinate,
     couple,
     damping,
@@ -36,9 +37,9 @@ from derive.mechanics import (
     force,
     lagrangian,
     multipliers,
+    plane,
     point,
     potential,
-    rolling_constraint,
     space,
     spring,
     t,
@@ -160,9 +161,9 @@ def test_a_hoop_rolls_down_an_incline() -> None:
 
 def test_a_disc_with_the_condition_of_rolling_kept_by_friction() -> None:
     (x,), a = lengths("x"), coordinate("theta")
-    contact = point(x * cos(alpha), -x * sin(alpha))
-    disc = Disc(R, M).placed(-a, centre=contact + point(R * sin(alpha), R * cos(alpha)))
-    found = motions(disc, weight(g), *rolling_constraint(disc, at=contact, force="F"))
+    foot = point(x * cos(alpha), -x * sin(alpha))
+    disc = Disc(R, M).placed(-a, centre=foot + point(R * sin(alpha), R * cos(alpha)))
+    found = motions(disc, weight(g), *contact(disc, plane(point(0, 0), along=(cos(alpha), -sin(alpha))), rolling="F"))
     (friction,) = multipliers(*found)
     assert equal(friction.value**2, (M * g * sin(alpha) / 3) ** 2) and friction.step.kind == "force"
     assert equal(accelerations(*found)[0].value, 2 * g * sin(alpha) / 3)

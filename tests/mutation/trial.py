@@ -200,7 +200,7 @@ def each_step(then: Callable[[Any], None]) -> Iterator[None]:
             then(quantity)
 
     made = derive.steps.record.Run
-    derive.steps.record.Run = functools.partial(made, Watched())  # type: ignore[misc, assignment]
+    derive.steps.record.Run = lambda **fields: made(Watched(), **fields)  # type: ignore[misc, assignment]
     try:
         yield
     finally:

@@ -1,8 +1,8 @@
 r"""Letters and functions in a formula: the meaning of a name, and where the argument of a function ends.
 
-Without brackets, an argument is the shortest run of factors that contains a letter, `\pi` or degrees and is an angle or
-a number: `\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If there is no such run, as in `\sin 2`, the argument is all
-factors before the next sign. If the next factor could also belong to the argument, the formula is rejected.
+Without brackets, an argument is the shortest run of factors that is an angle or a number and contains a letter, `\pi`
+or degrees: `\sin 2\theta`, `\cos\theta M g`, `\sin\omega t`. If there is no such run, as in `\sin 2`, the argument is
+all factors before the next sign. If the next factor could also belong to the argument, the formula is rejected.
 """
 
 from __future__ import annotations

@@ -212,8 +212,8 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """Return the only letter of the antiderivative that the limits do not contain. Letters whose dimension differs from
-    that of the limits do not count, if dimensions are compared."""
+    """Return the only letter of the antiderivative that the limits do not contain. If dimensions are compared, letters
+    whose dimension differs from the dimension of the limits do not count."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)

@@ -41,7 +41,7 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """The data of a comparison, for a page and its JSON; `here` is true if the input is that of the problem's file."""
+    """The data of a comparison, for a page and its JSON; `here` is true if the problem's file has the same input."""
 
     facts: dict[str, Any]
     here: bool
@@ -64,7 +64,7 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # whether the input is that of the problem's file; only then does the page mention the entry
+    here: bool = True  # whether the problem's file has the same input; only then does the page mention the entry
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
@@ -91,8 +91,8 @@ Steps = Table[str, Quantity]
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
     """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
 
-    If the input of a group differs from that in the problem's file, the steps for the input of the group are derived.
-    Results of calls that are stored in `memory` are reused.
+    If a group has another input than the problem's file, the steps for the input of the group are derived. Results of
+    calls that are stored in `memory` are reused.
     """
     with within(problem.ranges):
         return _comparisons(problem, known, memory)

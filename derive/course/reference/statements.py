@@ -276,7 +276,7 @@ class _EntryReader:
     def quotes(self, entry: EntryKeys) -> tuple[str, str]:
         """Return what the document prints, and what it should print.
 
-        The first text is that of `quote:`, or else the formula of `latex:` between dollar signs. The second is the
+        The first text is the value of `quote:`, or else the formula of `latex:` between dollar signs. The second is the
         right formula between dollar signs, for an erratum with `latex:`. Both are empty for an entry that is neither an
         erratum nor a remark.
         """

@@ -109,8 +109,8 @@ def _letters(facts: Judged) -> set[Any]:
 
 
 def _only_there(facts: Judged, point: Point) -> bool:
-    """Whether no other root is a possible value of the unknown at these trial numbers. The result is also true if the
-    root of the step is complex there."""
+    """Whether no other root is a possible value of the unknown at these trial numbers. Also return True if the root of
+    the step is complex at these numbers."""
     own = complex(value_at(explicit(facts.result), point))
     there = Poly(_polynomial(facts).as_expr().xreplace(dict(point)), facts.inputs["gen"])
     numbers = sorted(roots_of(there), key=lambda root: abs(root - own))
@@ -311,7 +311,7 @@ def exact(facts: Judged) -> bool:
 
 
 def _says_what_is_kept(facts: Judged) -> bool:
-    """Whether the equation equals the kept terms up to a factor without rates and accelerations."""
+    """Whether the equation is the kept terms set to zero, up to a factor that contains no rate and no acceleration."""
     residual = explicit(facts.result).residual
     moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
     ratio = facts.inputs["kept"] / residual
@@ -444,8 +444,8 @@ def near_that(facts: Judged, place: Any) -> bool:
 
 
 def highest_power(facts: Judged, power: Any) -> bool:
-    """If an order is requested, whether the power is this order. For a finite limit, no higher power of the small
-    quantity may then be kept."""
+    """Whether the power is the requested order and, for a finite limit, no higher power of the small quantity is kept.
+    Also return True if no order is requested."""
     order, x, to = (facts.inputs[role] for role in ("order", "letter", "to"))
     if order == -1 or to in (oo, -oo):
         return order in (-1, power)

@@ -77,11 +77,12 @@ def where(
     letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Apart from positive factors,
               quantity minus bound must be linear in the unknown or in its square. For a sum or product such as 2b, the
               relation is solved for one of the letters in it
-    through   the same condition in other letters, for an intermediate line, and the results that these letters denote
+    through   a pair: the same condition in other letters, for an intermediate line; the results that these letters
+              denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
     Check: the sign of quantity minus bound, for an unknown equal to the right side of the solved relation, and for an
-    unknown at any distance above it. If the original and the solved relation differ by a factor of unknown sign, also
+    unknown greater by any amount. If the original and the solved relation differ by a factor of unknown sign, also
     random points: at each point both relations are true, or both are false.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
@@ -216,8 +217,8 @@ def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
     solved relation holds above, at and below the bound. The second vector has the values that the sign of the
     difference requires.
 
-    If this sign is unknown above the bound, the result is the difference at the bound, and zero. If a positive symbol
-    would have a negative bound, the result is 1 and 0, so the check fails.
+    If this sign is unknown above the bound, return the difference at the bound, and 0. If a positive symbol would have
+    a negative bound, return 1 and 0, so that the check fails.
     """
     alone, place = found.sides
     d = Dummy("d", positive=True)

@@ -39,7 +39,8 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
-MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)  # points to try, a number for infinity, a small step
+# Number of points to try; a number for infinity; a small relative step.
+MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # comparison sign -> index of the bound: x_min for x >= f
 
 
@@ -87,7 +88,7 @@ def limiting_case(
              near
     order    the highest power of the small quantity that is kept; by default only the leading term
 
-    For a vector or a tensor, the leading power is that of its largest entry: smaller entries are negligible. Use
+    For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
     omega_lim, and results computed from this symbol are approximate.
     Check: adding, multiplying and dividing power series, without a derivative, gives the same terms. Numerically, on

@@ -66,8 +66,8 @@ class Quadratic:
 
 @dataclass(frozen=True)
 class Roots(Fact):
-    """The quadratic equation that has the roots: its coefficients in letters, its coefficients with values substituted,
-    its unknown, and these values."""
+    """The quadratic equation of the roots: the coefficients in letters, the coefficients with values substituted, the
+    unknown, and the substituted values."""
 
     missing = "is not a root of a quadratic equation from `roots` with `together`"
     general: Quadratic

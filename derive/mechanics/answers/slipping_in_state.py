@@ -43,8 +43,8 @@ def _in_results(
 
 
 def _state(force: Quantity) -> Any:
-    """Return the linear equations from which the force was solved. For a force that comes from any other step, return
-    the rule and the inputs of this step."""
+    """Return the linear equations from which the force was solved. If the force was not solved from linear equations,
+    return the rule and the inputs of its step."""
     fact = force.fact(ForceOf)
     return fact.problem if fact is not None else (force.step.rule, force.step.inputs)
 

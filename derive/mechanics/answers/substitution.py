@@ -247,8 +247,9 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces. If the original does not contain this symbol, a root replaces its
-    unknown, and a limit or a series replaces the symbol of the result from which it was derived."""
+    """Return the symbol that a result replaces. This is the symbol of the result, if the original contains it.
+    Otherwise a root replaces the unknown of its equation, and a limit or a series replaces the symbol of the result
+    that was expanded."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -482,5 +483,5 @@ def check_values_used(key: str, values: Values, letters: set[str]) -> None:
     """Reject a value of a letter that is not among `letters`, unless this letter is a coordinate or a rate."""
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in letters | state):
-        message = f"`{key}` does not contain `{name}`, so its value has no effect"
+        message = f"`{key}` does not contain `{name}`, so a value of `{name}` has no effect"
         raise Rejected(Complaint("unused-value", message, help="leave it out", argument=f"values:{name}"))

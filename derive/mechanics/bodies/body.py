@@ -366,7 +366,7 @@ class Hollow(Body):
         return Hollowed(*(each.boundary for each in self.whole_and_removed()))
 
     def particles(self) -> Particles:
-        """The particles of the full body, and those of the removed body with negative masses."""
+        """The particles of the full body, and the particles of the removed body with negative masses."""
         whole, removed = self.whole_and_removed()
         return without(whole.particles(), removed.particles())
 
@@ -489,7 +489,7 @@ def centre_of_mass(
 
     body         a body with a mass and a region
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
-    coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
+    coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
     step derives each component that is not zero.
     Second route: the mean position of the body's equimomental particles.

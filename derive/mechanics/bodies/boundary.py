@@ -133,8 +133,8 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
     """The boundary of a position map if it is a straight line, the closed edge of a flat body in the plane of x and y,
     or an ellipsoid.
 
-    Return None for every other map. Also return None for a flat body if it has a hole or if a limit contains a
-    variable, and for an ellipsoid unless the map scales a ball of radius 1.
+    Return None for every other map. For a flat body, also return None if it has a hole, or if a limit contains a
+    variable. An ellipsoid is recognised only if the map scales a ball of radius 1.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]

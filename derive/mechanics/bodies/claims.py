@@ -100,15 +100,15 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the square of the size is the result (for a solid, the square of the result), and the size is not found
-    to be negative."""
+    """Whether the result is the square of the stated size (for a solid, the size itself up to its sign), and the size
+    is not found to be negative."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
 
 def mapped_to(facts: Judged, place: Any) -> bool:
-    """Whether det(r_i . r_j) is the result (for a solid, the square of the result); r_i is the derivative of the place
-    with respect to variable i."""
+    """Whether the result is det(r_i . r_j), or, for a solid, the result squared is this determinant. Here r_i is the
+    derivative of the place with respect to variable i."""
     names = [x for x, _, _ in facts.inputs["limits"]]
     slopes = Matrix([[diff(c, x) for x in names] for c in explicit(place)])
     square = explicit(facts.result) ** 2 if len(names) == 3 else explicit(facts.result)
@@ -131,8 +131,8 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the stated size of a cell is positive at random points, and its square is the result (for a solid, the
-    square of the result)."""
+    """Whether the stated size of a cell is positive at random points, and the result is the square of this size (for a
+    solid, the size itself up to its sign)."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)

@@ -87,7 +87,7 @@ def centre_component(
     body         a body of mass M
     axis         "x", "y" or "z": the body axis of the component
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
-    coordinates  "cartesian" or "cylindrical", if the limits of the body are known in both
+    coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
     Second route: the mean position of the body's equimomental particles.
     Check: for a body defined by a position map, a numerical sum over cells takes the place of the second route.
     Outcomes: on_axis (the body is a solid that is round about this axis), generic.
@@ -122,8 +122,8 @@ def is_round_solid(body: Any) -> bool:
 
 
 def is_its_own_image(body: Any) -> bool:
-    """Whether the body has inversion symmetry: it is not `is_lopsided`, and each of its particles at r from the centre
-    of mass has an equal partner at -r."""
+    """Whether the body has inversion symmetry: `is_lopsided` is false, and for each particle at r from the centre of
+    mass there is an equal particle at -r."""
     if body.is_lopsided:
         return False
     centre = body.middle.position

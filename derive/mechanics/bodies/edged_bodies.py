@@ -122,7 +122,7 @@ class Cuboid(EdgedBody):
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """The corners; the bits of a corner's index show which of x, y and z are not zero there."""
+        """The corners; the bits of a corner's index show which of x, y and z are not zero at this corner."""
         at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
         return tuple(column(*(end * side for end, side in corner)) for corner in at)
 
@@ -216,8 +216,8 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides whose length is a multiple of a symbol; each symbol appears in one length at most, which two equal
-        sides may have."""
+        """The sides whose length is a multiple of a symbol. Of sides with different multiples of one symbol, only the
+        first is listed."""
         found: dict[Expr, tuple[Expr, list[tuple[int, int]]]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]

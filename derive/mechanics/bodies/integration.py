@@ -67,7 +67,9 @@ class Nested:
         return Nested(factor_terms(value), self.limits[:-1])
 
     def _parts(self, depth: int) -> list[Expr]:
-        """The factors of the integrand, grouped by the innermost variable that they contain, outermost first."""
+        """The factors of the integrand, multiplied together for each variable of integration, the outermost variable
+        first. A factor belongs to the innermost variable that it contains.
+        """
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)
@@ -182,8 +184,8 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
-    """The product of the factors of a term. In a line with brackets, values and integrals of 1 come first, and each
-    integral of 1 is written as upper minus lower limit."""
+    """The product of the factors of a term. In a line with brackets, the factors that need no bracket come first:
+    values, and integrals with the integrand 1, each written as the upper minus the lower limit."""
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]

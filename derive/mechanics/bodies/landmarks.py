@@ -18,8 +18,8 @@ from derive.steps.step import is_zero
 
 
 def is_where_named(body: Any, point: Point) -> bool:
-    """Whether the axes of a point are orthonormal and right-handed, and its position passes the test for its name, if
-    there is a test for this name."""
+    """Whether the axes of a point are orthonormal and right-handed, and the point passes the test for points of this
+    name, if such a test exists."""
     upright = is_zero(point.axes.T * point.axes - point.axes**0) and is_zero(point.axes.det() - 1)
     if point.name == "centre":
         return upright and _is_centre(body, point.position)

@@ -23,8 +23,8 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS = 40  # number of points of a part that are sampled
-TWINS = 6  # number of sampled points at which other values of the variables with the same position are sought
-SHARP = 1e-6  # length added to the bounds of a part, which may be flat or straight
+TWINS = 6  # number of sampled points at which a second set of values of the variables with the same position is sought
+SHARP = 1e-6  # length added to the bounds of a part, because a part may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by more than this fraction of its range
 
 
@@ -96,8 +96,8 @@ SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what
 
 
 def check_parts(parts: Sequence[Any]) -> None:
-    """Reject parts that no body can have. These are a hole that is not inside the body, holes that leave nothing of the
-    body, and a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
+    """Reject parts that no body can have: a hole that is not inside the body, holes that leave nothing of the body, and
+    a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
     for part in parts:
         if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
             message = "a particle cannot be cut out of a body"

@@ -26,7 +26,7 @@ from derive.mechanics.bodies.regions import Bounds
 LETTERS = 2  # number of draws of the symbols
 NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
-DIGITS = 36  # significant digits in differences of positions
+DIGITS = 36  # working digits for the edges of small cells, which are differences of positions
 
 
 @lru_cache(maxsize=8)

@@ -123,7 +123,7 @@ class Region:
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
     """Symbols for coordinates, distinct from all given symbols and from each other as far as the names in `OTHERS`
-    allow; for example r, or else s."""
+    allow; for example r, or s if r is taken."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)

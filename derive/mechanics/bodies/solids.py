@@ -134,7 +134,8 @@ class Cone(Conical, RoundSolid):
         twentieths as a disc at the base; each disc has five particles.
 
         The slices of a cone have masses proportional to z^2. With the height as unit, the means of 1, z and z^2 are 1,
-        3/4 and 3/5. The heights 0, 3/4 and 1 with the weights 1/20, 16/20 and 3/20 have the same means.
+        3/4 and 3/5. The means of 1, z and z^2 over the heights 0, 3/4 and 1 with the weights 1/20, 16/20 and 3/20 are
+        the same.
         """
         found = [(self.mass / 20, ORIGIN)]
         for share, height in ((Rational(4, 5), Rational(3, 4)), (Rational(3, 20), Integer(1))):
@@ -414,7 +415,7 @@ def _by_pappus(body: Cone) -> Expr:
 
 
 def _is_of_a_ball(radius: Expr, along: Symbol) -> bool:
-    """Whether r^2 + (z - c)^2 is constant for some c: the cross-sections are those of a ball."""
+    """Whether r^2 + (z - c)^2 is constant for some c, so that the cross-sections are the cross-sections of a ball."""
     return is_zero(diff(explicit(radius) ** 2, along, 2) + 2)
 
 

@@ -136,7 +136,7 @@ class Meeting:
 
     gap          the quantity whose rate the condition determines, such as the distance along the normal; for a
                  constraint on rates, the rate itself
-    restitution  minus the ratio of the rate just after the impact to the rate just before
+    restitution  the ratio of the rate just after the impact to the rate just before, times -1
     what         "together", "elastic" or "rebound" for a collision; "kept" for a constraint of the system
     ends         the two places of a collision, and the direction of the impulse on the second place, as the author gave
                  them

@@ -129,7 +129,7 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
 
 
 def _velocity_of(place: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
-    """Return the components of a velocity, each with the sign that has no leading minus."""
+    """Return the components of a velocity; the sign of each component is chosen so that no minus sign leads."""
     found = [explicit(TimeRate(c, *moving)) for c in place]
     return [-v if v.could_extract_minus_sign() else v for v in found]
 
@@ -332,8 +332,8 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return `first - second`. Several terms of `second` are in brackets; if all of them are negative, `-second` is
-    added in brackets."""
+    """Return `first - second`. If `second` has several terms, they are written in brackets; if all of them are
+    negative, the brackets contain `-second`, with a plus sign in front."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first

@@ -248,8 +248,8 @@ def is_stretched(facts: Judged) -> bool:
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
     length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
-    contains the derivatives of r with respect to the coordinates, and a contains those of f. The length of this
-    gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
+    contains the derivatives of r with respect to the coordinates, and a contains the derivatives of f. The length of
+    this gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
     force.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
@@ -461,7 +461,8 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
         number = value_at(explicit(facts.result), point)
         if found.free_symbols:
             return False  # too few equations
-        # A result that is zero is the difference of terms with rounding errors, so their size counts as well.
+        # A result of zero is a difference of terms with rounding errors, so the tolerance also depends on the size of
+        # these terms.
         terms = max(abs(each) for each in at_zero) / max(abs(each) for row in slopes for each in row)
         apart = as_rational(found - number)
         return bool(abs(apart) <= (abs(found) + abs(number) + terms) / 10**12)

@@ -344,8 +344,9 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this relation. The sentence states it in
-        words, "with r = l and r_ddot = 0", unless it substitutes one equation into another or has no other equation."""
+        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint. The sentence states both
+        in words, "with r = l and r_ddot = 0". The mapping is empty if one equation is substituted in another, or if
+        there are no other equations."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
@@ -359,7 +360,9 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns, if these are few, with one equation for each."""
+        """Return the substitutions that eliminate the other unknowns, with one equation for each unknown; empty if
+        there are too many.
+        """
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()
@@ -539,7 +542,7 @@ def _multiplier(
     )
 
 
-ONE_SIDED = {  # enforcer -> what it would have to do, and help
+ONE_SIDED = {  # enforcer -> what it would have to do if its force were negative, and a help line
     "surface": ("the surface would have to pull", "put the body on the other side, or describe a rail, `side: both`"),
     "string": ("the string would have to push", "describe a massless rod, which can push"),
 }

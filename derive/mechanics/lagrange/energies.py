@@ -80,8 +80,8 @@ class Mover:
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
     """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
 
-    If a body has a name, the first word of this name replaces the number. The first word of the name of the system and
-    the index of the Lagrangian follow, if there are any.
+    If a body has a name, the first word of this name replaces the number. If the system has a name or the Lagrangian
+    has an index, the first word of this name and this index follow.
     """
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
@@ -318,9 +318,9 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
-    """Return the word for the parts of the kinetic energy of a single body: "both" for the energy of the centre of mass
-    and that of the rotation about it, "axis" or "point" for the rotation about a fixed axis or point alone. For any
-    other system, the word is "any"."""
+    """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
+    and the rotation about the centre of mass, "axis" or "point" for the rotation about a fixed axis or point alone. For
+    any other system, the word is "any"."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:

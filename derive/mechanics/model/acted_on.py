@@ -88,7 +88,7 @@ def _check_gradients(system: WithParts) -> None:
 
 
 def _check_partners(system: WithParts) -> None:
-    """Require the second body of a force that contains the symbol of a constraint force, such as the friction mu N.
+    """Require that the second body is stated for a force that contains the symbol of a constraint force, such as mu N.
 
     The second body exerts this force, and the opposite force acts on it. The second body need not be stated if the
     system has only one mass, or if all such forces add up to zero.

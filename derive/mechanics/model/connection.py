@@ -73,7 +73,9 @@ def end_of(given: Any) -> tuple[Location, Any]:
 
 
 def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]]) -> None:
-    """Require that each place that moves with coordinates belongs to a body or particle, because a force acts there."""
+    """Require that each place that moves with coordinates belongs to a body or particle, because a force acts at this
+    place.
+    """
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
             where = ", ".join(map(str, place.components))

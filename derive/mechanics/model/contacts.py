@@ -119,8 +119,9 @@ def contact(
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         a particle, a round body (its surface touches), or a point of a body, `rod.place_of("end")`. If a body
-               carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a table
+    of         what touches the surface: a particle, a round body, or a point of a body, `rod.place_of("end")`. If a
+               body carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a
+               table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
     normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. The
                symbol is needed if the coordinates allow the body to leave the surface

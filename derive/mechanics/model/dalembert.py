@@ -40,8 +40,8 @@ class Load:
 
     place   the components of the place; for a generalized force, the coordinate, the angle, the distance or the time
             along which it acts, as the only component
-    held    pairs of a symbol in `place` and its value; such a symbol, for example for the position of a particle in its
-            body, is constant in every displacement
+    held    pairs of a symbol in `place` and its value; such a symbol, for example a component of the position of a
+            particle in its body, is constant in every displacement
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
 

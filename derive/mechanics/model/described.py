@@ -93,7 +93,7 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move with coordinates, but not like any part of the system.
+    """The indices of the places that move with coordinates, but do not move with any part of the system.
 
     The parts are particles, bodies, and massless rods that end at a particle. The result is empty if the Lagrangian is
     given as a formula, or if the witness cannot compute the places.

@@ -1,4 +1,4 @@
-"""Rolling without slipping: the particle of the body at the contact has the velocity of the surface there."""
+"""Rolling without slipping: the particle of the body at the contact has the velocity of the surface at the contact."""
 
 from __future__ import annotations
 
@@ -6,21 +6,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Rational, Symbol, factor, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Mul, Symbol, factor
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_rates
 from derive.algebra.derivatives import derivative
-from derive.algebra.expressions import Relation, TimeRate, as_expr, column, explicit, rate, scalar, stand_in
+from derive.algebra.expressions import Relation, TimeRate, as_expr, column, explicit, rate, stand_in
 from derive.algebra.ranges import strict_sign_within
 from derive.algebra.samples import generic_rank
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected, Spelled, Unverified
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time
 from derive.mechanics.kinematics.places import Axes, Location
-from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.material import MaterialPoint, at_rest_in, material_point, particle_of
 from derive.mechanics.model.system import KnownCoordinate
 from derive.steps.establish import Lines, Scope, establish
@@ -28,7 +27,7 @@ from derive.steps.record import assume, changes, coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero
 
-__all__ = ["no_slip", "rolling_constraint"]
+__all__ = ["no_slip"]
 
 ZERO = Integer(0)
 Ground: TypeAlias = Location | Axes | PlacedBody
@@ -69,75 +68,6 @@ def no_slip(
         help_line = "leave out `fixes`, or name a coordinate whose rate has a constant coefficient"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return next(iter(found.values())) if len(found) == 1 else tuple(found.values())
-
-
-def rolling_constraint(
-    body: PlacedBody, at: Location, force: str = "lambda", ground: Ground | None = None
-) -> tuple[Constraint, ...]:
-    """Conditions of rolling as constraints, each with the symbol of its force: F if `force` is "F" and there is one
-    condition, otherwise F_1, F_2 and so on."""
-    conditions = _slips(list(_independent(body, at, ground)), contact_velocity(body, at, ground))
-    _check_against_particle(body, at, ground, conditions)
-    letters = [force] if len(conditions) == 1 else [f"{force}_{i + 1}" for i in range(len(conditions))]
-    return tuple(
-        Constraint(each, ZERO, scalar(letter), in_rates=True) for each, letter in zip(conditions, letters, strict=True)
-    )
-
-
-def _slips(conditions: list[_Condition], velocity: ImmutableMatrix) -> list[Expr]:
-    """Return the components of the slip velocity along perpendicular directions.
-
-    With these components as constraints, the multipliers are the components of the friction. The slip velocity is a sum
-    over the conditions: the left side of each condition times a vector. Orthogonalization of these vectors yields the
-    directions.
-    """
-    vectors: list[ImmutableMatrix] = []
-    for each in conditions:
-        fast = rate(each.q)
-        before = [(vector, derivative(other.left, fast)) for vector, other in zip(vectors, conditions, strict=False)]
-        own = velocity.applyfunc(lambda c, fast=fast: derivative(c, fast))
-        for vector, share in before:
-            own = own - vector * share
-        vectors.append(ImmutableDenseMatrix((own / each.factor).applyfunc(tidied)))
-    ways: list[ImmutableMatrix] = []
-    for vector in vectors:
-        across = vector
-        for way in ways:
-            across = across - way * tidied(way.dot(vector))
-        length = tidied(sqrt(tidied(across.dot(across))))
-        ways.append(ImmutableDenseMatrix((across / length).applyfunc(tidied)))
-    return [_sum_of([tidied(way.dot(vector)) for vector in vectors], conditions) for way in ways]
-
-
-def _sum_of(shares: list[Expr], conditions: list[_Condition]) -> Expr:
-    """Return the sum of the left sides of the conditions, each times its share, collected by rates.
-
-    If only one share is not zero, and this share is 1, the left side of its condition is returned unchanged.
-    """
-    parts = [(share, each.left) for share, each in zip(shares, conditions, strict=True) if share != 0]
-    if len(parts) == 1 and parts[0][0] == 1:
-        return parts[0][1]
-    whole = Add(*(share * left for share, left in parts))
-    by_rate = {rate(q): derivative(whole, rate(q)) for q in coordinates_in(whole)}
-    plain = whole.xreplace(dict.fromkeys(by_rate, ZERO))
-    return Add(*(tidied(along) * fast for fast, along in by_rate.items()), tidied(plain))
-
-
-def _check_against_particle(body: PlacedBody, at: Location, ground: Ground | None, conditions: list[Expr]) -> None:
-    """Check that the constraints are components of the slip velocity.
-
-    The constraints must vanish if and only if the slip velocity vanishes, and the sum of their squares must be the
-    square of this velocity.
-    """
-    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
-    at_rest = velocity_of_particle(body, at, ground)
-    ranks = {_rank(lines, moving) for lines in (at_rest, conditions, [*at_rest, *conditions])}
-    if len(ranks) > 1:
-        message = "the conditions of rolling are not equivalent to a contact particle at rest"
-        raise Unverified(Complaint("unverified", message))
-    if not _are_as_long(conditions, at_rest):
-        message = "the conditions of rolling are not components of the slip velocity"
-        raise Unverified(Complaint("unverified", message))
 
 
 @dataclass(frozen=True)
@@ -350,13 +280,6 @@ def _rank(lines: list[Expr], moving: list[Symbol]) -> int:
     still = dict.fromkeys(rates, ZERO)
     rows = Matrix([[*(slope(line, v) for v in rates), line.xreplace(still)] for line in lines])
     return generic_rank(rows)
-
-
-def _are_as_long(components: list[Expr], vector: list[Expr]) -> bool:
-    """Whether two lists have the same sum of squares, numerically at a generic point."""
-    apart = Add(*(c**2 for c in components), *(-(c**2) for c in vector))
-    there = {s: Rational(5 * i + 3, 3 * i + 8) for i, s in enumerate(sorted(apart.free_symbols, key=str))}
-    return bool(abs(apart.xreplace(there).evalf(30)) < Rational(1, 10**15))
 
 
 def _all_rates(body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None) -> dict[Symbol, Expr]:

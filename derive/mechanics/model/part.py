@@ -51,8 +51,8 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """Pairs of the name of the force, such as "spring", and a place where the part acts on an object that the
-        script does not state."""
+        """The forces of the part for which the script does not state the object on which they act: for each, its name,
+        such as "spring", and its place."""
         return ()
 
     def weighed(self, gravity: Expr) -> Sequence[Any]:

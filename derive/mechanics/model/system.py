@@ -368,8 +368,8 @@ class System:
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """The forces for which the script does not state the body on which they act: the part, the name of the force,
-        and the place where the force acts."""
+        """For each force for which the script does not state the body on which it acts: the part, the name of the
+        force, and the place where it acts."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
@@ -418,7 +418,7 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
     if found is None:
         message = f"`{condition.key}` does not express one coordinate by others, so it cannot be a part of a `System`"
         help_line = Spelled(
-            "enforce a rolling condition that cannot be integrated: `*rolling_constraint(...)`",
+            'if the rolling condition cannot be integrated, use a contact: `*contact(..., rolling="F")`',
             "give the symbol of the friction that enforces the condition, `friction: {rolling: F}`",
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
@@ -447,8 +447,8 @@ def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
 def _with_branches(system: System) -> tuple[Part, ...]:
     """Return the parts; a potential of a distance |u| gets a branch, u or -u, if there is a natural choice.
 
-    A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length
-    there, or all forces with a potential energy balance there. The coordinates are then displacements from this
+    A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length in
+    this position, or all forces with a potential energy balance. The coordinates are then displacements from this
     position, as for carts at x_1 and d + x_2, and the page states that u keeps its sign. Otherwise no branch is
     chosen, as for a cart at x with a spring to a wall at d: |x - d| remains, and equations for x are solved for both
     signs.
@@ -467,7 +467,7 @@ def _near_rest(each: Central) -> Central | None:
     """The potential with the branch that is positive where all coordinates are zero.
 
     If the line between the two places has no fixed direction, the potential is unchanged. If neither u nor -u is known
-    to be positive there, or if u contains no coordinates, the result is None.
+    to be positive where all coordinates are zero, or if u contains no coordinates, the result is None.
     """
     if each.along is None:
         return each

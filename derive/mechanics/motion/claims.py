@@ -87,9 +87,9 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
     A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
-    each place must also lie ahead of the start or, if the motion turns back first, behind it. A sentence with a
-    condition must say that contact must last if the system has a surface, or that a string must stay taut if the system
-    has a string; for any other system it must say neither.
+    each place must also lie ahead of the start or, if the motion turns back first, behind it. If the system has a
+    surface, a sentence with a condition must also require that contact lasts; if the system has a string, that the
+    string stays taut; for any other system it must require neither.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -287,7 +287,9 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the body that would slip is its name in the contact, or "body" if it has no name there."""
+    """Whether the word for the body that would slip is its name in the contact, or "body" if the contact gives it no
+    name.
+    """
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -308,7 +310,7 @@ def sticks_where(wanted: bool | None) -> Predicate:
     """Judge whether, numerically, |F| <= mu_s N if and only if the result holds.
 
     For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
-    for one of the two signs of F, numbers with the other sign are not tested, but F must have both signs.
+    for one of the two signs of F, numbers with the other sign are not tested, but both signs must occur.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -337,7 +339,7 @@ def _as_wanted(wanted: bool, verdict: bool | None) -> bool | None:
 
 
 def _room(facts: Judged, at: Expr, point: Point) -> Expr | None:
-    """Return mu_s N - |F| at a place; None if N is not positive there, or a force is not real."""
+    """Return mu_s N - |F| at a place; None if N is not positive at this place, or a force is not real."""
     there = {**point, facts.inputs["coordinate"]: at}
     F, N, mu = (real_at(with_numbers(facts.inputs[role]), there) for role in ("friction", "normal", "coefficient"))
     return None if F is None or N is None or mu is None or not N > 0 else mu * N - abs(F)
@@ -357,7 +359,9 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive before the place and zero there, under the stated conditions."""
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place, under the stated
+    conditions.
+    """
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)
     conditions, told = assumptions_about(letters), facts.inputs.get("starts")

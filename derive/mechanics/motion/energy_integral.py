@@ -223,7 +223,7 @@ def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
     """Rate of a coordinate, the root of the squared rate, with the sign that the rate has just after the start.
 
     squared   the squared rate q_dot^2, a result of `speed_from_energy`
-    The sign is that of the initial rate or, at a start from rest, that of the acceleration.
+    The result has the sign of the initial rate; at a start from rest, it has the sign of the acceleration.
     Check: the square of the result is q_dot^2.
     Outcomes: grows (the coordinate increases from the start), falls (the coordinate decreases from the start), size
     (the result is |q_dot|, because the sign is unknown).

@@ -63,8 +63,8 @@ class Arrival:
     place      the value of `unknown` at the place, which may be infinite
     reached    the condition under which the motion reaches the place; None if the motion always reaches it
     is_found   whether the place was derived from this motion; then `reached` is None
-    sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if it does not, or
-               if the motion starts from rest
+    sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if the result does
+               not contain it, or if the motion starts from rest
     turned     whether the motion turns back before it comes to the place; the rate then has the opposite sign there
     lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
                the tension of a string, "" if there is no such constraint

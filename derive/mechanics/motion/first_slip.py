@@ -62,8 +62,8 @@ class Motion:
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the place is in the range of the coordinate, and the squared rate is negative at none of the places
-        tried on the way there."""
+        """Whether the place is in the range of the coordinate, and the squared rate is not negative at any tried place
+        on the way from the start to this place."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False

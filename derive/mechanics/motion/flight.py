@@ -527,7 +527,7 @@ def _fixed_plane(on: Surface) -> Plane:
 
 
 def _time_back(known: InFlight) -> Expr | None:
-    """Return the time at which the particle meets its circle again; None if it does not."""
+    """Return the time at which the particle meets its circle again; None if it never meets the circle again."""
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):

@@ -71,8 +71,8 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start, where the force is positive
     The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
-    f must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
-    If f cannot be positive there, contact is not lost.
+    f must be positive at the place. If the sign of f at the place depends on the symbols, the page states the condition
+    f > 0. If f cannot be positive at the place, contact is not lost.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
     Check: the force is zero at the place and positive between the start and the place. If factors are omitted, the
     force must also be numerically positive before the place and negative beyond it. Witness: the motion of the
@@ -123,8 +123,8 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     existing = existence(force, result)
 
     def on_both_sides(found: Relation) -> tuple[object, object]:
-        """Check that N divided by its omitted factors vanishes at the place, and is linear in the unknown from there to
-        the start."""
+        """Check that N divided by its omitted factors vanishes at the place, and is linear in the unknown between the
+        place and the start."""
         place = explicit(found.right)
         u = part_of_the_way()
         on_the_way = tidied(with_unknown(pushing, unknown, place + u * (begin - place)))

@@ -159,7 +159,8 @@ def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: boo
 
 
 def _sign_of_difference(relation: Relation) -> int | None:
-    """Return the sign of the left side minus the right side for all values of the symbols; None if it is unknown."""
+    """Return the sign of (left side - right side) if it is the same for all values of the symbols; None if it is
+    unknown."""
     left, right = (sign_for_all(tidied(explicit(side))) for side in relation.sides)
     if {left, right} == {1, -1}:
         return left

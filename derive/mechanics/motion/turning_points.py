@@ -73,7 +73,8 @@ def arrivals(
     """Return how motions come to the places at which a result is evaluated.
 
     of, others   the result, and other results that are substituted in it
-    places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression there
+    places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the
+                 place
     limit        a function that returns the limit of f at the place, as for `condition_to_reach`
     If one of the other results was derived from this motion, such as the place of a first slip, its step already states
     the condition; the `Arrival` then has none.
@@ -134,8 +135,8 @@ def _may_end(speed: Quantity) -> str:
 def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
     """Whether a motion whose rate vanishes at the place is known to come to this place, where it turns back.
 
-    If the slope of f = q_dot^2 vanishes there too, the place is an unstable equilibrium, and the motion only approaches
-    it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
+    If the slope of f = q_dot^2 also vanishes at the place, the place is an unstable equilibrium, and the motion only
+    approaches it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
     """
     if place in (oo, -oo):
         return True

@@ -78,8 +78,8 @@ def _is_fixed(place: Vector, moving: Any) -> bool:
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the mass times the acceleration along the displacement of the coordinate, and not
-    against it. For an outcome at rest, the left side must be zero, and so must this product if all rates and
-    accelerations are zero."""
+    against it. For an outcome at rest, the left side must be zero, and mass times acceleration must be zero if all
+    rates and accelerations are zero."""
     way, moving = _way(facts), list(facts.inputs["moving"])
     along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
     left = explicit(facts.result).left
@@ -131,7 +131,7 @@ def point_of_the_torques(facts: Judged, outcome: str) -> bool:
 
 
 def _letters_at(facts: Judged, place: Vector) -> list[Any]:
-    """The symbols of the forces that act at a place, and None for each known force there."""
+    """The symbols of the forces that act at a place, and None for each known force that acts at this place."""
     forces = facts.inputs["forces"]
     return [letter for at, letter in forces if all(is_zero(a - b) for a, b in zip(at, place, strict=True))]
 

@@ -42,7 +42,7 @@ class Observation:
 
     name    the name by which an author chooses it
     found   a function that yields the steps of this kind about the answers of a part
-    at_end  whether the page states the observation in the last part with such an observation, not in the first
+    at_end  whether the page states an observation of this kind in the last part that has one, not in the first
     """
 
     name: str

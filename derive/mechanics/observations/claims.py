@@ -374,8 +374,8 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign there if and
-    only if `sign_changes` is true."""
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign at this
+    value if and only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
         of, place = facts.quantities["of"], facts.result
@@ -489,7 +489,7 @@ def is_in_both(facts: Judged, letter: Symbol) -> bool:
 
 
 def is_fraction_of_the_familiar(facts: Judged) -> bool:
-    """Whether, at all trial points, the magnitude of the acceleration is the result times that of the familiar
+    """Whether, at all trial points, the magnitude of the acceleration is the result times the magnitude of the familiar
     acceleration. The result must be a rational number between 0 and 1."""
     of, familiar = explicit(facts.quantities["of"].value), facts.inputs["familiar"]
     part = facts.result

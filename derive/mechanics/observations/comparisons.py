@@ -266,7 +266,7 @@ REDUCED = Rule(
 
 
 def reduced(view: View) -> Observed:
-    """Equations of relative motion that are those of one particle with the reduced mass."""
+    """Equations of relative motion that are the equations of one particle with the reduced mass."""
     masses = view.of_kind("mass")
     if len(masses) != 2:
         return

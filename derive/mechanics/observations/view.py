@@ -42,7 +42,7 @@ class View:
         return [letter for letter, own in self.letters.items() if own == kind]
 
     def in_order(self, symbols: Collection[Any]) -> list[Symbol]:
-        """Return those of the symbols that are given, in the order of the problem."""
+        """Return the given symbols among these, in the order of the problem."""
         return [letter for letter in self.letters if letter in symbols]
 
     def values(self, *kinds: str) -> Iterator[Quantity]:

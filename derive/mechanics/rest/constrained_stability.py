@@ -69,7 +69,9 @@ class Allowed:
 
     @cached_property
     def multipliers(self) -> list[Expr] | None:
-        """Return the multipliers in grad U = sum of lambda grad f; None if a force remains along the constraints."""
+        """Return the multipliers in grad U = sum of lambda grad f; None if the forces do not balance along the allowed
+        displacements.
+        """
         slopes = ImmutableDenseMatrix([self.there(derivative(self.energy, q)) for q in self.coordinates])
         if any(not is_zero((way.T * slopes)[0]) for way in self.ways):
             return None
@@ -88,7 +90,7 @@ class Allowed:
         return ImmutableDenseMatrix([[tidied((a.T * second * b)[0]) for b in self.ways] for a in self.ways])
 
     def along_curves(self) -> MatrixBase:
-        """Return the matrix `matrix` from the energy along curves on the constraints, without multipliers."""
+        """Return the same matrix as `matrix`, from the energy along curves on the constraints, without multipliers."""
         count = len(self.ways)
         squares = {}
         for i, j in product(range(count), repeat=2):
@@ -150,8 +152,8 @@ class OnConstraints:
 
         Second route: the energy along curves that stay on the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
-        Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; a force along
-        the constraints remains at these values.
+        Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; at these
+        values the forces do not balance along the allowed displacements.
         Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
         Programming*, section 11.5.
         """

@@ -347,8 +347,8 @@ def _term_by_term(force: Expr, q: Symbol) -> Expr:
 
 
 def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol]:
-    """Return the only coordinate with the key `steady` if U contains conserved momenta. If U does not, or if there are
-    several coordinates, return an empty mapping."""
+    """Return the only coordinate, under the key `steady`, if U contains conserved momenta. Return an empty mapping if U
+    contains none, or if there are several coordinates."""
     seen = potential.fact(SeenWith)
     if seen is None or not seen.constants or len(sought) != 1:
         return {}
@@ -395,9 +395,9 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that none of the factors of the force that do not contain q is zero.
+    """Return the condition that no factor of the force without q is zero.
 
-    If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q may be
+    If a factor without q is zero, every value of q is an equilibrium. The result is None if no factor without q can be
     zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))

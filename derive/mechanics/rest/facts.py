@@ -64,9 +64,9 @@ class StableWhere(Fact):
 
     energy         the potential energy, J
     place          the equilibrium value of the coordinate
-    border         a symbol and its value on the boundary of the condition; None if no order decides there
+    border         a symbol and its value on the boundary of the condition; None if no order decides on the boundary
     stable_there   whether the equilibrium is stable on the boundary, where a higher order decides; None if no order
-                   decides there
+                   decides
     """
 
     missing = "is not a result of `stability` that depends on a condition"

@@ -48,7 +48,7 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
     points   numbers for the symbols of the energy, such that the energy falls in some direction
 
     If gyroscopic forces act, all points are tried with several values of the other symbols; otherwise a few points are
-    enough. Numbers for which `_motion` gives no matrices are skipped; the result is also true if none are left.
+    enough. Numbers for which `_motion` gives no matrices are skipped; the result is also true if no numbers are left.
     """
     tried = 0
     for point in points:
@@ -67,8 +67,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; then the kinetic energy is not
-    negative there."""
+    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; the kinetic energy is then not
+    negative at equilibrium."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:

@@ -60,7 +60,7 @@ def on_its_side(state: State, lengths: Sequence[Expr]) -> State | None:
 
 
 def _follows(condition: Relation, other: Relation) -> bool:
-    """Whether the condition holds wherever the other one holds."""
+    """Whether `condition` is true wherever `other` is true."""
     return sign_where(condition.residual, other) == (1 if condition.operator[0] == ">" else -1)
 
 

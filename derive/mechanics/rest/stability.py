@@ -1,4 +1,5 @@
-"""Stability of an equilibrium: whether the potential energy has a minimum there, and for which values of the symbols.
+"""Stability of an equilibrium: whether the potential energy has a minimum at the equilibrium, and for which values of
+the symbols.
 
 For one coordinate the curvature decides; on the boundary of stability the next nonzero order decides. For several
 coordinates the leading minors of the second derivatives decide (Sylvester's criterion).
@@ -469,7 +470,6 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
         turned = derivative(matter.momentum_along(p), q) - derivative(matter.momentum_along(q), p)
         turned += derivative(matter.other_force_along(p), rate(q)) - derivative(matter.other_force_along(q), rate(p))
         if not is_zero(turned.xreplace(still).xreplace(dict(place.values))):
-            message = f"`stability`: `{place.potential.key}` need not have a minimum there, depending on the values"
-            message += f" of the symbols, but forces linear in the rates of {q.name} and {p.name} may stabilise"
-            message += " the equilibrium"
+            message = f"`stability`: `{place.potential.key}` need not have a minimum at the equilibrium, but"
+            message += f" forces linear in the rates of {q.name} and {p.name} may stabilise the equilibrium"
             raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))

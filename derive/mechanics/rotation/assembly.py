@@ -2,7 +2,7 @@
 orientation, and cavities.
 
 The tensor of each part about its centre of mass is rotated to the axes of the whole body and shifted by the
-parallel-axis theorem. The shifted tensors of the parts are added; those of cavities are subtracted.
+parallel-axis theorem. The shifted tensors of the parts are added; the tensors of cavities are subtracted.
 """
 
 from __future__ import annotations

@@ -334,8 +334,8 @@ def all_is_added(facts: Judged) -> bool:
 
 
 def moved(moved: bool, turned: bool) -> Predicate:
-    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from those
-    of the whole body if and only if `turned` is true."""
+    """Judge whether the part is displaced if and only if `moved` is true. The axes of the part must differ from the
+    axes of the whole body if and only if `turned` is true."""
 
     def is_so(facts: Judged) -> bool:
         way, turn = facts.inputs.get("way"), facts.inputs["turn"]
@@ -481,9 +481,9 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
-    to the axis of the part. If no axis of the whole body is parallel, the index must be "axial", and the sentence must
-    not name an axis of the whole body. If the step is not about a part of a whole, the sentence must not name such an
-    axis.
+    to the axis of the part. If the axis of the part is not parallel to any axis of the whole body, the index must be
+    "axial", and the sentence must not name an axis of the whole body. If the step is not about a part of a whole, the
+    sentence must not name such an axis.
     The sentence may mention a position map only if a position map defines the body."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:

@@ -162,7 +162,8 @@ class RigidBody(Placeable, OfParticles):
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
         """Return six particles, at +1 and -1 on each axis, which together have the second moments of the body about the
-        origin. Their mass and their centre of mass may differ from those of the body."""
+        origin. The mass and the centre of mass of these particles may differ from the mass and the centre of mass of
+        the body."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 

@@ -429,8 +429,8 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must also vanish
-    there if `times` is greater than 1, and must not vanish if `times` is 1."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must also vanish at
+    this value if `times` is greater than 1, and must not vanish if `times` is 1."""
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)
@@ -611,7 +611,7 @@ SIGNS: dict[str, Predicate] = {
 
 
 def oscillates_exactly(facts: Judged, q: Any) -> bool:
-    """Whether the equation of motion, with all its terms, is that of a harmonic oscillator with this frequency."""
+    """Whether the equation of motion, with all its terms, describes a harmonic oscillator with this frequency."""
     left = facts.inputs["left"]
     inertia = diff(left, rate(q, 2))
     return not inertia.has(q, rate(q)) and is_zero(left - inertia * (rate(q, 2) + explicit(facts.result) ** 2 * q))
@@ -724,8 +724,8 @@ def _in_equation(equation: Any) -> set[Any]:
 
 
 def _are_one_group(equations: Sequence[Any]) -> bool:
-    """Whether the equations contain as many displacements as there are equations, and each equation is coupled to each
-    other one, directly or through other equations."""
+    """Whether the equations contain as many displacements as there are equations, and any two of the equations are
+    coupled, directly or through others."""
     contained = list(map(_in_equation, equations))
     group = contained.pop(0)
     while near := [each for each in contained if each & group]:

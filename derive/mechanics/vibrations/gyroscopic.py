@@ -328,8 +328,8 @@ def linear_stability(
     equilibrium unstable.
     Second route: the determinant is also computed by substituting cosines and sines into the equations. Check: on the
     boundary of a condition, two roots of this determinant coincide, or one root vanishes.
-    Outcomes: stable, unstable, depends. Of several conditions, each is a step with one of the outcomes first, further,
-    last.
+    Outcomes: stable, unstable, depends. If there are several conditions, each is a separate step with the outcome
+    first, further or last.
     Errors: there is drag; the determinant does not factor, or has a zero or repeated root and U has no minimum.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 3.12 and 5.7.
     """

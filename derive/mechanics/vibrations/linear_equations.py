@@ -31,7 +31,7 @@ class Equations(Generic[Kind]):
     block     the indices of the coupled coordinates
     letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
-    before    the number of the modes that belong to other coordinates and have lower numbers
+    before    the count of the modes of other coordinates that come first in the numbering
     number    the end of the key of the characteristic equation
     """
 

@@ -336,7 +336,8 @@ def _unknown_driving(equation: Quantity, term: Expr) -> Rejected:
 def _of_power(linear: LinearCoefficients, power: Expr) -> Expr:
     """Return the motion under a force that is a polynomial in t, by the method of undetermined coefficients.
 
-    The motion is a polynomial in t. It has the factor t if c = 0 but b is not zero, and the factor t^2 if b = c = 0.
+    The motion is a polynomial in t. The polynomial has the factor t if c = 0 but b is not zero, and the factor t^2 if
+    b = c = 0.
     """
     degree = power.as_poly(TIME).degree() if depends_on_time(power) else 0
     lowest = 0 if linear.c != 0 else 1 if linear.b != 0 else 2

@@ -44,7 +44,7 @@ class UncoupledModes:
     alone    the indices of these coordinates
     letter   the symbol of a frequency, without its index
     start    the beginning of all keys
-    before   the number of the modes of coupled coordinates, which have the lower numbers
+    before   the count of the modes of coupled coordinates, which come first in the numbering
     """
 
     linear: Sequence[Quantity]
@@ -55,7 +55,7 @@ class UncoupledModes:
 
     def found(self) -> list[Quantity]:
         """Return a frequency for each of these coordinates; if these are all coordinates of the system, and their
-        frequencies are equal, return it only once."""
+        frequencies are equal, return a single frequency."""
         whole = self.linear[0].needed(Linear)
         roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in self.alone}
         order = sorted(self.alone, key=lambda i: in_order(roots[i]))

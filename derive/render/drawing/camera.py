@@ -139,8 +139,8 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
 
     A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise polhodes have
     a view of `FROM_A_CORNER`, a drawing at a given time has the usual view, and a drawing without vectors has the view
-    of `_open_view`. For any other drawing, it is the one of several views in which vectors are long and far apart and
-    do not end at corners.
+    of `_open_view`. For any other drawing, several views are tried, and the view is chosen in which vectors are long
+    and far apart and do not end at corners.
 
     `reach` is the size of the bodies.
     """

@@ -25,7 +25,7 @@ MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks o
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
-BARELY = 0.02  # greatest part of the height of a curve on the other side of zero for which zero has no line
+BARELY = 0.02  # no line at zero if at most this part of the height of a curve is on the other side of zero
 MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 # Part of the vertical axis of a diagram, at its lower end, without numbers, because the numbers of the horizontal axis
@@ -33,7 +33,7 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
-USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
+USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
@@ -55,7 +55,7 @@ class Trace:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a branch of a bifurcation diagram: its points, and whether the equilibrium is stable there."""
+    """A part of a branch of a bifurcation diagram: its points, and whether the equilibrium is stable on this part."""
 
     points: tuple[Spot, ...]
     is_stable: bool
@@ -188,8 +188,8 @@ def curve_panel(
 
 
 def _point(at: float, value: float, is_zero: bool, curves: Curves) -> tuple[Spot, str]:
-    """Return a point of a panel with its name: the value on the horizontal axis and, unless it is a zero, that on the
-    vertical axis."""
+    """Return a point of a panel with its name: the value on the horizontal axis and, unless the point is a zero, the
+    value on the vertical axis."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     told = [to_three_figures(x, curves.variable.unit), *([] if is_zero else [to_three_figures(y, curves.up.unit)])]
     return (x, y), "$" + r",\;\;".join(map(_mathtext_of_value, told)) + "$"

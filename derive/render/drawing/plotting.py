@@ -6,7 +6,8 @@ path have the same unit, both axes have the same scale.
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
 names are in a legend in a corner of the panel or, if no corner is free, above the panel.
 
-Numbers and names have the font of the page. The name of a maximum is above the curve, and that of a minimum below it.
+Numbers and names have the font of the page. The name of a maximum is above the curve, and the name of a minimum is
+below the curve.
 """
 
 from __future__ import annotations

@@ -148,8 +148,8 @@ def _flat(item: Layout) -> Layout:
 
 
 def _with_stroke(item: Layout) -> Layout:
-    """Return a fraction written a/b, if numerator and denominator are simple enough. In brackets, under roots and above
-    subscripts, write the fractions inside in this way; return any other item unchanged."""
+    """Write a fraction as a/b, if numerator and denominator are simple enough. Write fractions within brackets, under
+    roots and above subscripts in the same way. Return any other item unchanged."""
     match item:
         case Fenced():
             return _with_strokes(item)
@@ -406,7 +406,9 @@ def escaped(text: str) -> str:
 
 
 def unprintable(text: str) -> int | None:
-    """Return the index of the first character that the fonts of the page do not have; None if they have all."""
+    """Return the index of the first character that the fonts of the page do not have; None if the fonts have all
+    characters.
+    """
     return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
 
 

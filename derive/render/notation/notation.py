@@ -191,8 +191,8 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots and perhaps functions. Divided by 2, such factors are
-        written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
+        """Return whether the factors are one letter without dots, with or without functions. Divided by 2, such factors
+        are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         return isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
@@ -293,7 +293,9 @@ class Notation:
         return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
-        """Return a vector or tensor for use next to another, in brackets if needed; a final w x L has no brackets."""
+        """Return a factor of a product of vectors or tensors, in brackets if needed; w x L as the last factor has no
+        brackets.
+        """
         if not leads and begins_with_number(inner):
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)

@@ -86,8 +86,8 @@ def rounded_number(text: str) -> Layout:
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
     """Split a number below 10^-4, or a round number from 10^7 on, into a power of ten and a factor from 1 to 10.
 
-    For any other number the power is 0, and the factor is the number. A number is round if it has at most four digits
-    before its zeros, or fewer digits before its zeros than zeros.
+    For any other number the power is 0, and the factor is the number. A number is round if at most four digits precede
+    its final zeros, or if fewer digits precede them than there are zeros.
     """
     power = 0
     while number and number * Integer(10) ** -power < 1:
@@ -150,7 +150,9 @@ def sign_and_size(term: Any) -> tuple[Operator | None, Any]:
 
 
 def roots_last(terms: list[Any]) -> list[Any]:
-    """Put terms with roots of sums last if any term has a unit, so that the order is the same as in symbols."""
+    """If any term has a unit, put terms with roots of sums last. Then the sum has the same order with numbers as with
+    symbols.
+    """
 
     def is_root(term: Any) -> bool:
         return any(isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Add for f in Mul.make_args(term))

@@ -149,8 +149,8 @@ class StepNames:
 
     @cached_property
     def lines(self) -> list[Written]:
-        """Return the texts of all lines, and of the left side if it is a formula of names. They are followed by the
-        texts of the values of names, and of rates and their values."""
+        """Return the texts of all lines, and of the left side if it is a formula of names. Then follow the texts of the
+        values of names, of the rates, and of the values of the rates."""
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
         lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}

@@ -2,7 +2,7 @@
 
 Every step contains all its lines, at any level of detail, in plain SymPy text (`derive.render.printing.plain_sympy`).
 `names` gives the value of each name in the chain. After SymPy has parsed the lines and these values are substituted,
-each line equals the one before, with these exceptions:
+each line equals the line before it, with these exceptions:
 
     a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
     a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of

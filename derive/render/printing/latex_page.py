@@ -43,7 +43,7 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
-FEW_ROWS = 4  # a display of at most this many steps, each of one low row, is not divided between pages
+FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ def rest_with_forces(
         unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + unknown
     if len(unknown) != len(still):
         names = f": {', '.join(s.name for s in unknown)}" if unknown else ""
-        message = f"the number of static equations is {len(still)}, but that of their unknowns is {len(unknown)}{names}"
+        message = f"the number of static equations is {len(still)}, but the number of unknowns is {len(unknown)}{names}"
         help_line = "describe the positions by fewer coordinates, so that no constraint force is needed"
         raise Rejected(Complaint("constrained", message, help=help_line))
     return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])

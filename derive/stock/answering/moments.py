@@ -21,7 +21,7 @@ SOLUTION, SPEED, FLIGHT = "solution", "speed", "flight"
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
     """Return the positions and velocities at which the requested motions begin, and the coordinates of a requested
-    flight in a plane; None without a start rate and without a flight.
+    flight in a plane; None if there is neither a start rate nor a flight.
 
     If several results give a value for one coordinate, the first value counts.
     """

@@ -98,7 +98,7 @@ class Plotted:
             )  # fmt: skip
 
     def _unit(self, quantity: Quantity) -> str:
-        """Return the SI unit of an answer: that of its kind, else that of its dimension."""
+        """Return the SI unit of an answer: the unit of its kind or, without a kind, of its dimension."""
         if quantity.step.kind:
             return unit_of_kind(quantity.step.kind)
         return unit_of_dimension(dimension_of_answer(quantity, self._letters))

@@ -113,7 +113,7 @@ class QuotedKeys(ShapeKeys):
     """The keys of a body whose moment of inertia may be quoted."""
 
     is_integrated: bool = key(
-        "whether the page integrates a standard moment of inertia, such as that of a disc, in place of quoting it",
+        "whether the page integrates a standard moment of inertia (such as the moment of a disc) and does not quote it",
         YES_OR_NO,
         called="derive",
     )
@@ -193,7 +193,7 @@ class DescribedBody:
     @property
     def point_names(self) -> tuple[str, ...]:
         """Return the names of the points of the body. If the body has parts or named points, these names are `centre`,
-        `origin` and those of the named points."""
+        `origin` and the names of the named points."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts

@@ -23,8 +23,8 @@ from derive.steps.step import Quantity, is_zero
 def drawn(body: Body, about: str = "", is_named: bool = False) -> None:
     """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane.
 
-    about      the name of a point; the axes begin there if it is the centre of mass and the position of this centre is
-               known by symmetry
+    about      the name of a point; the axes begin at this point only if it is the centre of mass, and the position of
+               the centre is known by symmetry
     is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
     """
     if marks := seen_outline(body, "centre" if about == "centre" and _has_known_centre(body) else None):
@@ -43,8 +43,8 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values to draw with: the radius of the section of a torus, or of a hole, is a fixed fraction of the radius
-    of the body."""
+    """Return substitute values for the drawing: the radius of the section of a torus, or of a hole, is a fixed fraction
+    of the radius of the body."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4

@@ -304,8 +304,8 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names, unless a contact or a flight names something that is not
-    described."""
+    """Report a surface that no contact and no flight names. But report nothing if a contact or a flight names something
+    that is not described, because this may be a misspelt name of the surface."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:

@@ -40,7 +40,7 @@ def test_the_tension_at_rest(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (("  potential: k*x**2/2\n", ""), "that of their unknowns is 1: Q"),
+        (("  potential: k*x**2/2\n", ""), "the number of unknowns is 1: Q"),
         (("k*x**2/2", "k*x**4/(4*d**2)"), "linear"),
         (("answer: equilibria", "answer: stability"), "maintains the constraint x + y = d"),
     ],
