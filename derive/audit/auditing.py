@@ -129,9 +129,7 @@ def audited(
     claims, facts, unread = claims_of(document)
     auditor = _Auditor(document, facts)
     for done, claim in enumerate(claims):
-        import os, time as _t; _b=_t.time()
         auditor.decide(claim)
-        if os.environ.get("SLOW") and _t.time()-_b>1.5: print("slow",claim.row.line,round(_t.time()-_b,1),claim.row.latex[:80],claim.verdict,flush=True)
         if progress is not None:
             progress(done + 1, len(claims))
     return Audit(document, facts, claims, unread)
@@ -179,8 +177,12 @@ class _Auditor:
         for (left_node, left_choices), (right_node, right_choices) in islice(pairs, MOST_READINGS):
             for plain in PLAIN:
                 meaning = Meaning(
-                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
-                    parents=self.meaning.parents, scope=self.meaning.scope, plain=plain,
+                    self.facts,
+                    derivatives=self.meaning.derivatives,
+                    symbols=self.meaning.symbols,
+                    parents=self.meaning.parents,
+                    scope=self.meaning.scope,
+                    plain=plain,
                 )
                 try:
                     left, right = self.sides(left_node, right_node, meaning)
@@ -273,9 +275,7 @@ class _Auditor:
             return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
         return None
 
-    def of_values(
-        self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]
-    ) -> Verdict:
+    def of_values(self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]) -> Verdict:
         """Return the verdict; a claim that follows only from a wrong row carries the slip of this row on."""
         verdict = Decision(claim, left, right, meaning, self.known, cues).verdict()
         if verdict.outcome in GOOD:
@@ -295,7 +295,14 @@ class _Auditor:
         return verdict
 
     def after_slip(
-        self, claim: Claim, wrong: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], verdict: Verdict
+        self,
+        claim: Claim,
+        wrong: Claim,
+        left: Value,
+        right: Value,
+        meaning: Meaning,
+        cues: frozenset[Cue],
+        verdict: Verdict,
     ) -> Verdict:
         """Compare the row after a wrong one with the side before the slip, too."""
         assert wrong.values is not None
@@ -322,8 +329,13 @@ class _Auditor:
             if isinstance(letter, Letter) and shape is not None and any(
                 isinstance(each, Letter) and each.identity == letter.identity for each in other.walk()
             ):  # fmt: skip
-                value = Meaning(self.facts, derivatives=meaning.derivatives, symbols=meaning.symbols, plain="all",
-                                scope=meaning.scope).of(other)
+                value = Meaning(
+                    self.facts,
+                    derivatives=meaning.derivatives,
+                    symbols=meaning.symbols,
+                    plain="all",
+                    scope=meaning.scope,
+                ).of(other)
                 named = meaning.components(letter, *shape)
                 return (named, value) if first else (value, named)
         return meaning.of(left), meaning.of(right)

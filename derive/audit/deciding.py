@@ -160,7 +160,12 @@ class Decision:
         if not self.meaning.decimals:
             return None
         pairs: list[tuple[tuple[Value, ...], tuple[int, ...]]] = [((self.left, self.right), ()), *self.expansions]
-        pairs += [(values, (*used, *more)) for both, used in pairs for values, more in [self.known.with_numbers(*both)] if more]
+        pairs += [
+            (values, (*used, *more))
+            for both, used in pairs
+            for values, more in [self.known.with_numbers(*both)]
+            if more
+        ]
         for (left, right), used in pairs:
             errors = [
                 _relative_error(one, other)
@@ -173,7 +178,9 @@ class Decision:
             if error <= self.tolerance:
                 return Verdict(Outcome.APPROXIMATES, "equal to the printed digits", used)
             if error <= 2 * self.tolerance:
-                return Verdict(Outcome.APPROXIMATES, "equal up to the last printed digit, as after rounding twice", used)
+                return Verdict(
+                    Outcome.APPROXIMATES, "equal up to the last printed digit, as after rounding twice", used
+                )
         return None
 
     @cached_property
@@ -193,7 +200,9 @@ class Decision:
                 words = " and ".join(_word(each) for each in letters)
                 return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
         if self.claim.relation in ("~", "prop"):
-            return Verdict(Outcome.UNDECIDED, "the document says that this is an approximation, but not in which letter")
+            return Verdict(
+                Outcome.UNDECIDED, "the document says that this is an approximation, but not in which letter"
+            )
         return None
 
     # Conditions and equations
@@ -231,13 +240,17 @@ class Decision:
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
         if Cue.ZERO in self.cues:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
-                names = [each for each in equation.free_symbols if each in self.meaning.derivatives or not self.wants(each)]
+                names = [
+                    each for each in equation.free_symbols if each in self.meaning.derivatives or not self.wants(each)
+                ]
                 for name in names:
                     at_zero = equation.subs(name, 0)
                     if _is_multiple(wanted, at_zero):
                         return Verdict(Outcome.HOLDS, f"{_word(name)} set to zero", (number,))
                     if Cue.APPROXIMATE in self.cues and _approximate_multiple(wanted, at_zero, self.meaning):
-                        return Verdict(Outcome.APPROXIMATES, f"{_word(name)} set to zero, to the leading order", (number,))
+                        return Verdict(
+                            Outcome.APPROXIMATES, f"{_word(name)} set to zero, to the leading order", (number,)
+                        )
         if (numbers := _combination(wanted, recent[-MOST_COMBINED:])) is not None:
             return Verdict(Outcome.HOLDS, "a sum or difference of earlier equations", numbers)
         for (left, right), used in self.expansions:
@@ -259,7 +272,7 @@ class Decision:
         """A step brings in a letter: it holds if a relation that is not written holds."""
         if not self.claim.is_step or isinstance(self.difference, MatrixBase) or self.claim.relation != "=":
             return None
-        left, right = (self.expansions[-1][0] if self.expansions else (self.left, self.right))
+        left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         new = sorted(right.free_symbols - left.free_symbols, key=str)
         gone = left.free_symbols - right.free_symbols
         if len(new) != 1 or not gone or new[0] in self.meaning.derivatives:
@@ -272,7 +285,9 @@ class Decision:
             return None
         value = sympy.factor(found[0])
         self.known.define(new[0], value, self.claim.number, implied=True)
-        return Verdict(Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which the document does not say before")
+        return Verdict(
+            Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which the document does not say before"
+        )
 
     def otherwise(self) -> Verdict:
         """Accuse only a step whose sides are known completely; every other claim stays undecided."""
@@ -305,7 +320,9 @@ class Decision:
 
     def opaque(self, value: Value) -> set[Symbol]:
         found = {each for each in value.free_symbols if each in self.meaning.derivatives or "(" in each.name}
-        return found | {each for each in value.free_symbols if each.name.startswith("d") and each.name not in _names(self.meaning)}
+        return found | {
+            each for each in value.free_symbols if each.name.startswith("d") and each.name not in _names(self.meaning)
+        }
 
 
 def _names(meaning: Meaning) -> set[str]:

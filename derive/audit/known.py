@@ -135,7 +135,11 @@ class Known:
         """Return the last equations, and the last few also with the letters that are zero left out."""
         last = self.equations[-LAST_EQUATIONS:]
         zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
-        put_in = [(each.subs(zeros), number) for each, number in last[-6:] if each.free_symbols & set(zeros)] if zeros else []
+        put_in = (
+            [(each.subs(zeros), number) for each, number in last[-6:] if each.free_symbols & set(zeros)]
+            if zeros
+            else []
+        )
         last = last + [(each, number) for each, number in put_in if each != 0 and each.free_symbols]
         return last + [pair for each in last[-6:] for pair in self.with_derivatives(*each)]
 

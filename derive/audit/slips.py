@@ -98,17 +98,29 @@ def _here(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -
         for i, item in enumerate(node.items):
             if isinstance(item, Letter):
                 items = (*node.items[:i], Diff(item.span, item), *node.items[i + 1 :])
-                yield Edit(replace(node, items=items), item.span, shown(item.span), f"d {shown(item.span)}", "differential", 0.8)
+                yield Edit(
+                    replace(node, items=items),
+                    item.span,
+                    shown(item.span),
+                    f"d {shown(item.span)}",
+                    "differential",
+                    0.8,
+                )
     if not isinstance(node, Num | Sign | Diff):
         for letter in letters:
-            for factor, written in ((letter, letter.named()), (Pow(node.span, letter, Num(node.span, "2")), f"{letter.named()}^2")):
+            for factor, written in (
+                (letter, letter.named()),
+                (Pow(node.span, letter, Num(node.span, "2")), f"{letter.named()}^2"),
+            ):
                 times = Mul(node.span, (("", factor), ("", node)))
                 yield Edit(times, node.span, was, f"{written} {was}", "factor", 1.6 if factor is letter else 1.9)
         if not isinstance(node, Letter):
             for number in ("2", "3", "4"):
                 times = Mul(node.span, (("", Num(node.span, number)), ("", node)))
                 yield Edit(times, node.span, was, f"{number} {was}", "factor", 1.7)
-                yield Edit(Frac(node.span, node, Num(node.span, number)), node.span, was, f"{was}/{number}", "factor", 1.75)
+                yield Edit(
+                    Frac(node.span, node, Num(node.span, number)), node.span, was, f"{was}/{number}", "factor", 1.75
+                )
     if isinstance(node, Letter):
         for number in ("2", "3"):
             yield Edit(Pow(node.span, node, Num(node.span, number)), node.span, was, f"{was}^{number}", "exponent", 1.3)
@@ -131,7 +143,14 @@ def _of_sum(node: Add, shown: Callable[[Span], str]) -> Iterator[Edit]:
     for i, (sign, term) in enumerate(node.terms):
         turned = {"+": "-", "-": "+", "±": "∓", "∓": "±"}[sign]
         terms = (*node.terms[:i], (turned, term), *node.terms[i + 1 :])
-        yield Edit(replace(node, terms=terms), term.span, f"{sign}{shown(term.span)}", f"{turned}{shown(term.span)}", "sign", 1.0)
+        yield Edit(
+            replace(node, terms=terms),
+            term.span,
+            f"{sign}{shown(term.span)}",
+            f"{turned}{shown(term.span)}",
+            "sign",
+            1.0,
+        )
         if len(node.terms) > 1:
             rest = node.terms[:i] + node.terms[i + 1 :]
             yield Edit(replace(node, terms=rest), term.span, shown(term.span), "", "term", 2.0)

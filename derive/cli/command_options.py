@@ -69,6 +69,12 @@ def _check(check: argparse.ArgumentParser) -> None:
     _jobs_and_messages(check)
 
 
+def _audit(audit: argparse.ArgumentParser) -> None:
+    audit.add_argument("file", metavar="FILE", help="a .tex, .md, .ipynb or .txt file")
+    audit.add_argument("--format", choices=("text", "json", "html"), default="text", help="(default text)")
+    audit.add_argument("-v", "--verbose", action="store_true", help="show every row, not only those that differ")
+
+
 def _solve(solve: argparse.ArgumentParser) -> None:
     named(solve.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
     typed = sorted([*formats(), *TYPESET])
@@ -161,6 +167,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "preview": _preview,
     "build": _build,
     "check": _check,
+    "audit": _audit,
     "solve": _solve,
     "explain": _explain,
     "diff": _diff,

@@ -32,6 +32,7 @@ COMMANDS = {
     "explain": "solving.explain",
     "diff": "comparing.diff",
     "check": "checking.check",
+    "audit": "auditing.audit",
     "build": "building.build",
     "preview": "previewing.preview_pages",
     "new": "beginning.new",

@@ -298,7 +298,9 @@ class _Reading:
     def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
         """Return the row before, with these tokens added to its last side, if they are the rest of that side."""
         tokens = without_spaces([token for cell in cells for token in cell])
-        while tokens and tokens[0].is_command("quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"):
+        while tokens and tokens[0].is_command(
+            "quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"
+        ):
             skip = argument_at(tokens, 1)[1] if tokens[0].text in ("hspace", "phantom", "hphantom") else 1
             tokens = tokens[skip:]
         if not block.rows or not block.rows[-1].statements or self.last is None or not tokens:
@@ -452,7 +454,13 @@ def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
     for number, cell in enumerate(cells):
         begins = next((each for each in cell if each.kind is not Kind.SPACE), None)
         relation = begins is not None and (begins.is_mark(*RELATIONS) or begins.is_command(*RELATIONS))
-        if number >= 2 and number % 2 == 0 and not relation and _has_relation(column) and _has_relation(cell, cells, number):
+        if (
+            number >= 2
+            and number % 2 == 0
+            and not relation
+            and _has_relation(column)
+            and _has_relation(cell, cells, number)
+        ):
             yield column
             column = []
         column += cell
@@ -536,7 +544,9 @@ def _link(said: str) -> str:
 
 def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | None:
     tokens = without_spaces(tokens)
-    while tokens and (tokens[-1].is_mark(".", ",", ";", ":") or tokens[-1].is_command("quad", "qquad", ",", ";", "!", " ", ":")):
+    while tokens and (
+        tokens[-1].is_mark(".", ",", ";", ":") or tokens[-1].is_command("quad", "qquad", ",", ";", "!", " ", ":")
+    ):
         tokens.pop()
     while tokens and tokens[0].is_command("quad", "qquad", ",", ";", "!", " ", ":"):
         tokens.pop(0)

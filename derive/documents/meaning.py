@@ -488,7 +488,12 @@ class Meaning:
                 letter = _inner_letter(item.of)
                 if letter is None or item.order != 1:
                     raise Meaningless("this differential has no single variable", item.span)
-                if before is not None and not isinstance(before, Sign) and len(open_signs) > 1 and _all_signs_first(node):
+                if (
+                    before is not None
+                    and not isinstance(before, Sign)
+                    and len(open_signs) > 1
+                    and _all_signs_first(node)
+                ):
                     pairs[open_signs.pop()] = self.symbol(letter)
                 else:
                     pairs[open_signs.pop()] = self.symbol(letter)
@@ -498,7 +503,12 @@ class Meaning:
         if open_signs:
             raise Meaningless("an integral sign has no differential", signs[open_signs[-1]][1].span)
         inner = Meaning(
-            self.facts, (*self.variables, *pairs.values()), scope=self.scope, plain=self.plain, derivatives=self.derivatives, symbols=self.symbols,
+            self.facts,
+            (*self.variables, *pairs.values()),
+            scope=self.scope,
+            plain=self.plain,
+            derivatives=self.derivatives,
+            symbols=self.symbols,
             parents=self.parents,
         )
         factors = [inner._of(each) for each in nodes]
@@ -517,7 +527,9 @@ class Meaning:
             return Integral(value, x)
         if sign.lower is None or sign.upper is None or sign.closed:
             raise Meaningless("this integral has no limits that can be put in", sign.span)
-        lower, upper = (self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper))
+        lower, upper = (
+            self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
+        )
         found = definite(value, [(x, lower, upper)]) if not value.has(sympy.oo) and not lower.has(sympy.oo) and not upper.has(
             sympy.oo) else None  # fmt: skip
         return found if found is not None else Integral(value, (x, lower, upper))
@@ -555,7 +567,9 @@ class Meaning:
         integrated = [
             each
             for each in free
-            if each in self.symbols and self.facts.integrated[self.symbols[each].identity] and each not in self.variables[:-1]
+            if each in self.symbols
+            and self.facts.integrated[self.symbols[each].identity]
+            and each not in self.variables[:-1]
         ]
         if len(integrated) == 1:
             return integrated[0]
@@ -618,4 +632,6 @@ def _with_index(node: Node, index: Letter, value: Integer) -> Node:
             return _with_index(item, index, value)
         return tuple(map(changed, item)) if isinstance(item, tuple) else item
 
-    return replace(node, **{each.name: changed(getattr(node, each.name)) for each in fields(node) if each.name != "span"})
+    return replace(
+        node, **{each.name: changed(getattr(node, each.name)) for each in fields(node) if each.name != "span"}
+    )

@@ -39,7 +39,14 @@ DEEPEST = 60
 GREEK = frozenset(GREEK_LETTERS.values()) - {"partial", "nabla", "infty", "sqrt"} | {
     "varphi", "varepsilon", "varrho", "varsigma", "varpi", "imath", "jmath", "Re", "Im", "wp", "digamma", "hslash",
 }  # fmt: skip
-SAME_LETTER = {"varphi": "phi", "varepsilon": "epsilon", "vartheta": "theta", "imath": "i", "jmath": "j", "hslash": "hbar"}
+SAME_LETTER = {
+    "varphi": "phi",
+    "varepsilon": "epsilon",
+    "vartheta": "theta",
+    "imath": "i",
+    "jmath": "j",
+    "hslash": "hbar",
+}
 FUNCTIONS = frozenset(
     "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin acos"
     " atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh".split()
@@ -220,7 +227,9 @@ class _Reader:
             token = self.peek()
             if token is None:
                 break
-            if token.is_command("cdot", "times", "ast", "wedge", "vdot", "cross", "bullet", "star") or token.is_mark("*"):
+            if token.is_command("cdot", "times", "ast", "wedge", "vdot", "cross", "bullet", "star") or token.is_mark(
+                "*"
+            ):
                 if not factors:
                     raise Unreadable("a factor is missing before this sign", token.span)
                 mark = {"times": "times", "cross": "times", "wedge": "times"}.get(token.text, "cdot")
@@ -559,7 +568,9 @@ class _Reader:
             return self.with_power(node, self.inside(rest, script.span), script.span)
         if plain and (plain[0].is_command("circ", "degree", "textdegree") or "".join(t.text for t in plain) == "o"):
             return Fun(node.span.to(plain[0].span), "degrees", node)
-        if plain and (plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")):
+        if plain and (
+            plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")
+        ):
             label = self.label(plain)
             if isinstance(node, Letter):
                 return replace(node, label=_joined(node.label, label))
@@ -873,7 +884,9 @@ class _Reader:
             argument = self.bracketed() if bracket else self.braced(following)
             if following.kind is Kind.OPEN and (after := self.peek()) is not None and after.kind is Kind.SCRIPT:
                 argument = self.scripted(argument)  # `\sin {\theta}_1`
-            elif (after := self.peek()) is not None and after.kind is Kind.SCRIPT and after.text == "^" and power is None:
+            elif (
+                (after := self.peek()) is not None and after.kind is Kind.SCRIPT and after.text == "^" and power is None
+            ):
                 # `\cos(x)^2` is the square of the cosine
                 self.at += 1
                 power = self.inside(self.argument(), after.span)
@@ -1026,7 +1039,9 @@ class _Reader:
             rest = []
             self.factors_of_integral(rest)
             cut = next((i for i, each in enumerate(rest) if isinstance(each, Diff)), len(rest))
-            terms.append((sign, _product([("", each) for each in rest[:cut]] or [("", Num(self.tokens[self.at - 1].span, "1"))])))
+            terms.append(
+                (sign, _product([("", each) for each in rest[:cut]] or [("", Num(self.tokens[self.at - 1].span, "1"))]))
+            )
             if cut < len(rest):
                 rest = rest[cut:]
                 break
@@ -1062,7 +1077,11 @@ class _Reader:
                 depth += 1
             elif token.is_mark("<") and opener.is_mark("<"):
                 depth += 1
-            elif token.kind is Kind.CLOSE or token.is_mark(")", "]") or token.is_command("}", "rangle", "rbrace", "right"):
+            elif (
+                token.kind is Kind.CLOSE
+                or token.is_mark(")", "]")
+                or token.is_command("}", "rangle", "rbrace", "right")
+            ):
                 depth -= 1
                 if depth == 0:
                     return at, True
@@ -1238,7 +1257,12 @@ def _width_of_head(tokens: Sequence[Token]) -> int:
 
 def _is_word(product: Mul) -> bool:
     return all(
-        not mark and isinstance(each, Letter) and len(each.base) == 1 and not each.sub and not each.dots and not each.marks
+        not mark
+        and isinstance(each, Letter)
+        and len(each.base) == 1
+        and not each.sub
+        and not each.dots
+        and not each.marks
         for mark, each in product.factors
     )
 

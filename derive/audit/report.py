@@ -1,0 +1,140 @@
+"""The verdicts of an audit as text, as JSON and as a web page."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from html import escape
+from typing import Any
+
+from derive.audit.auditing import Audit
+from derive.audit.claims import Claim, Outcome, Verdict
+from derive.errors import Complaint, Place
+
+WORDS = {
+    Outcome.HOLDS: "hold",
+    Outcome.APPROXIMATES: "are approximations",
+    Outcome.DEFINES: "define something or state a law",
+    Outcome.DIFFERS: "differ",
+    Outcome.UNDECIDED: "are undecided",
+    Outcome.UNREADABLE: "are not read",
+}
+LONGEST = 200
+
+
+def exit_code(audit: Audit) -> int:
+    """Return 1 if a row differs, otherwise 0."""
+    return int(any(_verdict(claim).outcome is Outcome.DIFFERS for claim in audit.claims))
+
+
+def summary(audit: Audit) -> dict[str, int]:
+    counted = Counter(_verdict(claim).outcome for claim in audit.claims)
+    return {str(outcome): counted[outcome] for outcome in Outcome}
+
+
+def as_text(audit: Audit, every: bool) -> str:
+    """Return the rows that differ, each with its place and its probable reading; with `every`, all rows."""
+    shown = [_told(audit, claim) for claim in audit.claims if every or _verdict(claim).outcome is Outcome.DIFFERS]
+    counted = summary(audit)
+    parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
+    total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
+    return "\n\n".join([*shown, total])
+
+
+def _told(audit: Audit, claim: Claim) -> str:
+    verdict = _verdict(claim)
+    notes = [f"read as: {reading}" for reading in [_reading(claim)] if reading]
+    if verdict.counterexample:
+        notes.append(f"for example {verdict.counterexample}")
+    if verdict.given:
+        notes.append(f"given line {', '.join(map(str, _lines(audit, verdict)))}")
+    if verdict.inherits is not None:
+        notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
+    suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
+    complaint = Complaint("row", verdict.because, _place(audit, claim), tuple(notes), suggestion, str(verdict.outcome))
+    return complaint.shown().replace("[row]", "", 1)
+
+
+def _place(audit: Audit, claim: Claim) -> Place:
+    return audit.document.source.place(_verdict(claim).span or claim.right_span)
+
+
+def _verdict(claim: Claim) -> Verdict:
+    return claim.verdict or Verdict(Outcome.UNDECIDED, "not examined")
+
+
+def _reading(claim: Claim) -> str:
+    if claim.values is None:
+        return ""
+    left, right = (str(each) for each in claim.values)
+    relation = claim.relation if claim.relation in ("=", "<", ">", "<=", ">=") else claim.relation
+    return f"{_cut(left)} {relation} {_cut(right)}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+
+
+def _lines(audit: Audit, verdict: Verdict) -> list[int]:
+    return list(dict.fromkeys(audit.claims[number].row.line for number in verdict.given))
+
+
+def as_data(audit: Audit) -> dict[str, Any]:
+    """Return the audit as data: the file, its rows with their verdicts, and the number of each verdict."""
+    return {"file": audit.document.source.path, "rows": list(_rows(audit)), "summary": summary(audit)}
+
+
+def as_json(audit: Audit) -> str:
+    return json.dumps(as_data(audit), indent=2, ensure_ascii=False)
+
+
+def _rows(audit: Audit) -> Iterator[dict[str, Any]]:
+    for claim in audit.claims:
+        verdict = _verdict(claim)
+        inherits = audit.claims[verdict.inherits].row.line if verdict.inherits is not None else None
+        yield {
+            "line": _place(audit, claim).line,
+            "latex": audit.document.source.text[claim.left_span.start : claim.right_span.end].strip()
+            if claim.left_span.start <= claim.right_span.start
+            else claim.row.latex,
+            "reading": _reading(claim),
+            "verdict": str(verdict.outcome),
+            "because": verdict.because,
+            "given": _lines(audit, verdict),
+            "counterexample": verdict.counterexample,
+            "suggestion": verdict.suggestion,
+            "inherits": inherits,
+        }
+
+
+_STYLE = """
+body { font: 16px/1.5 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+table { border-collapse: collapse; width: 100%; }
+td { vertical-align: top; padding: .3rem .6rem; border-top: 1px solid #ddd; }
+code { font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
+.differs { background: #fbe3df; } .undecided, .unreadable { color: #777; } .approximates { background: #f5f1dc; }
+.verdict { white-space: nowrap; font-weight: bold; } .why { font-size: .9rem; }
+"""
+
+
+def as_html(audit: Audit) -> str:
+    """Return a page with each row of the document and the verdict next to it."""
+    rows = []
+    for row in _rows(audit):
+        more = [row["because"]]
+        if row["suggestion"]:
+            more.append(f"Probably {row['suggestion']}.")
+        if row["counterexample"]:
+            more.append(f"For example {row['counterexample']}.")
+        if row["inherits"] is not None:
+            more.append(f"Carries on the slip of line {row['inherits']}.")
+        rows.append(
+            f'<tr class="{row["verdict"]}"><td>{row["line"]}</td><td><code>{escape(row["latex"])}</code></td>'
+            f'<td class="verdict">{row["verdict"]}</td><td class="why">{escape(" ".join(more))}</td></tr>'
+        )
+    title = escape(audit.document.source.path)
+    return (
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style></head>'
+        f"<body><h1>{title}</h1><table>{''.join(rows)}</table></body></html>\n"
+    )
