@@ -7,10 +7,10 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from itertools import islice, product
+from itertools import islice, pairwise, product
 
 import sympy
-from sympy import Expr, MatrixBase, Symbol
+from sympy import MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
@@ -78,7 +78,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             nodes[id(statement)] = read
             sides += [node for node, _ in read if node is not None]
             first = nodes.get(id(_head(statement)), read)[0][0]
-            for (one, _), (other, _) in zip(read, read[1:], strict=False):
+            for (one, _), (other, _) in pairwise(read):
                 equations += [(one, other, scope)] if one is not None and other is not None else []
                 equations += [(first, other, scope)] if first is not None and other is not None else []
         if faults:

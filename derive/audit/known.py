@@ -81,6 +81,11 @@ class Known:
             return Definition(symbol, self.meaning.differentiated(inner.value, variable, False), inner.claim)
         if symbol in self.meaning.derivatives:
             letter, by, partial = self.meaning.derivatives[symbol]
+            if len(by) == 1 and by[0][1] > 1:  # an earlier row may give the derivative of the next lower order
+                lower = self.meaning.derivative_symbol(letter, ((by[0][0], by[0][1] - 1),), partial)
+                if lower in self.definitions:
+                    below = self.definitions[lower][-1]
+                    return Definition(symbol, self.meaning.differentiated(below.value, by[0][0], partial), below.claim)
             inner = self.latest(self.meaning.symbol(letter))
             if inner is None:
                 return None

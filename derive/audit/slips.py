@@ -88,7 +88,7 @@ def _here(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -
                 left_out = replace(node, factors=(("", rest[0][1]), *rest[1:]))
                 yield Edit(left_out, factor.span, shown(factor.span), "", "extra factor", 2.0)
     elif isinstance(node, Pow) and isinstance(node.exponent, Num):
-        yield Edit(node.base, node.exponent.span, shown(node.exponent.span), "1", "exponent", 1.4)
+        yield Edit(node.base, node.span, was, shown(node.base.span), "exponent", 0.95)
     elif isinstance(node, Frac):
         yield Edit(replace(node, top=node.bottom, bottom=node.top), node.span, was, "", "fraction", 2.2)
     elif isinstance(node, Fun) and node.name in OTHER_FUNCTION:

@@ -136,7 +136,7 @@ def _function_in(node: Node) -> Fun:
 
 
 def _superscript(node: Open, facts: Facts) -> tuple[int, str, bool]:
-    first, second = node.alternatives
+    first, _second = node.alternatives
     if isinstance(first, Fun):
         return 0, "degrees: a number is not raised to zero", False
     return 0, "a power", False

@@ -48,8 +48,8 @@ class Facts:
 
     def is_function(self, letter: Letter) -> bool:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
-        found = self.functions.get(letter.identity) or self.functions.get(bare)
-        return bool(found) and sum(found.values()) > self.products[letter.identity]
+        found = self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
+        return found.total() > self.products[letter.identity]
 
     def variables_of(self, letter: Letter) -> Counter[Identity]:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
@@ -187,9 +187,7 @@ def _look_at_call(call: Node, product: Node, facts: Facts) -> None:
         return
     argument, head = _bare(call.arguments[0]), call.head
     if isinstance(argument, Letter) and argument.base in VARIABLES and argument.identity != head.identity:
-        if argument.base == "t" or head.primes:
-            facts.functions[_unprimed(head)][argument.identity] += 1
-        elif not argument.sub:
+        if argument.base == "t" or head.primes or not argument.sub:
             facts.functions[_unprimed(head)][argument.identity] += 1
     elif not isinstance(argument, Num):
         if not any(isinstance(each, Letter) and each.base == "t" for each in argument.walk()):

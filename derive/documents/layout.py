@@ -19,10 +19,29 @@ from derive.documents.source import Format, Source, Span
 from derive.documents.tokens import Kind, Token, TooLarge, tokens_of, without_spaces
 
 ALIGNED = frozenset(
-    "align aligned alignat alignedat gather gathered split multline eqnarray flalign equation displaymath math subequations"
-    " dmath empheq IEEEeqnarray".split()
+    [
+        "align",
+        "aligned",
+        "alignat",
+        "alignedat",
+        "gather",
+        "gathered",
+        "split",
+        "multline",
+        "eqnarray",
+        "flalign",
+        "equation",
+        "displaymath",
+        "math",
+        "subequations",
+        "dmath",
+        "empheq",
+        "IEEEeqnarray",
+    ]
 )
-MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix".split())
+MATRICES = frozenset(
+    ["matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix"]
+)
 RELATIONS = {
     "=": "=", "<": "<", ">": ">",
     "leq": "<=", "le": "<=", "leqslant": "<=", "geq": ">=", "ge": ">=", "geqslant": ">=", "lt": "<", "gt": ">",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy
 from sympy import (
@@ -64,7 +64,7 @@ from derive.documents.syntax import (
     Vec,
 )
 
-Value = Expr | ImmutableDenseMatrix
+Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
 LONGEST_NUMBER = 60
 

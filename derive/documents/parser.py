@@ -48,8 +48,45 @@ SAME_LETTER = {
     "hslash": "hbar",
 }
 FUNCTIONS = frozenset(
-    "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin acos"
-    " atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh".split()
+    [
+        "sin",
+        "cos",
+        "tan",
+        "cot",
+        "sec",
+        "csc",
+        "arcsin",
+        "arccos",
+        "arctan",
+        "arccot",
+        "sinh",
+        "cosh",
+        "tanh",
+        "coth",
+        "sech",
+        "csch",
+        "arcsinh",
+        "arccosh",
+        "arctanh",
+        "asin",
+        "acos",
+        "atan",
+        "ln",
+        "log",
+        "exp",
+        "sgn",
+        "sign",
+        "det",
+        "tr",
+        "Tr",
+        "min",
+        "max",
+        "arg",
+        "cosec",
+        "arsinh",
+        "arcosh",
+        "artanh",
+    ]
 )
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 MARKS = {
@@ -58,28 +95,26 @@ MARKS = {
     "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
     "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
 }  # fmt: skip
-TEXTS = frozenset("text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf"
-                  " hbox symrm symup mathup".split())  # fmt: skip
+TEXTS = frozenset(["text", "textrm", "mathrm", "rm", "textit", "mathit", "mbox", "operatorname", "operatorname*", "textbf", "textnormal", "mathsf", "textsf", "hbox", "symrm", "symup", "mathup"])  # fmt: skip
 IGNORED = frozenset(
-    r", ; : ! > thinspace medspace thickspace negthinspace quad qquad hfill displaystyle textstyle scriptstyle"
-    " scriptscriptstyle limits nolimits nonumber notag big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr"
-    " bigm Bigm middle mathstrut strut allowbreak nobreak break relax vphantom kern unboldmath protect noindent boldmath"
-    " mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large rm it bf up".split()
+    [r",", r";", r":", r"!", r">", r"thinspace", r"medspace", r"thickspace", r"negthinspace", r"quad", r"qquad", r"hfill", r"displaystyle", r"textstyle", r"scriptstyle", r"scriptscriptstyle", r"limits", r"nolimits", r"nonumber", r"notag", r"big", r"Big", r"bigg", r"Bigg", r"bigl", r"Bigl", r"biggl", r"Biggl", r"bigr", r"Bigr", r"biggr", r"Biggr", r"bigm", r"Bigm", r"middle", r"mathstrut", r"strut", r"allowbreak", r"nobreak", r"break", r"relax", r"vphantom", r"kern", r"unboldmath", r"protect", r"noindent", r"boldmath", r"mathord", r"mathbin", r"mathrel", r"mathopen", r"mathclose", r"mathpunct", r"mathinner", r"mathop", r"normalsize", r"small", r"large", r"rm", r"it", r"bf", r"up"]
 ) - {"rm", "bf"}  # fmt: skip
-IGNORED_WITH_ARGUMENT = frozenset("hspace vspace phantom hphantom label tag color textcolor vphantom hskip ref eqref cite"
-                                  " footnote".split())  # fmt: skip
+IGNORED_WITH_ARGUMENT = frozenset(["hspace", "vspace", "phantom", "hphantom", "label", "tag", "color", "textcolor", "vphantom", "hskip", "ref", "eqref", "cite", "footnote"])  # fmt: skip
 DECORATED = frozenset(
-    "underbrace overbrace boxed fbox cancel bcancel xcancel ensuremath mathchoice colorbox underbracket smash emph"
-    " hl tightboxed Aboxed framebox raisebox".split()
+    ["underbrace", "overbrace", "boxed", "fbox", "cancel", "bcancel", "xcancel", "ensuremath", "mathchoice", "colorbox", "underbracket", "smash", "emph", "hl", "tightboxed", "Aboxed", "framebox", "raisebox"]
 )  # fmt: skip
 OPENERS = {"(": ")", "[": "]", "{": "}", "lbrace": "}", "langle": ">", "lvert": "|", "lVert": "|", "|": "|", "<": ">",
            "lbrack": "]", "lfloor": "]", "lceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
 CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": "|", "rVert": "|", "|": "|", ">": ">",
            "rbrack": "]", "rfloor": "]", "rceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
 INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
-MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix".split())
-ELLIPSES = frozenset("ldots cdots dots dotsb vdots ddots dotsm dotsc".split())
-UNIT_WORDS = frozenset("sec rad rpm rev deg kg cm mm km ms Hz kHz min hr yr mol Pa".split())
+MATRICES = frozenset(
+    ["matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix"]
+)
+ELLIPSES = frozenset(["ldots", "cdots", "dots", "dotsb", "vdots", "ddots", "dotsm", "dotsc"])
+UNIT_WORDS = frozenset(
+    ["sec", "rad", "rpm", "rev", "deg", "kg", "cm", "mm", "km", "ms", "Hz", "kHz", "min", "hr", "yr", "mol", "Pa"]
+)
 
 
 class Unreadable(Exception):
@@ -487,7 +522,8 @@ class _Reader:
             if token.text != "_":
                 break
             self.at += 1
-            atom = replace(atom, sub=_joined(atom.sub, self.label(self.argument())))
+            label = self.label(self.argument())
+            atom = replace(atom, sub=_joined(atom.sub, label), span=atom.span.to(self.tokens[self.at - 1].span))
         while isinstance(atom, Letter) and self.next_is_mark("'"):
             self.at += 1
             atom = replace(atom, primes=atom.primes + 1)
@@ -518,7 +554,8 @@ class _Reader:
                 continue
             self.at += 1
             value = self.argument()
-            node = self.with_subscript(node, value, token) if token.text == "_" else self.raised(node, value, token)
+            script = replace(token, span=token.span.to(self.tokens[self.at - 1].span))
+            node = self.with_subscript(node, value, script) if token.text == "_" else self.raised(node, value, script)
         return node
 
     def has_both_scripts(self) -> bool:
@@ -585,8 +622,7 @@ class _Reader:
             return node
         if isinstance(node, Pow):
             raise Unreadable("two superscripts follow each other", span)
-        end = power.span if power.span.end > node.span.end else span
-        made = Pow(node.span.to(end), node, power)
+        made = Pow(node.span.to(span), node, power)
         if isinstance(node, Num) and isinstance(power, Num) and power.text == "0":
             return Open(made.span, "superscript", (Fun(made.span, "degrees", node), made))
         if isinstance(node, Letter) and isinstance(power, Mul) and _is_word(power):
@@ -604,9 +640,11 @@ class _Reader:
             if token.kind is Kind.COMMAND and token.text in {*TEXTS, *MARKS, *DOTS}:
                 value, at = argument_at(tokens, at)
                 words.append(self.label(value))
-            elif token.kind is Kind.COMMAND and (token.text in IGNORED or token.text == " "):
-                continue
-            elif token.kind in (Kind.OPEN, Kind.CLOSE, Kind.SPACE):
+            elif (
+                token.kind is Kind.COMMAND
+                and (token.text in IGNORED or token.text == " ")
+                or token.kind in (Kind.OPEN, Kind.CLOSE, Kind.SPACE)
+            ):
                 continue
             else:
                 words.append(SAME_LETTER.get(token.text, token.text))
@@ -669,7 +707,7 @@ class _Reader:
         if name in ("sum", "prod"):
             return self.summed(token)
         if name == "lim":
-            lower, _ = self.scripts()
+            _lower, _ = self.scripts()
             return Text(token.span, "lim")
         if name in ("left", "{", "lbrace", "langle", "lvert", "lVert", "|", "vert", "Vert"):
             self.at -= 1
@@ -795,7 +833,7 @@ class _Reader:
                 self.at += 1
             self.at += 1
         first = self.inside(self.argument(), token.span)
-        groups = []
+        groups: list[Node] = []
         while (brace := self.peek()) is not None and brace.kind is Kind.OPEN and len(groups) < 3:
             groups.append(self.inside(self.argument(), token.span))
         of, letters = (first, groups) if groups else (None, [first])
@@ -1073,19 +1111,23 @@ class _Reader:
                 if depth == 0:
                     return at, True
                 continue
-            if token.kind is Kind.OPEN or token.is_mark("(", "[") or token.is_command("{", "langle", "lbrace", "left"):
-                depth += 1
-            elif token.is_mark("<") and opener.is_mark("<"):
+            if (
+                token.kind is Kind.OPEN
+                or token.is_mark("(", "[")
+                or token.is_command("{", "langle", "lbrace", "left")
+                or token.is_mark("<")
+                and opener.is_mark("<")
+            ):
                 depth += 1
             elif (
-                token.kind is Kind.CLOSE
-                or token.is_mark(")", "]")
-                or token.is_command("}", "rangle", "rbrace", "right")
+                (
+                    token.kind is Kind.CLOSE
+                    or token.is_mark(")", "]")
+                    or token.is_command("}", "rangle", "rbrace", "right")
+                )
+                or token.is_mark(">")
+                and opener.is_mark("<")
             ):
-                depth -= 1
-                if depth == 0:
-                    return at, True
-            elif token.is_mark(">") and opener.is_mark("<"):
                 depth -= 1
                 if depth == 0:
                     return at, True
@@ -1185,7 +1227,7 @@ class _Reader:
         if name == "array":
             _, skip = argument_at(inner, 0)
             inner = inner[skip:]
-        rows = []
+        rows: list[tuple[Node, ...]] = []
         for row in _split(inner, lambda each: each.is_command("\\", "cr", "newline")):
             row = [each for each in row if not each.is_command("hline")]
             if row and row[0].is_mark("[") and rows:
