@@ -323,7 +323,7 @@ class _Auditor:
         return claim.left
 
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:
-        """Return the values of two sides; a letter that is set equal to a list is a vector, but a number in the list."""
+        """Return the values of two sides; a letter set equal to a list is a vector, but it is a number in the list."""
         for letter, other, first in ((left, right, True), (right, left, False)):
             shape = shape_of(other)
             if isinstance(letter, Letter) and shape is not None and any(

@@ -133,7 +133,7 @@ class Decision:
         """Return the earlier equation from which the value of a letter follows, or None."""
         for equation, number in reversed(self.known.recent()):
             if letter in equation.free_symbols and _solves(equation, letter, value):
-                return number
+                return int(number)
         return None
 
     def identity(self) -> Verdict | None:
@@ -373,7 +373,7 @@ def _is_multiple(wanted: Expr, equation: Expr) -> bool:
 
 
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
-    """Yield the products by which an equation may have been multiplied: ratios of one term to the terms of the other."""
+    """Yield the factors by which an equation may have been multiplied: one term divided by each term of the other."""
     first = _terms(wanted)[0]
     for term in _terms(equation):
         ratio = first / term
@@ -383,7 +383,7 @@ def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
 
 
 def _terms(value: Expr) -> tuple[Expr, ...]:
-    return sympy.Add.make_args(value if value.is_Add else sympy.expand(value))
+    return tuple(sympy.Add.make_args(value if value.is_Add else sympy.expand(value)))
 
 
 def _points(symbols: set[Symbol], seed: int) -> Iterator[dict[Symbol, Rational]]:

@@ -68,8 +68,7 @@ def _reading(claim: Claim) -> str:
     if claim.values is None:
         return ""
     left, right = (str(each) for each in claim.values)
-    relation = claim.relation if claim.relation in ("=", "<", ">", "<=", ">=") else claim.relation
-    return f"{_cut(left)} {relation} {_cut(right)}"
+    return f"{_cut(left)} {claim.relation} {_cut(right)}"
 
 
 def _cut(text: str) -> str:
@@ -135,6 +134,6 @@ def as_html(audit: Audit) -> str:
         )
     title = escape(audit.document.source.path)
     return (
-        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style></head>'
-        f"<body><h1>{title}</h1><table>{''.join(rows)}</table></body></html>\n"
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+        f"<style>{_STYLE}</style></head><body><h1>{title}</h1><table>{''.join(rows)}</table></body></html>\n"
     )

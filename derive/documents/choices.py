@@ -154,7 +154,7 @@ def _letter_d(node: Open, facts: Facts) -> tuple[int, str, bool]:
 
 
 def _word(node: Open, facts: Facts) -> tuple[int, str, bool]:
-    word, product = node.alternatives
+    product = node.alternatives[1]
     assert isinstance(product, Mul)
     if all(isinstance(each, Letter) and facts.seen[each.identity] > 1 for _, each in product.factors):
         return 1, "each of its letters occurs alone", False

@@ -106,7 +106,7 @@ def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]])
 
 
 def _contains(node: Node, letter: Letter) -> bool:
-    """Whether a list contains the letter that it is set equal to: `a = {a, 2a, 3a}`, a vector and one of its lengths."""
+    """Whether a list contains the letter that it is set equal to, a vector and a length: `a = {a, 2a, 3a}`."""
     return any(isinstance(each, Letter) and each.identity == letter.identity for each in node.walk())
 
 

@@ -1,4 +1,4 @@
-r"""The formulas of a document in their order: headings, sentences, displays with their rows, and the statements in them.
+r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
 
 A display is a block of rows. A row that begins with a relation goes on from the row before it, and a row that begins
 with a sign, under the same relation, is the rest of the side before it. A statement is a chain of sides, such as
@@ -20,27 +20,24 @@ from derive.documents.tokens import Kind, Token, TooLarge, tokens_of, without_sp
 
 ALIGNED = frozenset(
     [
+        "IEEEeqnarray",
         "align",
-        "aligned",
         "alignat",
+        "aligned",
         "alignedat",
-        "gather",
-        "gathered",
-        "split",
-        "multline",
-        "eqnarray",
-        "flalign",
-        "equation",
         "displaymath",
-        "math",
-        "subequations",
         "dmath",
         "empheq",
-        "IEEEeqnarray",
+        "eqnarray",
+        "equation",
+        "flalign",
+        "gather",
+        "gathered",
+        "math",
+        "multline",
+        "split",
+        "subequations",
     ]
-)
-MATRICES = frozenset(
-    ["matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix"]
 )
 RELATIONS = {
     "=": "=", "<": "<", ">": ">",
@@ -75,7 +72,8 @@ class Cue(StrEnum):
 CUES = {
     Cue.APPROXIMATE: r"\bapproximat\w*|\bsmall\b|\bfirst order\b|\bsecond order\b|\blowest order\b|\bleading order\b"
     r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
-    Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
+    Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
+    r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
     Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b",
     Cue.SINCE: r"\bsince\b|\bbecause\b|\bas\b|\brecall\w*|\bknow\b|\bremember\b",
     Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
@@ -400,8 +398,8 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
                 while at < len(tokens) and tokens[at].kind is Kind.SPACE:
                     at += 1
                 if at < len(tokens) and tokens[at].is_mark("["):
-                    close = next((i for i in range(at, min(at + 8, len(tokens))) if tokens[i].is_mark("]")), None)
-                    at = close + 1 if close is not None else at
+                    near = range(at, min(at + 8, len(tokens)))
+                    at = next((i + 1 for i in near if tokens[i].is_mark("]")), at)
                 rows.append((cells, tag, label))
                 cells, tag, label = [[]], "", ""
                 continue
@@ -468,7 +466,7 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
 
 
 def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
-    """Yield the tokens of each equation of a row of `align`: the first, third, ... mark `&` stands before a relation."""
+    """Yield the tokens of each equation of a row of `align`; every second `&` separates two equations."""
     column: list[Token] = []
     for number, cell in enumerate(cells):
         begins = next((each for each in cell if each.kind is not Kind.SPACE), None)

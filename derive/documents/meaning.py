@@ -141,9 +141,8 @@ class Meaning:
             return self.unit_vector(node)
         if self.facts.is_tensor(node, self.scope) and self.plain != "tensors":
             return self.components(node, *(self.facts.shape(node, self.scope) or (3, 3)))
-        if self.facts.is_vector(node, self.scope) and not (self.plain == "unmarked" and "vec" not in node.marks) and self.plain not in (
-            "all", "tensors"
-        ):  # fmt: skip
+        as_number = self.plain in ("all", "tensors") or (self.plain == "unmarked" and "vec" not in node.marks)
+        if self.facts.is_vector(node, self.scope) and not as_number:
             return self.components(node, (self.facts.shape(node, self.scope) or (3, 1))[0], 1)
         return self.symbol(node)
 
@@ -530,8 +529,8 @@ class Meaning:
         lower, upper = (
             self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
         )
-        found = definite(value, [(x, lower, upper)]) if not value.has(sympy.oo) and not lower.has(sympy.oo) and not upper.has(
-            sympy.oo) else None  # fmt: skip
+        finite = not any(each.has(sympy.oo) for each in (value, lower, upper))
+        found = definite(value, [(x, lower, upper)]) if finite else None
         return found if found is not None else Integral(value, (x, lower, upper))
 
     def of_diff(self, node: Diff) -> Any:

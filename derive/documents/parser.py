@@ -32,89 +32,25 @@ from derive.documents.syntax import (
     Text,
     Vec,
 )
-from derive.documents.tokens import GREEK_LETTERS, Kind, Token, tokens_of, without_spaces
+from derive.documents.tokens import Kind, Token, tokens_of, without_spaces
+from derive.documents.vocabulary import (
+    DECORATED,
+    DOTS,
+    ELLIPSES,
+    FUNCTIONS,
+    GREEK,
+    IGNORED,
+    IGNORED_WITH_ARGUMENT,
+    INTEGRALS,
+    MARKS,
+    MATRICES,
+    OPENERS,
+    SAME_LETTER,
+    TEXTS,
+    UNIT_WORDS,
+)
 
 DEEPEST = 60
-
-GREEK = frozenset(GREEK_LETTERS.values()) - {"partial", "nabla", "infty", "sqrt"} | {
-    "varphi", "varepsilon", "varrho", "varsigma", "varpi", "imath", "jmath", "Re", "Im", "wp", "digamma", "hslash",
-}  # fmt: skip
-SAME_LETTER = {
-    "varphi": "phi",
-    "varepsilon": "epsilon",
-    "vartheta": "theta",
-    "imath": "i",
-    "jmath": "j",
-    "hslash": "hbar",
-}
-FUNCTIONS = frozenset(
-    [
-        "sin",
-        "cos",
-        "tan",
-        "cot",
-        "sec",
-        "csc",
-        "arcsin",
-        "arccos",
-        "arctan",
-        "arccot",
-        "sinh",
-        "cosh",
-        "tanh",
-        "coth",
-        "sech",
-        "csch",
-        "arcsinh",
-        "arccosh",
-        "arctanh",
-        "asin",
-        "acos",
-        "atan",
-        "ln",
-        "log",
-        "exp",
-        "sgn",
-        "sign",
-        "det",
-        "tr",
-        "Tr",
-        "min",
-        "max",
-        "arg",
-        "cosec",
-        "arsinh",
-        "arcosh",
-        "artanh",
-    ]
-)
-DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
-MARKS = {
-    "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
-    "bar": "bar", "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "boldsymbol": "vec", "mathbf": "vec",
-    "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
-    "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
-}  # fmt: skip
-TEXTS = frozenset(["text", "textrm", "mathrm", "rm", "textit", "mathit", "mbox", "operatorname", "operatorname*", "textbf", "textnormal", "mathsf", "textsf", "hbox", "symrm", "symup", "mathup"])  # fmt: skip
-IGNORED = frozenset(
-    [r",", r";", r":", r"!", r">", r"thinspace", r"medspace", r"thickspace", r"negthinspace", r"quad", r"qquad", r"hfill", r"displaystyle", r"textstyle", r"scriptstyle", r"scriptscriptstyle", r"limits", r"nolimits", r"nonumber", r"notag", r"big", r"Big", r"bigg", r"Bigg", r"bigl", r"Bigl", r"biggl", r"Biggl", r"bigr", r"Bigr", r"biggr", r"Biggr", r"bigm", r"Bigm", r"middle", r"mathstrut", r"strut", r"allowbreak", r"nobreak", r"break", r"relax", r"vphantom", r"kern", r"unboldmath", r"protect", r"noindent", r"boldmath", r"mathord", r"mathbin", r"mathrel", r"mathopen", r"mathclose", r"mathpunct", r"mathinner", r"mathop", r"normalsize", r"small", r"large", r"rm", r"it", r"bf", r"up"]
-) - {"rm", "bf"}  # fmt: skip
-IGNORED_WITH_ARGUMENT = frozenset(["hspace", "vspace", "phantom", "hphantom", "label", "tag", "color", "textcolor", "vphantom", "hskip", "ref", "eqref", "cite", "footnote"])  # fmt: skip
-DECORATED = frozenset(
-    ["underbrace", "overbrace", "boxed", "fbox", "cancel", "bcancel", "xcancel", "ensuremath", "mathchoice", "colorbox", "underbracket", "smash", "emph", "hl", "tightboxed", "Aboxed", "framebox", "raisebox"]
-)  # fmt: skip
-OPENERS = {"(": ")", "[": "]", "{": "}", "lbrace": "}", "langle": ">", "lvert": "|", "lVert": "|", "|": "|", "<": ">",
-           "lbrack": "]", "lfloor": "]", "lceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
-CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": "|", "rVert": "|", "|": "|", ">": ">",
-           "rbrack": "]", "rfloor": "]", "rceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
-INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
-MATRICES = frozenset(
-    ["matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix"]
-)
-ELLIPSES = frozenset(["ldots", "cdots", "dots", "dotsb", "vdots", "ddots", "dotsm", "dotsc"])
-UNIT_WORDS = frozenset(
-    ["sec", "rad", "rpm", "rev", "deg", "kg", "cm", "mm", "km", "ms", "Hz", "kHz", "min", "hr", "yr", "mol", "Pa"]
-)
 
 
 class Unreadable(Exception):
@@ -509,11 +445,10 @@ class _Reader:
         made = Diff(token.span.to(of.span), of, order)
         if plain and not self.in_integral:
             d = Letter(token.span, "d")
-            with_power = self.scripted(of)
-            return Open(made.span.to(with_power.span), "letter d", (
-                replace(made, of=of) if with_power is of else Pow(made.span.to(with_power.span), made, _exponent(with_power)),
-                Mul(made.span.to(with_power.span), (("", d), ("", with_power))),
-            ))  # fmt: skip
+            power = self.scripted(of)
+            span = made.span.to(power.span)
+            differential = made if power is of else Pow(span, made, _exponent(power))
+            return Open(span, "letter d", (differential, Mul(span, (("", d), ("", power)))))
         return self.scripted(made)
 
     def subscripted(self, atom: Node) -> Node:

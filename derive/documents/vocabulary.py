@@ -1,0 +1,58 @@
+r"""The commands of LaTeX that the parser knows, sorted by what they mean."""
+
+from __future__ import annotations
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+GREEK = _words(
+    "varphi varepsilon varrho varsigma varpi imath jmath Re Im wp digamma hslash phi epsilon vartheta theta hbar ell "
+    "Delta Gamma Lambda Omega Phi Pi Psi Sigma Theta Xi alpha beta chi delta eta gamma iota kappa lambda mu nu omega "
+    "pi psi rho sigma tau upsilon xi zeta"
+)
+SAME_LETTER = {
+    "varphi": "phi",
+    "varepsilon": "epsilon",
+    "vartheta": "theta",
+    "imath": "i",
+    "jmath": "j",
+    "hslash": "hbar",
+}
+FUNCTIONS = _words(
+    "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin "
+    "acos atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh"
+)
+DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
+MARKS = {
+    "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
+    "bar": "bar", "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "boldsymbol": "vec", "mathbf": "vec",
+    "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
+    "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
+}  # fmt: skip
+TEXTS = _words(
+    "text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf hbox symrm "
+    "symup mathup"
+)
+IGNORED = _words(
+    ", ; : ! > thinspace medspace thickspace negthinspace quad qquad hfill displaystyle textstyle scriptstyle "
+    "scriptscriptstyle limits nolimits nonumber notag big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr "
+    "bigm Bigm middle mathstrut strut allowbreak nobreak break relax vphantom kern unboldmath protect noindent "
+    "boldmath mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large it up"
+)
+IGNORED_WITH_ARGUMENT = _words(
+    "vphantom hspace vspace phantom hphantom label tag color textcolor hskip ref eqref cite footnote"
+)
+DECORATED = _words(
+    "underbrace overbrace boxed fbox cancel bcancel xcancel ensuremath mathchoice colorbox underbracket smash emph hl "
+    "tightboxed Aboxed framebox raisebox"
+)
+OPENERS = {"(": ")", "[": "]", "{": "}", "lbrace": "}", "langle": ">", "lvert": "|", "lVert": "|", "|": "|", "<": ">",
+           "lbrack": "]", "lfloor": "]", "lceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
+CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": "|", "rVert": "|", "|": "|", ">": ">",
+           "rbrack": "]", "rfloor": "]", "rceil": "]", ".": ".", "Vert": "|", "vert": "|"}  # fmt: skip
+INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
+MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
+ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
+UNIT_WORDS = _words("sec min rad rpm rev deg kg cm mm km ms Hz kHz hr yr mol Pa")
