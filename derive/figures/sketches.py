@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, cos, diff, pi, sin, sqrt
+from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import TIME, Relation, as_expr, explicit, rate, scalar
 from derive.algebra.tidy import tidied
@@ -28,7 +29,7 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
-from derive.figures.turning import downwards, link_marks, moving_end
+from derive.figures.turning import downwards, link_marks, moving_end, natural_length
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, later_marks, launch_marks, moment_drawn
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
@@ -367,6 +368,11 @@ class _Scene:
             yield Axis(origin, end, label=q)
             if self.rows == 2:
                 yield ConnectionMark(column_of(at), column_of(ahead))
+        if self.rows == 3:  # down to the plane of the first two axes, and from there to these axes
+            x, y, _ = at.components
+            foot = column_of(Location((x, y, ZERO)))
+            yield ConnectionMark(column_of(at), foot)
+            yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
         """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
@@ -420,17 +426,21 @@ class _Scene:
                 yield from self._with_natural_length(self._dimension(q, start, at, len(shown)), start)
 
     def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
-        """Yield a dimension line that begins at `start`. If it shows the extension of the only spring, also yield the
-        natural length of the spring; both lines then leave room for the label of the spring."""
+        """Yield a dimension line that begins at `start`. If it shows the extension or the length of the only spring,
+        also yield the natural length of the spring: in line with the extension, with room for the label of the spring,
+        or opposite to the length."""
         springs = [each for each in self.system.between if is_spring(each)]
         ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
-        if len(springs) == len(ends) == 1 and isinstance(mark, DistanceMark):
-            x, y = (tidied(c) for c in (start - ends[0]).components)
-            size = x if y == 0 else y
-            length = -size if size.could_extract_minus_sign() else size
-            if 0 in (x, y) and length.is_Symbol and not moving_in(self.system, length):
+        length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None
+        if length is not None:
+            ways = [tidied(c) for c in (start - ends[0]).components]
+            if sorted(abs(c) for c in ways if c != 0) == [length] and isinstance(mark, DistanceMark):
                 mark = replace(mark, off=mark.off + OVER_LABEL)
                 yield replace(mark, start=column_of(ends[0]), end=column_of(start), label=length)
+            elif not any(ways) and isinstance(mark, LengthMark) and isinstance(mark.aside, MatrixBase):
+                way = mark.end - mark.start
+                far = mark.start + length / sqrt(tidied(way.dot(way))) * way
+                yield replace(mark, end=far, aside=-mark.aside, label=length)
         yield mark
 
     def _is_shown(self, q: Symbol) -> bool:
@@ -629,6 +639,9 @@ class _Scene:
                 yield from moving_end(self.system, end, False) if elastic and self._is_free(end) else ()
                 continue
             if elastic:
+                if self._is_nail(way):
+                    yield PointMark(column_of(end))
+                    continue
                 turns = any(same(link.start, end) for link in self.links.values())
                 yield FixedEnd(column_of(end), downwards(self.rows) if turns else way)
             else:
@@ -638,6 +651,13 @@ class _Scene:
         ends = (each.start.components, each.end.components)
         if not elastic and not linked & {ends, ends[::-1]}:
             yield ConnectionMark(a, b)
+
+    def _is_nail(self, way: ImmutableDenseMatrix) -> bool:
+        """Whether a spring is held by a nail in a horizontal plane: its length is zero if all coordinates are zero, and
+        its other end moves round the nail."""
+        moving = self.system.coordinates
+        is_round = len([c for c in way if moving_in(self.system, c) - {TIME}]) > 1
+        return not self.system.weights and is_round and not any(c.xreplace(dict.fromkeys(moving, ZERO)) for c in way)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
         """Yield an ellipse with the centre of an inverse-square force at one focus; nothing for any other force."""
