@@ -240,7 +240,8 @@ def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterab
     outlines = {mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))}
     zero = [q for q in system.coordinates if moment.at.get(q) == 0 and moment.rates.get(q, ZERO) == 0]
     solids = [mark for mark in outlines if isinstance(mark, BarMark | WheelMark)]
-    if not solids or len(system.places[0].components) != 2:
+    acts = moment.meeting or any(any(push.components) for push, _ in moment.pushes)
+    if not acts or not solids or len(system.places[0].components) != 2:
         return
     angles = [q for q in zero if system.coordinates[q] == "angle"]
     radius = next((mark.radius for mark in solids if isinstance(mark, WheelMark)), None)
