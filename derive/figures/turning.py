@@ -40,7 +40,6 @@ def link_marks(system: System, link: Link) -> Iterable[Mark]:
     if not link.is_constant and _has_spring(system, link):
         up = ImmutableDenseMatrix([-link.way.components[1], link.way.components[0]]) if len(start) == 2 else None
         yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
-        yield from _natural_length(system, link)
         return
     yield ConnectionMark(start, end, label=link.length)
     if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
@@ -78,26 +77,11 @@ def _components(system: System, link: Link) -> list[Mark]:
 
 
 def _has_spring(system: System, link: Link) -> bool:
-    return bool(_springs_along(system, link))
-
-
-def _springs_along(system: System, link: Link) -> list[Central]:
-    return [
-        each
+    return any(
+        is_spring(each) and same(a, link.start) and same(b, link.end)
         for each in system.between
         for a, b in ((each.start, each.end), (each.end, each.start))
-        if is_spring(each) and same(a, link.start) and same(b, link.end)
-    ]
-
-
-def _natural_length(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the natural length of a spring along a link in a plane, if it is a symbol; the length of the link is on the
-    other side."""
-    length = natural_length(system, _springs_along(system, link)[0])
-    if len(link.way.components) == 2 and length is not None:
-        x, y = link.way.components
-        start, way = column_of(link.start), column_of(link.way)
-        yield DistanceMark(start, start + length / link.length * way, ImmutableDenseMatrix([y, -x]), label=length)
+    )
 
 
 def natural_length(system: System, spring: Central) -> Expr | None:
