@@ -18,7 +18,8 @@ from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
-POLHODES = "polhodes"  # the name of a drawing that the engine makes only if the problem names it
+POLHODES, AFTER = "polhodes", "after"
+ON_REQUEST = (POLHODES, AFTER)  # the names of drawings that the engine makes only if the problem names them
 EQUILIBRIA = "equilibria"  # the answer whose plot is a bifurcation diagram
 _KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres

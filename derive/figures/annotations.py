@@ -294,9 +294,10 @@ class ForceArrow(Arrow):
 
 @dataclass(frozen=True)
 class AppliedForce(Arrow):
-    """A given force on a part of a system: an arrow of a fixed length that starts outside this part.
+    """A given force on a part of a system: an arrow of a fixed length that starts outside this part or, if it pushes,
+    ends outside this part.
 
-    clear   the distance of the start of the arrow from the point of action, in points
+    clear   the distance of this end of the arrow from the point of action, in points
     """
 
     clear: float = 0.0
@@ -307,9 +308,11 @@ class AppliedForce(Arrow):
             return []
         (x, y), ahead = paper.spots(start, plus(start, along, paper.reach))
         u, v = direction((x, y), ahead)
-        far = self.clear + APPLIED
-        spots = (x + self.clear * u, y + self.clear * v), (x + far * u, y + far * v)
-        return [Stroke(spots, "given", head=True), Tag(self.label, spots[1], (u, v))]
+        x, y = x - self.aside * v, y + self.aside * u
+        side = -1 if self.pushes else 1
+        near, far = ((x + side * d * u, y + side * d * v) for d in (self.clear, self.clear + APPLIED))
+        ends = (far, near) if self.pushes else (near, far)
+        return [Stroke(ends, "given", head=True), Tag(self.label, far, (side * u, side * v))]
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, column, explicit, rate
+from derive.algebra.ranges import range_of
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.annotations import Line as Edge
@@ -660,13 +661,17 @@ class Connections:
         return [FixedEnd(column_of(pin.at), downwards(self.rows) if still else column_of(pin.at) * 0, True)]
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
-        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""
+        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies, within the
+        range of this coordinate if the range is finite."""
         at = wire.of.at
         (q,) = moving_in(self.system, *at.components) - {TIME}
         start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
         turns = any(c.has(TIME) for c in at.components) and not any(diff(c, q, 2) for c in at.components)
         is_half = turns and self.system.coordinates[q] == "length" and is_fixed(self.system, start)
         low, high = (-pi, pi) if self.system.coordinates[q] == "angle" else (ZERO if is_half else -FAR * q, FAR * q)
+        known = range_of(q)
+        if known is not None and known.least.is_finite and known.greatest.is_finite:
+            low, high = known.least, known.greatest
         yield WayMark(column_of(at), q, low, high, "wire")
 
     def _motor(self, motor: Motor) -> Iterable[Mark]:

@@ -17,7 +17,7 @@ from derive.figures.parts import COIL, ConnectionMark
 from derive.figures.positions import column_of
 from derive.figures.surroundings import AngleBetween, DistanceMark, MovingEnd, WayMark
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.system import System
+from derive.mechanics.model.system import Central, System
 
 ZERO = Integer(0)
 PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, in points
@@ -83,6 +83,13 @@ def _has_spring(system: System, link: Link) -> bool:
         for each in system.between
         for a, b in ((each.start, each.end), (each.end, each.start))
     )
+
+
+def natural_length(system: System, spring: Central) -> Expr | None:
+    """Return the natural length of a spring; None if it is not a constant symbol."""
+    pull, stiffness = (diff(spring.energy, spring.distance, n) for n in (1, 2))
+    length = tidied(spring.distance - pull / stiffness)
+    return length if length.is_Symbol and not moving_in(system, length) else None
 
 
 def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]:

@@ -13,11 +13,11 @@ from sympy import Expr, Integer, diff
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.course.parts import BOTH, ENERGY, LAGRANGE
-from derive.course.placement import Placement
+from derive.course.placement import AFTER, Placement
 from derive.course.stock import Methods, Stock, told_at
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Rejected, rejected
-from derive.figures import draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
+from derive.figures import draw_after, draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
 from derive.mechanics import (
     Coordinate,
     System,
@@ -111,6 +111,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
+            self._draw_after(drawings)
             run = current_run.get()
             draw_modes(self.system, run.established if run is not None else (), self._named, SYSTEM)
             self._state_static_friction()
@@ -134,6 +135,14 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             found |= answers
         check_one_law_for_each_key(found, methods.stated)
         return {str(name): found[str(name)] for name in asked}
+
+    def _draw_after(self, drawings: Sequence[Placement]) -> None:
+        """Draw the system just after an impact, if the problem has an entry for this drawing."""
+        for each in (each for each in drawings if each.key == AFTER and not each.is_of_engine):
+            if self.of_impact is None:
+                rejected("drawing", "the drawing `after` needs an impact", each.place, "describe it under `impact`")
+            rates = [self.of_impact.rate_after(name) for name in self.of_impact.moving]
+            draw_after(AFTER, self.system, struck(self.of_impact.impact), rates, self._named)
 
     @cached_property
     def _named(self) -> list[Any]:

@@ -11,7 +11,7 @@ from sympy import symbols as symbols_of
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line
+from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line, PointMark
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import (
     BarMark,
@@ -561,6 +561,28 @@ def test_a_given_force_that_the_figure_does_not_show_is_named_in_the_caption(tmp
         "Figure 1. The figure does not show the force (F sin θ, F), the torque τ and the drag with the constant b."
     )
     assert caption in " ".join(page.split())
+
+
+def test_a_drag_along_a_line_is_an_arrow_against_the_motion_beside_a_driving_force(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("driven_oscillator"))["system"]
+    force, drag = of_class(drawn, AppliedForce)
+    assert (str(drag.label), list(drag.value), drag.pushes) == ("b*x_dot", [-1, 0], True)
+    assert not force.pushes and force.aside == drag.aside > 0  # on opposite sides, because the directions are opposite
+    assert drawn.undrawn == ()
+
+
+def test_the_natural_length_of_a_spring_is_drawn_with_its_extension_or_opposite_to_its_length(tmp_path: Path) -> None:
+    cart = drawings(tmp_path / "cart", library("damped_oscillator"))["system"]
+    natural, extension = of_class(cart, DistanceMark)
+    assert [str(each.label) for each in (natural, extension)] == ["a", "x"] and natural.end == extension.start
+    ball = drawings(tmp_path / "ball", library("hanging_mass"))["system"]
+    natural, whole = of_class(ball, LengthMark)
+    assert [str(each.label) for each in (natural, whole)] == ["l", "y"] and natural.aside == -whole.aside
+
+
+def test_a_spring_on_a_table_is_held_by_a_nail(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("turning_plane"))["system"]
+    assert not of_class(drawn, FixedEnd) and any(list(mark.at) == [0, 0, 0] for mark in of_class(drawn, PointMark))
 
 
 @pytest.mark.long

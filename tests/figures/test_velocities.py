@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +14,8 @@ from derive.figures import sketch
 from derive.figures.annotations import Arrow, Axis, LengthMark
 from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.marks import Drawing
-from derive.figures.parts import BlockMark, ParticleMark
+from derive.figures.modes import DisplacementArrow
+from derive.figures.parts import BlockMark, ConnectionMark, ParticleMark
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import AngleBetween, DistanceMark, FloorMark
 from derive.figures.velocities import Moment
@@ -22,6 +25,8 @@ from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import recorded
 from tests.courses import library_drawings
 from tests.figures.machines import labels, of, seen
+from tests.figures.test_connected import drawings, library
+from tests.stock.described import complaints
 
 M, m, R, l, b, v, g, h, J, alpha = symbols("M m R l b v g h J alpha", positive=True)
 a, phi = symbols("a", positive=True), symbols("phi", real=True)
@@ -72,7 +77,7 @@ def test_a_bullet_comes_flying_from_before_the_rod_that_hangs() -> None:
     assert found is not None
     assert labels(found, Arrow) == ["v"] and labels(found, LengthMark) == ["b"] and labels(found, ParticleMark) == ["m"]
     assert not of(found, FloorMark) and not of(found, BlockMark)
-    assert not of(found, DistanceMark) and not of(found, AngleBetween)
+    assert not of(found, DistanceMark)
     values = dict(found.values)
     assert values[scalar("x")] == -b and values[scalar("theta")] == 0 and values[b] == 3 * l / 4
 
@@ -101,6 +106,36 @@ def test_an_impulse_to_the_left_comes_from_the_right() -> None:
     assert found is not None
     (line,) = [piece for piece in seen(found) if isinstance(piece, Stroke) and piece.pen == "given"]
     assert line.spots[0][0] > line.spots[-1][0]
+
+
+def test_the_coordinates_that_are_zero_at_an_impact_are_shown_by_dashed_bodies(tmp_path: Path) -> None:
+    found = shot()
+    assert found is not None
+    (angle,) = of(found, AngleBetween)
+    (rod,) = of(found, ConnectionMark)
+    assert angle.label == scalar("theta") and not angle.b.free_symbols & {scalar("theta")}
+    assert Matrix(rod.end)[0].subs(l, 1) > 0.1  # to the right of the rod, in the positive sense of the angle
+    ball = drawings(tmp_path / "ball", library("cue_ball"))["system"]
+    assert len(of(ball, Ghost)) == 1 and {"h", "x"} <= set(map(str, labels(ball, LengthMark)))
+    rods = drawings(tmp_path / "rods", library("struck_pair"))["system"]
+    assert set(map(str, labels(rods, AngleBetween))) == {"theta", "phi"}
+    assert list(map(str, labels(rods, LengthMark))) == ["y"]
+
+
+def test_the_state_just_after_an_impact_is_drawn_on_request(tmp_path: Path) -> None:
+    """The left rod turns clockwise, the right one counterclockwise; the total momentum is J."""
+    text = library("struck_pair")
+    after = drawings(tmp_path / "drawn", text)["after"]
+    left, right = of(after, DisplacementArrow)
+    assert [Matrix(arrow.value)[1] for arrow in (left, right)] == [-J / 4 / m, 5 * J / 4 / m]
+    assert len(of(after, ConnectionMark)) == 2
+    assert "after" not in drawings(tmp_path / "not", re.sub(r"  after:\n(    .*\n)+", "", text))
+    wrong = library("simple_pendulum").replace("drawings:\n", "drawings:\n  after: {at: a}\n", 1)
+    assert any("needs an impact" in each.message for each in complaints(tmp_path / "wrong", wrong))
+
+
+def test_two_particles_on_a_line_have_an_axis_with_the_common_name_of_their_coordinates(tmp_path: Path) -> None:
+    assert list(map(str, labels(drawings(tmp_path, library("two_balls"))["system"], Axis))) == ["x"]
 
 
 def test_no_impact_is_drawn_without_what_acts() -> None:
