@@ -25,11 +25,13 @@ NOISE = 1e-12  # relative size below which the value at an extremum is zero with
 
 @dataclass(frozen=True)
 class Extremum:
-    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum"."""
+    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum". `name` is
+    the symbol that the solution has for this value of the variable, such as r_0."""
 
     at: float
     value: float
     kind: str
+    name: Any = None
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:

@@ -39,6 +39,7 @@ STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a c
 MOST_POINTS = 2  # a curve with more zeros, or a panel with more meeting points, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED = 6  # a curve with more extrema has no marks
+NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
@@ -117,19 +118,19 @@ class Curves:
         """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
         zero.
 
-        They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
-        the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.
+        They are the points at which the curves of two quantities meet. Otherwise they are the zeros at which a
+        quantity vanishes. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
-        if others and not (len(others) == 1 and self.labels_differ and one.variable == others[0].variable):
+        if self.labels_differ and len(own) > 2:
             return ()
         found = []
-        if others:
+        if others and self.labels_differ:
             places = zeros(one.expr - others[0].expr, one.variable, one.lower, one.upper)
             found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
         if not found and self.up.unit != JOULE:
             every = [(each, at) for each in own for at in zeros(each.expr, each.variable, each.lower, each.upper)]
-            found = [(at, 0.0, True) for each, at in every if at < each.upper]
+            found = [(at, 0.0, True) for _, at in every]
         return tuple(found) if len(found) <= MOST_POINTS else ()
 
     @property
@@ -330,8 +331,15 @@ def _curve(
             path = _path((across[0], expr), plot.variable, lower, upper)
             outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
-        found = extrema(expr, plot.variable, lower, upper)
+        places = [(name, float(value)) for name, each in plot.places if (value := each.xreplace(numbers)).is_real]
+        found = _with_names(extrema(expr, plot.variable, lower, upper), places, NEAR * (upper - lower))
         return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+
+
+def _with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:
+    """Return the extrema, each with the name of the first of the places that is not farther away than `near`."""
+    names = [next((name for name, at in places if abs(at - each.at) <= near), None) for each in found]
+    return tuple(replace(each, name=name) for each, name in zip(found, names, strict=True))
 
 
 def _diagram(
@@ -400,9 +408,8 @@ def with_unit(value: float, unit: str) -> str:
 
 
 def to_three_figures(value: float, unit: str) -> str:
-    """Return a number to three figures with its unit."""
-    shown = f"{value:#.3g}".rstrip(".") if abs(value) < 1000 else f"{value:.3g}"
-    return _signed(f"{shown}{_gap(unit)}{unit}")
+    """Return a number to at most three figures with its unit."""
+    return _signed(f"{value:.3g}{_gap(unit)}{unit}")
 
 
 def _gap(unit: str) -> str:
