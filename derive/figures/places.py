@@ -27,6 +27,6 @@ def with_places(drawing: Recorded, steps: Sequence[Step]) -> Recorded:
             for _ in names:  # the value of a name may contain other names
                 value = bound(value, names)
             value = explicit(value)
-            if isinstance(value, Expr) and drawing.variable not in value.free_symbols:
+            if isinstance(value, Expr) and value.free_symbols and drawing.variable not in value.free_symbols:
                 found.append((step.symbol, value))
     return replace(drawing, places=tuple(found))

@@ -594,9 +594,19 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
             "high": with_unit(curve.portrait.high, plot.unit_up),
             "up": _named(plot.label),
             "values": joined([(Text(with_unit(value, plot.levels.unit)),) for value, _ in curve.portrait.values], last),
-            "thick": joined([(Math(value),) for value, is_thick in plot.levels.values if is_thick], last),
+            "thick": joined(_thick(plot.levels, curve.portrait.values), last),
         }
         yield filled(words.drawings["portrait_values"], own)
+
+
+def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]]) -> list[tuple[Inline, ...]]:
+    """Return the values on the thick curves: formulas, or numbers with their unit."""
+    every = zip(levels.values, numbers, strict=True)
+    return [
+        (Math(value),) if value.free_symbols else (Text(with_unit(number, levels.unit)),)
+        for (value, _), (number, is_thick) in every
+        if is_thick
+    ]
 
 
 def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:

@@ -54,6 +54,7 @@ class Curve:
     portrait the curves of a phase portrait
     outlines surfaces in the plane of a path
     diagram  the branches of a bifurcation diagram
+    places   the values of the variable for which the solution has a symbol, with these symbols
     """
 
     expr: Expr
@@ -68,6 +69,7 @@ class Curve:
     portrait: Portrait | None = None
     outlines: tuple[Outline, ...] = ()
     diagram: Bifurcations | None = None
+    places: tuple[tuple[Any, float], ...] = ()
 
     @cached_property
     def spots(self) -> Path:
@@ -105,6 +107,7 @@ class Curves:
     up            the unit of the vertical axis
     across        the unit of the horizontal axis
     is_together   whether all curves are in one panel
+    is_lettered   whether the caption refers to the curves of one panel as (i), (ii)
     """
 
     curves: tuple[Curve, ...]
@@ -113,6 +116,7 @@ class Curves:
     across: Axis
     shared: tuple[Measured, ...] = ()
     is_together: bool = False
+    is_lettered: bool = False
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
         """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
@@ -168,7 +172,9 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
         raise Rejected(Complaint("drawing", message, _place(problem, placement), help=help_line))
     across = _axis(plot.across.unit) if plot.across else variable
     together = _are_together(problem, plot, placement, found)
-    return Curves(found, variable, _axis(plot.unit_up), across, shared, together)
+    said = placement.caption.text if placement and placement.caption else ""
+    is_lettered = together and f"({case_label(1)})" in said
+    return Curves(found, variable, _axis(plot.unit_up), across, shared, together, is_lettered)
 
 
 def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
@@ -318,6 +324,8 @@ def _curve(
         place = _place(problem, placement)
         raise Rejected(Complaint("drawing", message, place, help="change a number: avoid a resonance, for example"))
     lower, upper = (float(end) for end in ends)
+    known = [(name, value.xreplace(numbers)) for name, value in plot.places]
+    places = tuple((name, float(value)) for name, value in known if value.is_number and value.is_real)
     with told_at(_place(problem, placement)):
         if plot.levels is not None:
             low, high = _range(problem, plot, placement, plot.levels.up, plot.ends[2:], numbers)
@@ -326,17 +334,16 @@ def _curve(
             from derive.figures.portrait import portrait_of  # imports NumPy
 
             portrait = portrait_of(expr, *plane, values)
-            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait)
+            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait, places=places)
         if across:
             path = _path((across[0], expr), plot.variable, lower, upper)
             outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
-        places = [(name, float(value)) for name, each in plot.places if (value := each.xreplace(numbers)).is_real]
-        found = _with_names(extrema(expr, plot.variable, lower, upper), places, NEAR * (upper - lower))
+        found = with_names(extrema(expr, plot.variable, lower, upper), places, NEAR * (upper - lower))
         return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
 
 
-def _with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:
+def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:
     """Return the extrema, each with the name of the first of the places that is not farther away than `near`."""
     names = [next((name for name, at in places if abs(at - each.at) <= near), None) for each in found]
     return tuple(replace(each, name=name) for each, name in zip(found, names, strict=True))
@@ -390,7 +397,9 @@ def panel_letters(curves: Curves) -> list[str]:
 
 
 def curve_letters(curves: Curves) -> list[str]:
-    """Return the letter of the panel of each curve."""
+    """Return the letter of each curve: that of its panel, or its own if the caption refers to it."""
+    if curves.is_lettered:
+        return [case_label(i) for i, _ in enumerate(curves.curves)]
     letters = zip(panel_letters(curves), curves.panels, strict=True)
     return [letter for letter, panel in letters for _ in panel]
 

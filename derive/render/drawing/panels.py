@@ -14,7 +14,7 @@ from derive.figures.extrema import MINIMUM, Extremum
 from derive.figures.marks import Outline, Plot
 from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Axis, Curve, Curves, to_three_figures, with_unit
+from derive.page.plots import DEGREES, NEAR, Axis, Curve, Curves, curve_letters, to_three_figures, with_names, with_unit
 from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
 from derive.render.notation.latex import unit_latex
@@ -83,6 +83,8 @@ class Panel:
     numbers          the texts above the panel: its letter, and the numbers that were substituted
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
+    levels           the values on these curves
+    rests            the points of stable rest in a phase portrait, like extrema of a curve
     outlines         the lines of surfaces in the plane of a path
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
@@ -100,6 +102,8 @@ class Panel:
     is_path: bool = False
     shape: float | None = None
     lines: tuple[LevelLine, ...] = ()
+    levels: tuple[str, ...] = ()
+    rests: tuple[Turn, ...] = ()
     outlines: tuple[tuple[Spot, ...], ...] = ()
     branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
     changes: tuple[Mark, ...] = ()
@@ -112,13 +116,14 @@ class Panel:
 
     @property
     def turns(self) -> tuple[Turn, ...]:
-        """Return the extrema of all curves."""
-        return tuple(turn for trace in self.traces for turn in trace.turns)
+        """Return the extrema of all curves, and the points of rest."""
+        return (*(turn for trace in self.traces for turn in trace.turns), *self.rests)
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
         yield from (name for _, _, name in self.turns if name)
         yield from (name for name, _ in self.branches)
+        yield from self.levels
         yield from (change.name for change in self.changes)
         yield from (name for _, name in self.points)
         yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
@@ -259,10 +264,12 @@ def portrait_panel(
     """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
     powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
+    across = _scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees)
+    assert plot.levels is not None
     return Panel(
         traces=(),
         values=(start, portrait.low, end, portrait.high),
-        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees),
+        across=across,
         up=_scaled_ticks(powers[1], portrait.low, portrait.high, MOST_UP),
         names=(
             _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
@@ -271,7 +278,23 @@ def portrait_panel(
         numbers=_title(letter, [curve], curves, notation),
         shape=PORTRAIT,
         lines=tuple(replace(line, points=_scaled(line.points, curves.variable, curves.up)) for line in portrait.lines),
+        levels=tuple(
+            f"${_mathtext(notation.layout(value)) if value.free_symbols else _with_unit(number, plot.levels.unit)}$"
+            for (value, _), (number, _) in zip(plot.levels.values, portrait.values, strict=True)
+        ),
+        rests=tuple(_rest(centre, curve, curves, across, notation) for centre in portrait.centres),
     )
+
+
+def _rest(centre: Spot, curve: Curve, curves: Curves, across: Ticks, notation: Notation) -> Turn:
+    """Return a point of stable rest, with the name of its place on the horizontal axis."""
+    found = with_names([Extremum(*centre, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))[0]
+    (spot,) = _scaled([centre], curves.variable, curves.up)
+    return spot, True, _name_of_place(found, curves.variable, across, notation)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return _mathtext_of_value(to_three_figures(value, unit))
 
 
 def diagram_panel(
@@ -391,7 +414,7 @@ def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notat
     """Return the place of an extremum, such as `r_0 = 0.589 m`, or without a symbol `54.6°`. A place at a tick needs no
     number."""
     x = extremum.at * axis.per_unit
-    value = [] if _has_tick(x, ticks) else [_mathtext_of_value(to_three_figures(x, axis.unit))]
+    value = [] if _has_tick(x, ticks) else [_with_unit(x, axis.unit)]
     symbol = [_mathtext(notation.layout(extremum.name))] if extremum.name is not None else []
     return "$" + " = ".join([*symbol, *value]) + "$" if symbol or value else ""
 
@@ -414,7 +437,9 @@ def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation
 
 def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
     """Return the name of one of several curves in a panel."""
-    return "$" + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
+    letter = curve_letters(curves)[curves.curves.index(curve)] if curves.is_lettered else ""
+    first = rf"({{\mathrm{{{letter}}}}})\;\;" if letter else ""
+    return "$" + first + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
 
 
 def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:

@@ -6,8 +6,8 @@ path have the same unit, both axes have the same scale.
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
 names are in a legend in a corner of the panel or, if no corner is free, above the panel.
 
-Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis; its name is the
-place there, above a maximum and below a minimum if there is room.
+Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis; its name is
+the place there, above a maximum and below a minimum if there is room.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate, groupby, pairwise
 from math import dist
 
 from derive.figures.marks import Plot
@@ -23,7 +23,16 @@ from derive.figures.pieces import Bullet, Piece, Stroke
 from derive.figures.space import Spot
 from derive.page.plots import Curves, panel_letters
 from derive.render.drawing.canvas import LINE, QUIET, shapes_of
-from derive.render.drawing.curve_names import beside_curves, corner_for, dots_of, is_clear, is_inside, rows_of
+from derive.render.drawing.curve_names import (
+    beside_curves,
+    corner_for,
+    dots_of,
+    is_clear,
+    is_inside,
+    is_within,
+    on_curve,
+    rows_of,
+)
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
 from derive.render.drawing.panels import Mark, Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
@@ -163,7 +172,7 @@ def _width_of_row(widths: Sequence[float]) -> float:
 def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot) -> Iterator[Shape]:
     """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
-    yield from shapes_of(list(_pieces(panel, frame)))
+    yield from shapes_of(list(_pieces(panel, frame, names.gaps)))
     yield from shapes_of([piece for turn in panel.turns for piece in _dot(turn, frame)])
     yield from names.turns
     yield from names.curves
@@ -198,12 +207,14 @@ class Names:
     turns    the names of extrema
     above    the height up to which a legend above the panel reaches
     points   the values at zeros and at points at which two curves meet
+    gaps     the gaps for names in the curves of a phase portrait: the index of the curve, and the box
     """
 
     curves: tuple[Shape, ...]
     turns: tuple[Shape, ...] = ()
     above: float = 0.0
     points: tuple[Shape, ...] = ()
+    gaps: tuple[tuple[int, Extent], ...] = ()
 
 
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
@@ -211,6 +222,8 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
     else in a legend above the panel."""
     if panel.branches:
         return _names_of_branches(panel, frame, writing)
+    if panel.lines:
+        return _names_of_levels(panel, frame, writing)
     if not panel.has_several:
         turns = _names_of_turns(panel, frame, writing, ())
         points = _names_of_points(panel, frame, writing, [box for _, box in turns])
@@ -302,6 +315,31 @@ def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
     return Names(tuple(shapes))
 
 
+def _names_of_levels(panel: Panel, frame: Frame, writing: Writing) -> Names:
+    """Return the values on the curves of a phase portrait, each in a gap of the longest curve of this value, and the
+    names of the points of rest. A value without a clear place is left out; the alternative text has all values."""
+    turns = _names_of_turns(panel, frame, writing, ())
+    taken = [box for _, box in turns]
+    lines = [dots_of(frame.spots(line.points)) for line in panel.lines]
+    left, below, right, above = frame.paper
+    inner = left + TICK + PAD, below + TICK + PAD, right, above
+    shapes: list[Shape] = []
+    gaps: list[tuple[int, Extent]] = []
+    for i, name in enumerate(panel.levels):
+        own = [k for k, line in enumerate(panel.lines) if line.of == i]
+        if own:
+            longest = max(own, key=lambda k: len(lines[k]))
+            others = [dot for k, line in enumerate(lines) if k != longest for dot in line]
+            others += _dots_of_thin_lines(panel, frame)
+            others += [frame.spots(panel.lines[longest].points)[at] for at in panel.lines[longest].heads]
+            box = on_curve(lines[longest], writing.size(name, SMALLEST), inner, taken, others)
+            if box is not None:
+                taken.append(box)
+                gaps.append((longest, box))
+                shapes.append(writing.at(box[:2], name, SMALLEST, (0.0, 0.0)))
+    return Names(tuple(shapes), tuple(shape for shape, _ in turns), gaps=tuple(gaps))
+
+
 def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
     """Return the line from the horizontal axis to the highest place of a bifurcation."""
     highest = max(change.places, key=lambda place: place[1])
@@ -359,12 +397,13 @@ def _names_of_turns(
     """
     left, below, right, above = frame.paper
     inner = left + TICK + PAD, below + TICK + PAD, right, above + PAD
-    dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
+    curves = (*(trace.points for trace in panel.traces), *(line.points for line in panel.lines))
+    dots = [dot for points in curves for dot in dots_of(frame.spots(points))]
     dots += _dots_of_thin_lines(panel, frame)
     found: list[tuple[Shape, Extent]] = []
-    for trace in panel.traces:
+    for turns in (*(trace.turns for trace in panel.traces), *((rest,) for rest in panel.rests)):
         own: list[tuple[Shape, Extent]] = []
-        for place, is_lowest, name in trace.turns:
+        for place, is_lowest, name in turns:
             if name:
                 used = [*taken, *(box for _, box in (*found, *own))]
                 tried = _beside_turn(frame.spot(place), is_lowest, writing.size(name, SMALLEST), frame.paper)
@@ -407,13 +446,14 @@ def _line_to_axis(turn: Turn, frame: Frame) -> tuple[Spot, Spot]:
     return turn[0], (turn[0][0], frame.values[1])
 
 
-def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
+def line_of(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]] = ()) -> Iterator[Piece]:
     """Yield the lines of a panel except its axes: curves, surfaces, branches, and bifurcations with their dots. A path
     has an arrowhead, and dots at its start and at its end."""
-    for line in panel.lines:
+    for i, line in enumerate(panel.lines):
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
-        yield Stroke(spots, pen)
-        yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
+        yield from (Stroke(part, pen) for part in _parts(spots, [box for k, box in gaps if k == i]))
+        for at in line.heads:
+            yield Stroke(spots[at - 1 : at + 1], pen, head=True)
     for outline in panel.outlines:
         yield Stroke(frame.spots(outline), "edge")
     for change in panel.changes:
@@ -434,20 +474,28 @@ def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
             yield Bullet(spots[-1], DOT, "ink")
 
 
+def _parts(spots: Sequence[Spot], gaps: Sequence[Extent]) -> Iterator[tuple[Spot, ...]]:
+    """Yield the parts of a line outside of these boxes."""
+    for is_covered, part in groupby(spots, key=lambda spot: any(is_within(spot, box) for box in gaps)):
+        points = tuple(part)
+        if not is_covered and len(points) > 1:
+            yield points
+
+
 def _index_of(part: float, spots: Sequence[Spot]) -> int:
     """Return the index, at least 1, of the point after this part of the length of a line."""
     lengths = [*accumulate((dist(one, other) for one, other in pairwise(spots)), initial=0.0)]
     return max(1, bisect_left(lengths, lengths[-1] * part))
 
 
-def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
+def _pieces(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]]) -> Iterator[Piece]:
     left, below, right, above = frame.paper
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         yield Stroke(((left, zero), (right, zero)), "thin")
     for turn in panel.turns:
         yield Stroke(frame.spots(_line_to_axis(turn, frame)), "hidden")
-    yield from line_of(panel, frame)
+    yield from line_of(panel, frame, gaps)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:
         at = frame.spot((x, 0.0))[0]
