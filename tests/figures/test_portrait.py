@@ -29,6 +29,21 @@ def test_a_separatrix_is_thick_and_other_motions_go_on_both_sides_of_it() -> Non
     assert (portrait.low, portrait.high) == (-3, 3)
 
 
+def test_a_portrait_has_its_centres() -> None:
+    portrait = portrait_of(p**2 / 2 - cos(q - 1), PLANE, BOX, ((0.0, False),))
+    assert portrait.centres == ((pytest.approx(1.0), 0.0),)
+
+
+def test_the_energy_at_which_a_body_escapes_is_thick_and_an_open_curve_has_two_arrowheads() -> None:
+    x = symbols("x", positive=True)
+    expr = p**2 / 2 + 1 / (2 * x**2) - 1 / x
+    portrait = portrait_of(expr, (x, p), (0.3, 7.0, -1.2, 1.2), ((-0.3, False), (0.0, False), (0.2, False)))
+    assert [is_thick for _, is_thick in portrait.values] == [False, True, False]
+    assert [len(line.heads) for line in portrait.lines] == [1, 2, 2]
+    (circle,) = portrait.centres
+    assert circle == (pytest.approx(1.0), 0.0)
+
+
 def test_a_value_without_a_curve_is_rejected() -> None:
     with pytest.raises(Rejected) as refused:
         portrait_of(p**2 + q**2, PLANE, BOX, ((9.0, False),))

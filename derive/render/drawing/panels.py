@@ -38,7 +38,7 @@ AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the dis
 USUAL = (-2, 4)  # range of the power of ten of the greatest number on an axis that has no factor 10^n
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
-Turn: TypeAlias = tuple[Spot, bool, str]
+Turn: TypeAlias = tuple[Spot, bool, tuple[str, ...]]
 
 
 @dataclass(frozen=True)
@@ -46,8 +46,8 @@ class Trace:
     """One curve of a panel.
 
     points   the curve, in the units of the axes
-    turns    the extrema: the point, whether it is a minimum, and the name of its place on the horizontal axis; the name
-             is empty if a tick already shows the place
+    turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
+             axis, the shortest last; there is none if a tick already shows the place
     name     the name of the curve; empty if the panel has no other curve
     """
 
@@ -121,7 +121,7 @@ class Panel:
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
-        yield from (name for _, _, name in self.turns if name)
+        yield from (name for _, _, names in self.turns for name in names)
         yield from (name for name, _ in self.branches)
         yield from self.levels
         yield from (change.name for change in self.changes)
@@ -178,7 +178,7 @@ def curve_panel(
     _, low, _, high = _box(traces)
     low = 0.0 if 0 < low < NEAR_ZERO * (high - low) else low
     tall = (high - low) or abs(high) or 1.0
-    lowest = {is_lowest for trace in traces for _, is_lowest, name in trace.turns if name}
+    lowest = {is_lowest for trace in traces for _, is_lowest, names in trace.turns if names}
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
     power_up = _power(low, high, curves.up)
     return Panel(
@@ -410,13 +410,14 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[flo
 # --- names -----------------------------------------------------------------------------------------------------------
 
 
-def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> str:
-    """Return the place of an extremum, such as `r_0 = 0.589 m`, or without a symbol `54.6°`. A place at a tick needs no
-    number."""
+def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> tuple[str, ...]:
+    """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`. A place at a tick
+    needs no number."""
     x = extremum.at * axis.per_unit
     value = [] if _has_tick(x, ticks) else [_with_unit(x, axis.unit)]
     symbol = [_mathtext(notation.layout(extremum.name))] if extremum.name is not None else []
-    return "$" + " = ".join([*symbol, *value]) + "$" if symbol or value else ""
+    forms = dict.fromkeys((" = ".join([*symbol, *value]), *symbol))
+    return tuple(f"${form}$" for form in forms if form)
 
 
 def _has_tick(x: float, ticks: Ticks) -> bool:

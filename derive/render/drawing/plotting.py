@@ -391,7 +391,8 @@ def _dot(turn: Turn, frame: Frame) -> Iterator[Piece]:
 def _names_of_turns(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> list[tuple[Shape, Extent]]:
-    """Return the names of the extrema of each curve on which all names have room, with their boxes.
+    """Return the names of the extrema with their boxes. If the names on a curve have no room, they have their shortest
+    form; if these have no room, the curve has no names.
 
     taken   boxes of other names
     """
@@ -402,17 +403,17 @@ def _names_of_turns(
     dots += _dots_of_thin_lines(panel, frame)
     found: list[tuple[Shape, Extent]] = []
     for turns in (*(trace.turns for trace in panel.traces), *((rest,) for rest in panel.rests)):
-        own: list[tuple[Shape, Extent]] = []
-        for place, is_lowest, name in turns:
-            if name:
+        for form in (0, -1):
+            own: list[tuple[Shape, Extent]] = []
+            named = [(place, is_lowest, names[form]) for place, is_lowest, names in turns if names]
+            for place, is_lowest, name in named:
                 used = [*taken, *(box for _, box in (*found, *own))]
                 tried = _beside_turn(frame.spot(place), is_lowest, writing.size(name, SMALLEST), frame.paper)
                 box = next((box for box in tried if is_inside(box, inner) and is_clear(box, dots, used)), None)
-                if box is None:
-                    break
-                own.append((writing.at(box[:2], name, SMALLEST, (0.0, 0.0)), box))
-        else:
-            found += own
+                own += [(writing.at(box[:2], name, SMALLEST, (0.0, 0.0)), box)] if box else []
+            if len(own) == len(named):
+                found += own
+                break
     return found
 
 
