@@ -95,6 +95,16 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     return (*found, _narrowed(f, a, b)) if y * z < 0 else tuple(found)
 
 
+def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
+    """Return the places inside the range at which two curves meet, also at its ends, but not where both start from
+    zero."""
+    found = zeros(one - other, variable, lower, upper)
+    f, g = (lambdify([variable], each, "math") for each in (one, other))
+    start, size = float(f(lower)), max(abs(float(each(upper))) for each in (f, g))
+    starts = abs(start - float(g(lower))) <= NEAR_ZERO * size < abs(start)
+    return (lower, *found) if starts else found
+
+
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
     """Find the place at which a function, such as the slope, changes sign, by bisection."""
     below = slope(low) < 0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from sympy import Expr, Symbol, nan, oo, pi, zoo
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
@@ -22,7 +22,7 @@ from derive.course.stock import told_at
 from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
-from derive.figures.extrema import NOISE, Extremum, extrema, values_along, zeros
+from derive.figures.extrema import NOISE, Extremum, extrema, meetings, values_along, zeros
 from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
 MOST_POINTS = 2  # a curve with more zeros, or a panel with more meeting points, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
-MOST_MARKED = 6  # a curve with more extrema has no marks
+MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
 NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
@@ -79,9 +79,10 @@ class Curve:
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
-        """Return the extrema to mark: none if there are many, as for an oscillation, because the marks would hide the
-        curve."""
-        return self.extrema if len(self.extrema) <= MOST_MARKED else ()
+        """Return the extrema to mark: none if there are many, because the marks would hide the curve. The extrema of an
+        oscillation in time differ only in their number, so a few are enough."""
+        most = MOST_IN_TIME if self.variable == TIME else MOST_MARKED
+        return self.extrema if len(self.extrema) <= most else ()
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class Curves:
             return ()
         found = []
         if others and self.labels_differ:
-            places = zeros(one.expr - others[0].expr, one.variable, one.lower, one.upper)
+            places = meetings(one.expr, others[0].expr, one.variable, one.lower, one.upper)
             found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
         if not found and self.up.unit != JOULE:
             every = [(each, at) for each in own for at in zeros(each.expr, each.variable, each.lower, each.upper)]
