@@ -329,12 +329,13 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot, and for each `view`
-    of a drawing that is not in space."""
+    """Return a warning for each key `range`, `up`, `cases` or `panels` of a drawing that is not a plot, and for each
+    `view` of a drawing that is not in space."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
         said = {"range": placement.range is not None, "cases": bool(placement.cases), "panels": bool(placement.panels)}
+        said["up"] = placement.up is not None
         for name in (name for name in said if said[name] and no_plot):
             message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
             place = placement.range.place if placement.range and name == "range" else placement.place

@@ -108,6 +108,7 @@ class Curves:
     up            the unit of the vertical axis
     across        the unit of the horizontal axis
     is_together   whether all curves are in one panel
+    ends_up       the ends of the vertical axis in SI units, if the problem states them
     is_lettered   whether the caption refers to the curves of one panel as (i), (ii)
     """
 
@@ -118,6 +119,7 @@ class Curves:
     shared: tuple[Measured, ...] = ()
     is_together: bool = False
     is_lettered: bool = False
+    ends_up: tuple[float, float] | None = None
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
         """Return the points of a panel that are marked, except its extrema, in SI units, and whether the point is a
@@ -175,7 +177,8 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     together = _are_together(problem, plot, placement, found)
     said = placement.caption.text if placement and placement.caption else ""
     is_lettered = together and f"({case_label(1)})" in said
-    return Curves(found, variable, _axis(plot.unit_up), across, shared, together, is_lettered)
+    ends_up = _ends_up(problem, plot, placement)
+    return Curves(found, variable, _axis(plot.unit_up), across, shared, together, is_lettered, ends_up)
 
 
 def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
@@ -253,6 +256,15 @@ def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
+
+
+def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[float, float] | None:
+    """Return the ends of the vertical axis if the problem states them."""
+    if placement is None or placement.up is None:
+        return None
+    with told_at(placement.up.place):
+        low, high = _range(problem, plot, placement, plot.variable, placement.up.of_kind(plot.kind), {})
+    return float(low), float(high)
 
 
 def _numbers(

@@ -177,9 +177,15 @@ def curve_panel(
     )
     _, low, _, high = _box(traces)
     low = 0.0 if 0 < low < NEAR_ZERO * (high - low) else low
+    if curves.ends_up:
+        low, high = (each * curves.up.per_unit for each in curves.ends_up)
+        traces = tuple(
+            replace(each, turns=tuple(turn for turn in each.turns if low < turn[0][1] < high)) for each in traces
+        )
     tall = (high - low) or abs(high) or 1.0
     lowest = {is_lowest for trace in traces for _, is_lowest, names in trace.turns if names}
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
+    below, above = (0.0, 0.0) if curves.ends_up else (below, above)
     power_up = _power(low, high, curves.up)
     return Panel(
         traces=traces,

@@ -467,12 +467,25 @@ def line_of(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]] = ())
             yield Bullet(frame.spot(place), DOT, "ink")
     for i, trace in enumerate(panel.traces):
         spots, pen = frame.spots(trace.points), PENS_OF_CURVES[i % len(PENS_OF_CURVES)]
-        yield Stroke(spots, pen)
+        yield from (Stroke(part, pen) for part in _between(spots, frame.paper[1], frame.paper[3]))
         if panel.is_path:
             at = _index_of(HEAD, spots)
             yield Stroke(spots[at - 1 : at + 1], pen, head=True)
             yield Bullet(spots[0], DOT, "ink")
             yield Bullet(spots[-1], DOT, "ink")
+
+
+def _between(spots: Sequence[Spot], low: float, high: float) -> Iterator[tuple[Spot, ...]]:
+    """Yield the parts of a line between two heights."""
+    cut: list[Spot] = [spots[0]]
+    for (x, y), (u, v) in pairwise(spots):
+        crossed = sorted((at for at in (low, high) if min(y, v) < at < max(y, v)), reverse=v < y)
+        cut += [(x + (u - x) * (at - y) / (v - y), at) for at in crossed]
+        cut.append((u, v))
+    for is_drawn, part in groupby(cut, key=lambda spot: low <= spot[1] <= high):
+        points = tuple(part)
+        if is_drawn and len(points) > 1:
+            yield points
 
 
 def _parts(spots: Sequence[Spot], gaps: Sequence[Extent]) -> Iterator[tuple[Spot, ...]]:
