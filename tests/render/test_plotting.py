@@ -500,3 +500,13 @@ def test_a_degree_sign_above_a_panel_has_no_space_before_it() -> None:
     found = curves_of(problem, plot, Placement("potential", Place("one.yaml", 9), cases=numbers))
     panel = panel_of(plot, found.panels[0], found, Notation())
     assert panel.numbers == (r"$a = 120{}^{\circ}$",)
+
+
+def test_a_curve_is_cut_at_the_ends_of_the_vertical_axis_that_the_problem_states() -> None:
+    plot = plot_of(theta**2 - 1, Integer(-2), Integer(2), "length")
+    found = replace(curves(plot, 1), ends_up=(-0.5, 1.0))
+    panel = panel_of(plot, found.panels[0], found, Notation())
+    assert (panel.values[1], panel.values[3]) == (-0.5, 1.0) and panel.turns == (), "the minimum is outside"
+    drawn = [each.spots for each in line_of(panel, Frame(panel.values, panel.values)) if isinstance(each, Stroke)]
+    assert len(drawn) == 2 and {round(y, 9) for part in drawn for _, y in (part[0], part[-1])} == {-0.5, 1.0}
+    assert drawn[0][0][0] == pytest.approx(-(2**0.5), abs=1e-3)
