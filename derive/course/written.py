@@ -251,6 +251,10 @@ class DrawingKeys(Record):
         ENDS,
         called="range",
     )
+    up: tuple[Formula, ...] | None = key(
+        "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
+        ENDS,
+    )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
         "from those of the first",

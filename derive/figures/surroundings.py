@@ -300,6 +300,7 @@ class AngleBetween(Mark):
     dashed: bool = False
     growing: Position = None
     layer: ClassVar[int] = 5
+    share: ClassVar[float] = 0.4  # the radius of the arc, divided by the length of the lines
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -316,7 +317,8 @@ class AngleBetween(Mark):
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
         # The arc of a small angle has a larger radius, so that the arc is visible.
-        points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
+        part, most = self.share, self.share / AngleBetween.share * ARC[1]
+        points = min(max(part * reach, ARC[0]), most) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale
         turned = [size * i / 48 for i in range(49)]
@@ -343,7 +345,9 @@ class AngleBetween(Mark):
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
     """An angle that does not affect the choice of the view, because the values in the drawing already turn the vertical
-    plane of the angle towards the viewer."""
+    plane of the angle towards the viewer. The arc is larger, because the body covers the vertex."""
+
+    share: ClassVar[float] = 0.8
 
     @property
     def directions(self) -> tuple[Position, ...]:

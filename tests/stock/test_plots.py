@@ -579,6 +579,10 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
         ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
         ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "the path is not in the plane of `sphere`"),
         ([("plot: [path_x, path_z]", "plot: path_z")], "`surfaces` has no effect on `path`, which is not a path"),
+        (
+            [("surfaces: [sphere, floor]", "up: [0 m, 1 m]")],
+            "`up` has no effect on `path`, which is not a plot of curves",
+        ),
     ],
 )
 def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
