@@ -295,7 +295,8 @@ class _Scene:
         if block is not None:
             yield from block
             return
-        yield ParticleMark(column_of(particle.at), label=particle.mass)
+        charge = next((each.charge for each in self.system.charges if same(each.at, particle.at)), None)
+        yield ParticleMark(column_of(particle.at), charge, label=particle.mass)
         link = self.links.get(i)
         if link is not None and not self._is_drawn(particle, link):
             marks = link_marks(self.system, link)
@@ -358,6 +359,11 @@ class _Scene:
             yield Axis(origin, end, label=q)
             if self.rows == 2:
                 yield ConnectionMark(column_of(at), column_of(ahead))
+        if self.rows == 3:
+            x, y, _ = at.components
+            foot = Location((x, y, ZERO))
+            for other in (at, Location((x, ZERO, ZERO)), Location((ZERO, y, ZERO))):
+                yield ConnectionMark(column_of(other), column_of(foot))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
         """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
@@ -496,15 +502,20 @@ class _Scene:
     # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
-        """Yield the arrows of uniform electric and magnetic fields, next to all other marks."""
-        beside = 0
-        for each in self.system.charges:
-            for field in (each.electric, each.magnetic):
-                strength = [c for c in field if c != 0] if len(field) == self.rows else []
-                if strength and not moving_in(self.system, *field):
-                    label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
-                    yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
-                    beside += 1
+        """Yield the arrows of uniform electric and magnetic fields, next to all other marks. Arrows of different
+        directions start at one point."""
+        shown: list[Sequence[Expr]] = []
+        fields = [field for each in self.system.charges for field in (each.electric, each.magnetic)]
+        fields = [field for field in fields if len(field) == self.rows and any(field)]
+        fields = [field for field in fields if not moving_in(self.system, *field)]
+        rises = any(field[-1] != 0 for field in fields)
+        for field in fields:
+            strength = [c for c in field if c != 0]
+            label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
+            way = ImmutableDenseMatrix(field)
+            parallel = [one for one in shown if ImmutableDenseMatrix.hstack(way, ImmutableDenseMatrix(one)).rank() == 1]
+            yield FieldMark(way, len(parallel), rises, label=label)
+            shown.append(field)
 
     def _applied(self) -> Iterable[Mark]:
         """Yield the arrows of given forces at a place."""
@@ -576,27 +587,33 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
-        this source, and the line between its ends unless a link is drawn there."""
+        """Yield a spring with its supports. For any other central force, yield its fixed source, unless it is a
+        particle, with the orbit about this source, and the line between its ends unless a link is drawn there."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
             constant = tidied(diff(explicit(each.energy), each.distance, 2))
             yield SpringMark(a, b, (self._covered(each.start), self._covered(each.end)), label=constant)
         for end, way in ((each.start, b - a), (each.end, a - b)):
-            if self._moves(end):
+            if not elastic and is_fixed(self.system, end):
+                yield from () if self._moves(end) else (PointMark(column_of(end)),)
+                yield from self._orbit(each, end)
+            elif self._moves(end):
                 yield from moving_end(self.system, end, False) if elastic and self._is_free(end) else ()
-                continue
-            if elastic:
+            elif elastic and self._is_nail(way):
+                yield PointMark(column_of(end))
+            elif elastic:
                 turns = any(same(link.start, end) for link in self.links.values())
                 yield FixedEnd(column_of(end), downwards(self.rows) if turns else way)
-            else:
-                yield ParticleMark(column_of(end))
-                yield from self._orbit(each, end)
         linked = {(link.start.components, link.end.components) for link in self.links.values()}
         ends = (each.start.components, each.end.components)
         if not elastic and not linked & {ends, ends[::-1]}:
             yield ConnectionMark(a, b)
+
+    def _is_nail(self, way: Any) -> bool:
+        """Whether a spring turns about its fixed end and nothing has weight: it is then fixed to a nail in a table, or
+        to a point in space."""
+        return not self.system.weights and sum(bool(moving_in(self.system, c)) for c in way) > 1
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
         """Yield an ellipse with the centre of an inverse-square force at one focus; nothing for any other force."""
