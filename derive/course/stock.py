@@ -104,13 +104,13 @@ class Stock:
     keys      the keys allowed under `given:`
     read      returns the description in the declared symbols; collects an error for each value that cannot be read
     answers   the class that derives the answers of a description
-    marks     the words that `marks` of a drawing may contain
+    shows     the words that `shows` of a drawing may contain
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
     answers: Callable[[Any], Answering]
-    marks: tuple[str, ...] = ()
+    shows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

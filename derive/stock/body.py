@@ -39,7 +39,7 @@ from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, StockAnswers, answer, answer_for_each
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
-from derive.stock.keys.outlines import MARKS, drawn, name_of_drawing
+from derive.stock.keys.outlines import SHOWS, drawn, name_of_drawing
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
@@ -352,12 +352,12 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
             asks_centre = any(name.startswith(f"{prefix}centre_of_mass") for name in asked)
             at = "" if asks_centre else one.about
             is_named = one.about in one.described.described.points
-            marked = {drawing.key: drawing for drawing in drawings if drawing.marks}
+            drawn_with = {drawing.key: drawing for drawing in drawings if drawing.shows}
             own = name_of_drawing(one.body)
-            drawn(one, at, is_named, marks=marked.pop(own).marks if own in marked else ())
-            for name, drawing in marked.items() if len(self.of) == 1 else ():
+            drawn(one, at, is_named, shown=drawn_with.pop(own).shows if own in drawn_with else ())
+            for name, drawing in drawn_with.items() if len(self.of) == 1 else ():
                 with told_at(drawing.place):
-                    drawn(one, at, is_named, name, drawing.marks)
+                    drawn(one, at, is_named, name, drawing.shows)
         return super().solve(asked, drawings)
 
     @property
@@ -391,4 +391,4 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         return there.under_key(wanted, own, key, {"symbol": str(symbol)} if symbol else {}, tensor)
 
 
-STOCK = Stock(GivenBody, read, BodiesAnswers, MARKS)
+STOCK = Stock(GivenBody, read, BodiesAnswers, SHOWS)

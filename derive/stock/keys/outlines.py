@@ -38,28 +38,28 @@ def name_of_drawing(body: Body) -> str:
     return body.called.replace(" ", "_") or "body"
 
 
-def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", marks: Sequence[str] = ()) -> None:
+def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
     """Draw the outline of a body, by default under the name of the body; a flat body is drawn in its plane.
 
     about      the name of a point; the axes begin there if it is the centre of mass and the position of this centre is
                known by symmetry
     is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
-    marks      the words of MARKS for what is drawn in addition to the outline
+    shown      the words of SHOWS for what is drawn in addition to the outline
     """
     body = answers.body
     origin = "centre" if about == "centre" and _has_known_centre(body) else body.reference
-    shown = _with_element(body, origin) if "element" in marks else seen_outline(body, origin)
-    if not shown:
+    marks = _with_element(body, origin) if "element" in shown else seen_outline(body, origin)
+    if not marks:
         return
     view = PLANE if is_in_plane(body) else SPACE
     if is_named and view == PLANE:
         at = body.point(origin).seen(body.point(about).position)
-        shown.append(FixedEnd(at, column(0, 0, 0), True))
-    more = [_MARKS[name](answers, body.point(origin)) for name in marks if name in _MARKS]
-    drawing(key or name_of_drawing(body), shown, more, view=view, values=_proportions(body))
+        marks.append(FixedEnd(at, column(0, 0, 0), True))
+    more = [_SHOWS[name](answers, body.point(origin)) for name in shown if name in _SHOWS]
+    drawing(key or name_of_drawing(body), marks, more, view=view, values=_proportions(body))
 
 
-# --- marks that a problem names --------------------------------------------------------------------------------------
+# --- what a problem names --------------------------------------------------------------------------------------
 
 
 def _masses(answers: Any, origin: Point) -> list[Mark]:
@@ -110,13 +110,13 @@ def _with_element(body: Body, origin: str) -> list[Mark]:
     return outline(body, origin, sliced=True)
 
 
-_MARKS: dict[str, Callable[[Any, Point], list[Mark]]] = {
+_SHOWS: dict[str, Callable[[Any, Point], list[Mark]]] = {
     "masses": _masses,
     "centre_of_mass": _centre,
     "principal_axes": _principal,
     "direction": _direction,
 }
-MARKS = (*_MARKS, "element")
+SHOWS = (*_SHOWS, "element")
 SHORT = Rational(4, 5)  # the length of the arrows of principal axes, relative to the body
 
 

@@ -1,4 +1,4 @@
-"""The key `marks` of the drawing of a body: what the drawing shows in addition to the outline."""
+"""The key `shows` of the drawing of a body: what the drawing shows in addition to the outline."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ parts:
   - ask: Where is its centre of mass, and what are its principal axes?
     answer: [centre_of_mass, principal_axes]
 drawings:
-  axes: {marks: [centre_of_mass, principal_axes], caption: The axes.}
+  axes: {shows: [centre_of_mass, principal_axes], caption: The axes.}
 """
 
 
@@ -48,7 +48,7 @@ def body(given: str, marks: str, answer: str = "moment_of_inertia_z") -> str:
         ("{shape: triangle, corners: [[0, 0], [a, 0], [0, a]], mass: M}", given),
         ("  about: first corner\n", ""),
         ("[centre_of_mass, principal_axes]\ndrawings", f"{answer}\ndrawings"),
-        ("axes: {marks: [centre_of_mass, principal_axes]", f"body: {{marks: [{marks}]"),
+        ("axes: {shows: [centre_of_mass, principal_axes]", f"body: {{shows: [{marks}]"),
         ("symbols: {a: length, M: mass}", "symbols: {a: length, b: length, M: mass, theta: angle, phi: angle}"),
     )
 
@@ -91,14 +91,17 @@ def test_a_direction_is_drawn_with_its_two_angles(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edits", "words"),
     [
-        ((("principal_axes], caption", "principal_axis], caption"),), "a body has no mark `principal_axis`"),
         (
-            (("{marks: [", "{plot: mass, against: a, range: [1 m, 2 m], marks: ["),),
-            "`marks` has no effect on `axes`, which is not the drawing of a `body`",
+            (("principal_axes], caption", "principal_axis], caption"),),
+            "the drawing of a body cannot show `principal_axis`",
+        ),
+        (
+            (("{shows: [", "{plot: mass, against: a, range: [1 m, 2 m], shows: ["),),
+            "`shows` has no effect on `axes`, which is not the drawing of a `body`",
         ),
     ],
 )
-def test_a_mark_that_cannot_be_drawn_is_an_error(tmp_path: Path, edits: Any, words: str) -> None:
+def test_a_name_that_cannot_be_drawn_is_an_error(tmp_path: Path, edits: Any, words: str) -> None:
     assert words in {each.message for each in complaints(tmp_path, edited(PLATE, *edits))}
 
 
