@@ -359,11 +359,11 @@ class _Scene:
             yield Axis(origin, end, label=q)
             if self.rows == 2:
                 yield ConnectionMark(column_of(at), column_of(ahead))
-        if self.rows == 3:
+        if self.rows == 3:  # down to the plane of the first two axes, and from there to these axes
             x, y, _ = at.components
-            foot = Location((x, y, ZERO))
-            for other in (at, Location((x, ZERO, ZERO)), Location((ZERO, y, ZERO))):
-                yield ConnectionMark(column_of(other), column_of(foot))
+            foot = column_of(Location((x, y, ZERO)))
+            yield ConnectionMark(column_of(at), foot)
+            yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
         """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
@@ -610,10 +610,12 @@ class _Scene:
         if not elastic and not linked & {ends, ends[::-1]}:
             yield ConnectionMark(a, b)
 
-    def _is_nail(self, way: Any) -> bool:
-        """Whether a spring turns about its fixed end and nothing has weight: it is then fixed to a nail in a table, or
-        to a point in space."""
-        return not self.system.weights and sum(bool(moving_in(self.system, c)) for c in way) > 1
+    def _is_nail(self, way: ImmutableDenseMatrix) -> bool:
+        """Whether a spring is held by a nail in a horizontal plane: its length is zero if all coordinates are zero, and
+        its other end moves round the nail."""
+        moving = self.system.coordinates
+        is_round = len([c for c in way if moving_in(self.system, c) - {TIME}]) > 1
+        return not self.system.weights and is_round and not any(c.xreplace(dict.fromkeys(moving, ZERO)) for c in way)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
         """Yield an ellipse with the centre of an inverse-square force at one focus; nothing for any other force."""
