@@ -580,12 +580,6 @@ class Connections:
             if tied[k]:
                 yield TiedEndMark(string, k == 1)
 
-    def _is_through_table(self, line: Line) -> bool:
-        """Whether a string passes through the middle of a table that is drawn in space at the height zero."""
-        tables = [] if self.in_a_plane else [plane for plane in self._planes if self.is_drawn(plane)]
-        holes = line.places[1:-1]
-        return any(same(plane.through, hole) and hole.components[-1] == 0 for plane in tables for hole in holes)
-
     def _small_pulleys(self, line: Line) -> tuple[int, ...]:
         """Return the indices of the pulleys of negligible radius, for a system in a plane."""
         if line.is_rod or line.rope is not None or not self.in_a_plane or self._is_corner(line):
@@ -604,6 +598,12 @@ class Connections:
         corner = line.through[1]
         is_alone = len(line.through) == 3 and not isinstance(corner, Pulley)
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
+
+    def _is_through_table(self, line: Line) -> bool:
+        """Whether a string passes through the middle of a table that is drawn in space at the height zero."""
+        tables = [] if self.in_a_plane else [plane for plane in self._planes if self.is_drawn(plane)]
+        holes = line.places[1:-1]
+        return any(same(plane.through, hole) and hole.components[-1] == 0 for plane in tables for hole in holes)
 
     def _lifts(self, line: Line) -> tuple[float, float]:
         """The shifts of the two parts of a string away from the surfaces below. On a slope, or on any other

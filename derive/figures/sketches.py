@@ -587,8 +587,8 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its supports. For any other central force, yield its fixed source, unless it is a
-        particle, with the orbit about this source, and the line between its ends unless a link is drawn there."""
+        """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
+        this source, and the line between its ends, unless a link is drawn along this line."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
