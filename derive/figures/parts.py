@@ -313,7 +313,7 @@ class ParticleMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(*self.places(paper.numbers))
-        label = self.label if self.charge is None else (self.label, r",\;", self.charge)
+        label = self.label if self.charge is None else (self.label, ", ", self.charge)
         return [Bullet(spot, BOB, "ink"), Tag(label, spot, (0.9, -0.3), BOB + 2.5)]
 
 
