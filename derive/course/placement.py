@@ -57,6 +57,7 @@ class Placement:
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
         up        the ends of the vertical axis of curves, outside of which they are not drawn
+        shows     the names of what the drawing of a body shows in addition to the outline
         panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
               bifurcation diagram: the range of its vertical axis
@@ -80,6 +81,7 @@ class Placement:
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
     surfaces: tuple[Word, ...] = ()
+    shows: tuple[Word, ...] = ()
     panels: str | None = None
     against: Formula | None = None
     levels: tuple[Formula, ...] = ()
@@ -126,6 +128,7 @@ def placements(
             curves=written.curves,
             labels=written.labels,
             surfaces=written.surfaces,
+            shows=written.shows,
             panels=written.panels,
             against=written.against,
             levels=written.levels,

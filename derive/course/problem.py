@@ -278,6 +278,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
     `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
+        _check_shows(drawing, script, faults)
         if drawing.is_of_engine and isinstance(script, Script):
             name = "plot" if drawing.plot else "curves"
             message, help_line = (
@@ -301,6 +302,18 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             )
         elif drawing.against and not drawing.is_of_engine:
             faults.error("unused-key", "`against` has no effect without `plot` or `curves`", drawing.against.place)
+
+
+def _check_shows(drawing: Placement, script: Script | StockScript | None, faults: Faults) -> None:
+    """Check that `shows` belongs to a drawing of the engine that can show its contents."""
+    known = script.stock.shows if isinstance(script, StockScript) else ()
+    for name in drawing.shows:
+        if not known or drawing.is_of_engine:
+            message = f"`shows` has no effect on `{drawing.key}`, which is not the drawing of a `body`"
+            faults.error("unused-key", message, name.place, help="leave it out")
+        elif name not in known:
+            help_line = did_you_mean(name, known) or f"the names are {', '.join(f'`{each}`' for each in known)}"
+            faults.error("wrong-argument", f"the drawing of a body cannot show `{name}`", name.place, help=help_line)
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:

@@ -104,11 +104,13 @@ class Stock:
     keys      the keys allowed under `given:`
     read      returns the description in the declared symbols; collects an error for each value that cannot be read
     answers   the class that derives the answers of a description
+    shows     the words that `shows` of a drawing may contain
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
     answers: Callable[[Any], Answering]
+    shows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -260,6 +260,12 @@ class DrawingKeys(Record):
         "from those of the first",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
+    shows: tuple[Word, ...] = key(
+        "for a drawing of one `body`, what it shows in addition to the outline: `masses` of its parts, "
+        "`centre_of_mass`, `principal_axes`, `direction` of the axis of `moment_about`, or the `element` of its "
+        "integrals; under a new name, it is a further drawing of the body",
+        list_of(TEXT, "a list such as `[centre_of_mass]`", each="a name"),
+    )
     panels: str | None = key(
         "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "
         "and the curves of `cases` are together if they have the same range and comparable sizes",

@@ -95,21 +95,22 @@ class Axis(_Between):
             end = plus(end, unit(paper.numbers.vector(self.past)), PAST * paper.reach)
         spots = paper.spots(start, end)
         if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
-            return self._along_sight(spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
+            return _along_sight(self.label, spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
         return [Stroke(spots, "axis", head=True), Tag(self.label, spots[1], direction(*spots))]
 
-    def _along_sight(self, spot: Spot, comes: bool) -> list[Piece]:
-        """Return a circle, with a dot for an axis towards the viewer and with a cross for an axis away from the
-        viewer."""
-        (x, y), far = spot, EYE * 0.7
-        cross = [Stroke(((x - far, y - s * far), (x + far, y + s * far)), "thin") for s in (-1, 1)]
-        signs: list[Piece] = [Bullet(spot, 1.1)] if comes else [*cross]
-        return [
-            Bullet(spot, EYE),
-            Bullet(spot, EYE - 0.6, "blank"),
-            *signs,
-            Tag(self.label, spot, (-0.7, 0.7), EYE + 2.0),
-        ]
+
+def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7)) -> list[Piece]:
+    """Return a circle, with a dot for a vector towards the viewer and with a cross for a vector away from the
+    viewer."""
+    (x, y), far = spot, EYE * 0.7
+    cross = [Stroke(((x - far, y - s * far), (x + far, y + s * far)), "thin") for s in (-1, 1)]
+    signs: list[Piece] = [Bullet(spot, 1.1)] if comes else [*cross]
+    return [
+        Bullet(spot, EYE),
+        Bullet(spot, EYE - 0.6, "blank"),
+        *signs,
+        Tag(label, spot, towards, EYE + 2.0),
+    ]
 
 
 @dataclass(frozen=True)
@@ -213,12 +214,14 @@ class LengthMark(_Between):
 
 
 def _square_to(line: Spot, away: Spot) -> Spot:
-    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; `away` itself if it is along
-    the line."""
+    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; if `away` is along the line,
+    the upper or the left side."""
     share = away[0] * line[0] + away[1] * line[1]
     x, y = away[0] - share * line[0], away[1] - share * line[1]
     size = hypot(x, y)
-    return (x / size, y / size) if size > 0.05 else away
+    if size > 0.05:
+        return x / size, y / size
+    return (line[1], -line[0]) if line[1] - line[0] > 0 else (-line[1], line[0])  # to the left or upwards
 
 
 # --- vectors and angles ----------------------------------------------------------------------------------------------
@@ -260,6 +263,8 @@ class Arrow(Mark):
             x, y = direction(*(spots[::-1] if self.pushes else spots))
             spots = tuple((u - self.aside * y, v + self.aside * x) for u, v in spots)
         pen = "asked" if self.asked else "given"
+        if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6 < far:
+            return _along_sight(self.label, spots[0], dot(along, paper.stance.eye) > 0, (0.7, -0.7))
         if self.pushes:
             return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
@@ -267,7 +272,7 @@ class Arrow(Mark):
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * paper.reach
 
-    def in_words(self) -> InWords:
+    def in_words(self) -> InWords | None:
         names = {"label": self.label, "direction": _components(self.value)}
         if _vanishes(self.value):
             return "no_arrow", names
@@ -313,6 +318,24 @@ class AppliedForce(Arrow):
         near, far = ((x + side * d * u, y + side * d * v) for d in (self.clear, self.clear + APPLIED))
         ends = (far, near) if self.pushes else (near, far)
         return [Stroke(ends, "given", head=True), Tag(self.label, far, (side * u, side * v))]
+
+
+@dataclass(frozen=True)
+class Projection(Arrow):
+    """The projection of a vector on the plane of x and y, and the line from its tip to this plane, both dashed. The
+    arrow of the vector is another mark with the same `size`."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, tip = paper.numbers.vector(self.start), self.tip(paper.numbers, paper.reach)
+        below = tip[0], tip[1], start[2]
+        return [Stroke(paper.spots(start, below, tip), "hidden")]
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
+
+    def in_words(self) -> None:
+        return None
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ from derive.figures.parts import (
     DashpotMark,
     HeavyRopeMark,
     PlankMark,
+    RopeBelowMark,
     RopeMark,
     WedgeMark,
     WheelMark,
@@ -347,12 +348,14 @@ class Connections:
         yield from euler_angles(self.system, touch.of, Rational(5, 4) * arm)
 
     def _table_radius(self, plane: Plane) -> Expr:
-        """The radius of a table. If the contacts keep their distances from the middle of the table, the radius is a
-        little greater than the greatest of these distances. Otherwise it is a multiple of `ball_size`."""
-        ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
-        if any(moving_in(self.system, way) for way in ways):
+        """The radius of a table. If only particles touch the table, or if the contacts keep their distances from its
+        middle, the radius is a little greater than the greatest of these distances. Otherwise it is a multiple of
+        `ball_size`."""
+        touches = [each for each in self.contacts if each.surface == plane]
+        ways = [distance_of(plane.through, each.at) for each in touches]
+        if any(moving_in(self.system, way) for way in ways) and any(hasattr(each.of, "hub") for each in touches):
             return TABLE * self.ball_size
-        return BEYOND * max(ways, key=numeric)
+        return BEYOND * max(ways, key=self.number)
 
     @property
     def ball_size(self) -> Expr:
@@ -557,6 +560,11 @@ class Connections:
         small = self._span * WHEEL if self.in_a_plane and len(columns) > 2 else ZERO
         radii = (ZERO, *(e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]), ZERO)
         corners = self._small_pulleys(line)
+        if self._is_through_table(line):
+            for ends in pairwise(columns):
+                sort = RopeBelowMark if any(self.number(end[-1]) < -EXACT for end in ends) else RopeMark
+                yield sort(ends, (ZERO, ZERO))
+            return
         if not corners:
             yield RopeMark(columns, radii, label=self._kept_length(line) if len(columns) == 2 else None)
             return
@@ -591,6 +599,12 @@ class Connections:
         corner = line.through[1]
         is_alone = len(line.through) == 3 and not isinstance(corner, Pulley)
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
+
+    def _is_through_table(self, line: Line) -> bool:
+        """Whether a string passes through the middle of a table that is drawn in space at the height zero."""
+        tables = [] if self.in_a_plane else [plane for plane in self._planes if self.is_drawn(plane)]
+        holes = line.places[1:-1]
+        return any(same(plane.through, hole) and hole.components[-1] == 0 for plane in tables for hole in holes)
 
     def _lifts(self, line: Line) -> tuple[float, float]:
         """The shifts of the two parts of a string away from the surfaces below. On a slope, or on any other

@@ -7,14 +7,14 @@ of any scale.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import acos, atan2, cos, hypot, pi, sin, sqrt
 from typing import Any, ClassVar
 
 from sympy import Symbol
 
-from derive.figures.marks import InWords, Position, Surface
+from derive.figures.marks import BESIDE, InWords, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, direction, midway, plus
 
@@ -196,6 +196,17 @@ class RopeMark(_Piecewise):
 
 
 @dataclass(frozen=True)
+class RopeBelowMark(RopeMark):
+    """A string below a table, which hides the part behind it."""
+
+    layer: ClassVar[int] = -3
+
+    @property
+    def told_as(self) -> str:
+        return "rope"
+
+
+@dataclass(frozen=True)
 class HeavyRopeMark(RopeMark):
     """A rope with mass; its label is its mass."""
 
@@ -291,9 +302,10 @@ def _normal(along: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class ParticleMark(_Piecewise):
-    """A particle, a bob or a bead: a small disc."""
+    """A particle, a bob or a bead: a small disc with its mass and, if it has one, its charge."""
 
     at: Position
+    charge: Any = field(default=None, metadata=BESIDE)
     layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -301,7 +313,8 @@ class ParticleMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(*self.places(paper.numbers))
-        return [Bullet(spot, BOB, "ink"), Tag(self.label, spot, (0.9, -0.3), BOB + 2.5)]
+        label = self.label if self.charge is None else (self.label, ", ", self.charge)
+        return [Bullet(spot, BOB, "ink"), Tag(label, spot, (0.9, -0.3), BOB + 2.5)]
 
 
 @dataclass(frozen=True)

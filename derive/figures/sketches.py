@@ -305,7 +305,8 @@ class _Scene:
         if block is not None:
             yield from block
             return
-        yield ParticleMark(column_of(particle.at), label=particle.mass)
+        charge = next((each.charge for each in self.system.charges if same(each.at, particle.at)), None)
+        yield ParticleMark(column_of(particle.at), charge, label=particle.mass)
         link = self.links.get(i)
         if link is not None and not self._is_drawn(particle, link):
             marks = link_marks(self.system, link)
@@ -530,15 +531,20 @@ class _Scene:
     # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
-        """Yield the arrows of uniform electric and magnetic fields, next to all other marks."""
-        beside = 0
-        for each in self.system.charges:
-            for field in (each.electric, each.magnetic):
-                strength = [c for c in field if c != 0] if len(field) == self.rows else []
-                if strength and not moving_in(self.system, *field):
-                    label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
-                    yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
-                    beside += 1
+        """Yield the arrows of uniform electric and magnetic fields, next to all other marks. Arrows of different
+        directions start at one point."""
+        shown: list[Sequence[Expr]] = []
+        fields = [field for each in self.system.charges for field in (each.electric, each.magnetic)]
+        fields = [field for field in fields if len(field) == self.rows and any(field)]
+        fields = [field for field in fields if not moving_in(self.system, *field)]
+        rises = any(field[-1] != 0 for field in fields)
+        for field in fields:
+            strength = [c for c in field if c != 0]
+            label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
+            way = ImmutableDenseMatrix(field)
+            parallel = [one for one in shown if ImmutableDenseMatrix.hstack(way, ImmutableDenseMatrix(one)).rank() == 1]
+            yield FieldMark(way, len(parallel), rises, label=label)
+            shown.append(field)
 
     def _applied(self) -> Iterable[Mark]:
         """Yield the arrows of given forces and drags at a place. Arrows at the same place are side by side."""
@@ -635,18 +641,16 @@ class _Scene:
             constant = tidied(diff(explicit(each.energy), each.distance, 2))
             yield SpringMark(a, b, (self._covered(each.start), self._covered(each.end)), label=constant)
         for end, way in ((each.start, b - a), (each.end, a - b)):
-            if self._moves(end):
+            if not elastic and is_fixed(self.system, end):
+                yield from () if self._moves(end) else (PointMark(column_of(end)),)
+                yield from self._orbit(each, end)
+            elif self._moves(end):
                 yield from moving_end(self.system, end, False) if elastic and self._is_free(end) else ()
-                continue
-            if elastic:
-                if self._is_nail(way):
-                    yield PointMark(column_of(end))
-                    continue
+            elif elastic and self._is_nail(way):
+                yield PointMark(column_of(end))
+            elif elastic:
                 turns = any(same(link.start, end) for link in self.links.values())
                 yield FixedEnd(column_of(end), downwards(self.rows) if turns else way)
-            else:
-                yield ParticleMark(column_of(end))
-                yield from self._orbit(each, end)
         linked = {(link.start.components, link.end.components) for link in self.links.values()}
         ends = (each.start.components, each.end.components)
         if not elastic and not linked & {ends, ends[::-1]}:

@@ -8,7 +8,7 @@ from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
 from derive.figures.annotations import ASIDE, measured
-from derive.figures.marks import LAST, InWords, Mark, Position, Surface
+from derive.figures.marks import BESIDE, LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
@@ -161,6 +161,7 @@ class MovingEnd(Surface):
     side    the side of the arrow
     joint   whether the point is a pivot
     is_to_and_fro   whether the support may move in both directions, so that the arrow is a double arrow
+    motion   the label of the arrow: the constant acceleration of the support; by default no label
     """
 
     at: Position
@@ -168,6 +169,7 @@ class MovingEnd(Surface):
     side: Position
     joint: bool = False
     is_to_and_fro: bool = True
+    motion: Any = field(default=None, metadata=BESIDE)
     layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -193,6 +195,7 @@ class MovingEnd(Surface):
         return [
             *(slider if self.joint else [Stroke((moved(0.0, -STAND), moved(0.0, STAND)), "bar")]),
             Stroke((moved(-MOVES, BESIDE_RAIL), moved(MOVES, BESIDE_RAIL)), "given", True, self.is_to_and_fro),
+            Tag(self.motion, moved(MOVES, BESIDE_RAIL), (p, q)),
             Tag(self.label, spot, (-u, -v), RAIL),
         ]
 
@@ -412,10 +415,15 @@ class GravityMark(Mark):
 
 @dataclass(frozen=True)
 class FieldMark(Mark):
-    """The arrow of a uniform field next to all other marks; `before` is the number of field arrows above it."""
+    """The arrow of a uniform field next to all other marks.
+
+    before   the number of field arrows above it
+    rises    whether a field has a vertical component, so that the arrows start below the room for an arrow upwards
+    """
 
     along: Position
     before: int = 0
+    rises: bool = False
     layer: ClassVar[int] = LAST
 
     @property
@@ -425,7 +433,7 @@ class FieldMark(Mark):
     def pieces(self, paper: Paper) -> list[Piece]:
         along = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.along)))
         right, top = max(x for x, _ in paper.drawn) + FREE, max(y for _, y in paper.drawn)
-        start = right, top - 1.5 * ARROW - self.before * 2.2 * ARROW - max(0.0, along[1]) * ARROW
+        start = right, top - (1.5 + 2.2 * self.before + self.rises) * ARROW
         end = start[0] + ARROW * along[0], start[1] + ARROW * along[1]
         return [Stroke((start, end), "given", head=True), Tag(self.label, end, along)]
 
