@@ -121,7 +121,7 @@ def test_a_root_of_a_fraction_is_written_where_it_is_shorter(number: Expr, text:
     ("value", "text"),
     [
         (a / 2, "a/2"),
-        (a * sin(b) / 2, "a/2 sin b"),
+        (a * sin(b) / 2, "1/2 a sin b"),
         (M * a / 2, "1/2 M a"),
         (a**2 / 2, "1/2 a²"),
         (3 * a / 2, "3/2 a"),
