@@ -121,7 +121,7 @@ def test_a_root_of_a_fraction_is_written_where_it_is_shorter(number: Expr, text:
     ("value", "text"),
     [
         (a / 2, "a/2"),
-        (a * sin(b) / 2, "1/2 a sin b"),
+        (a * sin(b) / 2, "a/2 sin b"),
         (M * a / 2, "1/2 M a"),
         (a**2 / 2, "1/2 a²"),
         (3 * a / 2, "3/2 a"),
@@ -130,6 +130,11 @@ def test_a_root_of_a_fraction_is_written_where_it_is_shorter(number: Expr, text:
 )
 def test_a_letter_that_is_halved_is_a_fraction(value: Expr, text: str) -> None:
     assert plain(Notation().layout(value)) == text
+
+
+def test_an_acceleration_that_is_halved_is_a_factor_before_a_function() -> None:
+    known = Notation({g: dimension_of_kind("acceleration")})
+    assert [plain(known.layout(value)) for value in (g / 2, g * sin(b) / 2)] == ["g/2", "1/2 g sin b"]
 
 
 def test_numbers_are_one_fraction_and_roots_behind_it() -> None:

@@ -75,11 +75,13 @@ from derive.render.notation.layout import (
 )
 from derive.render.notation.order import holds_rates, ordered_factors, ordered_terms
 from derive.render.notation.products import (
+    Place,
     between_factors,
     decimal,
     gathered,
     number_and_letters,
     present,
+    rank_of_dimension,
     root_cancelled,
     rounded_number,
     side_by_side,
@@ -184,17 +186,25 @@ class Notation:
             return self._factors([*number_above, *letters])
         if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
-        if len(letters) == 1 and not number_above and self._is_plain_letter(letters[0]):
-            return Fraction(self.layout(letters[0]), self._factors(number_below))
+        if letters and not number_above and self._is_letter_before_functions(letters):
+            return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
         number = Fraction(self._factors(number_above), self._factors(number_below))
         behind = [self._as_factor(each) for each in letters] if len(letters) == 1 else [self._factors(letters)]
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
-    def _is_plain_letter(self, factor: Expr) -> bool:
-        """Return whether a factor is a letter without dots. Divided by 2 it is written a/2, and other products are
-        written 1/2 M a^2, 1/2 a sin x or 1/2 x_dot."""
-        name = self.layout(factor)
-        return isinstance(name, Name) and name.style == "scalar" and not name.dots
+    def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
+        """Return whether the factors are one letter without dots and perhaps functions. Divided by 2, such factors are
+        written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot. Before functions, a letter that is not a
+        length is a factor of its own: 1/2 g sin x, to match 2/3 g sin x."""
+        first, *others = (self.layout(letter) for letter in letters)
+        is_function = all(isinstance(other, Applied) for other in others)
+        dimension = self.known_dimensions.get(letters[0])
+        is_length = dimension is None or rank_of_dimension(dimension) is Place.LENGTH
+        fits = isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
+        return fits and (is_length or not others)
+
+    def _factors_behind(self, first: Layout, others: list[Expr]) -> Layout:
+        return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first
 
     def _ordered(self, factors: list[Expr]) -> list[Expr]:
         return ordered_factors(factors, self.known_dimensions.get, self._places)
