@@ -163,7 +163,7 @@ def test_what_divides_a_root_goes_under_it_where_that_cancels() -> None:
 
 
 def test_masses_stand_before_accelerations_lengths_numbers_and_rates() -> None:
-    kinds = ["mass", "moment of inertia", "acceleration", "length", "density", "angular speed"]
+    kinds = ["mass", "moment of inertia", "density", "acceleration", "length", "speed", "angular speed"]
     ranks = [rank_of_dimension(dimension_of_kind(kind)) for kind in kinds]
     assert ranks == sorted(ranks)
     assert ranks[0] == ranks[1] < ranks[2]
