@@ -82,5 +82,6 @@ def steps_key(problem: Problem) -> str:
         for d in problem.drawings
         if d.is_of_engine or d.key in ON_REQUEST
     ]
-    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
+    marks = [(d.key, d.like, [mark.written for mark in d.marks]) for d in problem.drawings if d.marks or d.like]
+    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots), repr(marks))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

@@ -13,7 +13,7 @@ from derive.course.expression import Declared
 from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
-from derive.course.written import DrawingKeys
+from derive.course.written import DrawingKeys, MarkKeys
 from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
@@ -52,6 +52,8 @@ class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
         view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
+        like      the name of the drawing whose contents this further drawing repeats
+        marks     the marks that the problem adds to the drawing
         plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
         curves    several answers, whose curves the engine draws in one plot
         labels    the names of the axes of a path, in place of its formulas
@@ -77,6 +79,8 @@ class Placement:
     range: Range | None = field(default=None, repr=False)
     up: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
+    like: Word | None = None
+    marks: tuple[MarkKeys, ...] = ()
     plot: tuple[Formula, ...] = ()
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
@@ -124,6 +128,8 @@ def placements(
             range=Range(written.ends) if written.ends else None,
             up=Range(written.up) if written.up else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
+            like=written.like,
+            marks=written.marks,
             plot=written.plot or (),
             curves=written.curves,
             labels=written.labels,

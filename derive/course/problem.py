@@ -352,7 +352,10 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
-            return problem.script.stock.answers(problem.described).solve(problem.asked, problem.drawings)
+            answers = problem.script.stock.answers(problem.described)
+            found = answers.solve(problem.asked, problem.drawings)
+            answers.mark(problem.drawings)
+            return found
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 

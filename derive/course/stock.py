@@ -93,6 +93,9 @@ class Answering(Protocol):
         """Return the answers by the names that parts ask for, and draw the requested plots; one name may mean several
         steps."""
 
+    def mark(self, drawings: Sequence[Placement]) -> None:
+        """Add the marks of the problem to the drawings."""
+
     def every(self) -> dict[str, Any]:
         """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
 

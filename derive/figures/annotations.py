@@ -37,6 +37,7 @@ APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 ROUND = 10.0  # least radius of a rotation arrow, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
@@ -373,12 +374,16 @@ class AngleMark(Mark):
     """The arc between two directions at a vertex; by default the radius is chosen so that the arc is readable.
 
     No arc is drawn if a direction is zero or if the directions are almost parallel or opposite.
+
+    radius   a length
+    part     the radius relative to the size of the bodies, if there is no length
     """
 
     vertex: Position
     a: Position
     b: Position
     radius: Any = None
+    part: Any = None
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -391,7 +396,7 @@ class AngleMark(Mark):
         if not size_of(a) or not size_of(b) or not 0.02 < size < pi - 0.02:
             return []
         # The arc of a small angle has a large radius, so that the arc is visible.
-        comfortable = max(0.3, min(0.8, 0.3 / size))
+        comfortable = max(0.3, min(0.8, 0.3 / size)) if self.part is None else paper.numbers.of(self.part)
         radius = paper.numbers.of(self.radius) if self.radius is not None else paper.reach * comfortable
         beside = unit(plus(b, a, -dot(a, b)))
         turned = [size * i / 48 for i in range(49)]
@@ -473,6 +478,15 @@ class PointMark(_Single):
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)
+
+
+@dataclass(frozen=True)
+class HollowPoint(PointMark):
+    """A point as a small circle, which is visible on a rod too."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(paper.numbers.vector(self.at))
+        return [Bullet(spot, HOLLOW), Bullet(spot, 0.6 * HOLLOW, "blank"), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
 
 @dataclass(frozen=True)

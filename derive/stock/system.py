@@ -8,16 +8,17 @@ from functools import cached_property
 from itertools import chain
 from typing import Any
 
-from sympy import Expr, Integer, diff
+from sympy import Expr, Integer, MatrixBase, diff
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.course.parts import BOTH, ENERGY, LAGRANGE
 from derive.course.placement import AFTER, Placement
-from derive.course.stock import Methods, Stock, told_at
-from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Rejected, rejected
+from derive.course.stock import InLetters, Methods, Stock, told_at
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Complaint, Faults, Rejected, rejected
 from derive.figures import draw_after, draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
+from derive.figures.positions import column_of
 from derive.mechanics import (
     Coordinate,
     System,
@@ -70,6 +71,7 @@ from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.answering.sticking import state_static_friction
 from derive.stock.keys.deferred import made, parts_of, told_at_part
+from derive.stock.keys.places import PLACE
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
@@ -148,6 +150,18 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _named(self) -> list[Any]:
         """Return the places of `places:`, which drawings prefer as starts of lines."""
         return list(made(self.described.named, self.parts_by_name))
+
+    def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
+        """Return a place of the system: its components, a displacement from a place, or the name of a place, of a
+        particle, of a body (its centre of mass) or of a point of a body."""
+        faults = Faults()
+        written = PLACE.read(node, name, faults)
+        faults.stop()
+        places = self.described.places
+        assert written is not None and places is not None
+        with told_at(node.place):
+            found = made(places.at(written, name), self.parts_by_name)
+            return column_of(getattr(found, "centre", None) or getattr(found, "at", None) or found)
 
     def _state_static_friction(self) -> None:
         """State the conditions under which static friction suffices, unless steps of the answers derive these

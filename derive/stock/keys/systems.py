@@ -184,6 +184,7 @@ class DescribedSystem(Described):
     impact        impulses and collisions at one instant
     brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
+    places        the reader of places, by their names or components
     given         a Lagrangian that replaces all bodies, and its kind
     """
 
@@ -202,6 +203,7 @@ class DescribedSystem(Described):
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location | Material, ...] = ()
+    places: Places | None = field(default=None, repr=False, compare=False)
     given: tuple[Expr, str | None] | None = None
 
 
@@ -258,6 +260,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
+        places=places,
         given=given,
     )
 
