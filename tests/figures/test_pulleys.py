@@ -52,6 +52,11 @@ def test_a_string_that_returns_has_two_parallel_pieces() -> None:
     assert max(y for _, y in down) == pytest.approx(-6.0) and min(y for _, y in down) == pytest.approx(-240.0)
 
 
+def test_the_ceiling_of_a_pulley_has_the_height_of_a_fixed_end_above_it(tmp_path: Path) -> None:
+    hangers = [str(mark.hanger) for mark in of_class(movable(tmp_path), SmallPulleyMark) if mark.hanger is not None]
+    assert hangers == ["h", "h"]
+
+
 def test_an_end_at_a_body_keeps_its_place() -> None:
     spots = string((0, -3), (0, 0), (0, -2)).pieces(PAPER)[0].spots
     assert (spots[0], spots[-1]) == ((0.0, -180.0), (0.0, -120.0))
