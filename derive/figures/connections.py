@@ -646,6 +646,8 @@ class Connections:
         x, y = (other - place).components
         if isinstance(beside, Pulley):  # the string leaves a pulley with a radius beside its centre
             x, y = (ZERO, y) if is_zero_direction(abs(x) - beside.radius) else (x, ZERO)
+        if is_zero_direction(x):
+            return Location((ZERO, ONE if self.number(y) > 0 else -ONE))
         size = sqrt(tidied(x**2 + y**2))
         return Location((tidied(x / size), tidied(y / size)))
 

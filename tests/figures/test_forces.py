@@ -7,11 +7,12 @@ from math import dist, pi, tan
 from pathlib import Path
 
 import pytest
+from sympy import Rational
 
 from derive.errors import DeriveError
 from derive.figures.annotations import FORCE, ForceArrow
 from derive.figures.forces import ALONG
-from derive.figures.parts import WHEEL, WheelMark
+from derive.figures.parts import WHEEL, BarMark, WheelMark
 from derive.figures.pieces import Patch, Stroke
 from derive.figures.surroundings import SurfacePiece
 from derive.render.drawing.camera import FLAT, Numbers
@@ -123,3 +124,11 @@ def test_all_forces_on_a_ball_on_a_floor_act_on_one_line_through_the_contact(tmp
     tip = normal[1][1]
     assert tip == pytest.approx(ground[0][1]) and normal[0][1] < tip < weight[1][1] < weight[0][1]
     assert ALONG < 2  # so that both the surface and the friction along it are visible
+
+
+def test_a_hook_holds_the_axle_of_a_pulley_that_hangs_on_a_string(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("atwood_double"))["system"]
+    hanger, hook = of_class(drawn, BarMark)
+    wheels = of_class(drawn, WheelMark)
+    assert [hanger.start, hook.start] == [wheel.centre for wheel in wheels]
+    assert list(hook.end - hook.start) == [0, Rational(9, 5) * wheels[1].radius]
