@@ -63,6 +63,7 @@ ACROSS = column(0, 0, 1)
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
+HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
@@ -576,10 +577,17 @@ class Connections:
             particle = next((one for one in self.system.particles if same(one.at, place)), None)
             hangs = particle is None and is_fixed(self.system, place)
             label = particle.mass if particle else None
-            yield SmallPulleyMark(string, k, HANGER * self._span if hangs else None, label=label)
+            yield SmallPulleyMark(string, k, self._hanger(line, place) if hangs else None, label=label)
         for k in (0, 1):
             if tied[k]:
                 yield TiedEndMark(string, k == 1)
+
+    def _hanger(self, line: Line, at: Location) -> Expr:
+        """Return the distance from a fixed small pulley to the ceiling: the height of an end of the string that is
+        fixed above the pulley, or by default a part of `_span`."""
+        fixed = [line.places[k] for k in (0, -1) if is_fixed(self.system, line.places[k])]
+        above = [tidied((place - at).components[1]) for place in fixed]
+        return next((height for height in above if self.number(height) > SMALL), HANGER * self._span)
 
     def _small_pulleys(self, line: Line) -> tuple[int, ...]:
         """Return the indices of the pulleys of negligible radius, for a system in a plane."""
@@ -636,9 +644,27 @@ class Connections:
         label = radius if radius.is_Symbol else None
         yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
         if particle is None and is_fixed(self.system, at):
-            above = at + Location((ZERO, Rational(9, 5) * radius))
+            above = at + Location((ZERO, HOOK * radius))
             yield BarMark(column_of(at), column_of(above))
             yield FixedEnd(column_of(above), downwards(2))
+        for line in self.lines:
+            for k in (0, -1):
+                if same(line.places[k], at):  # the string holds the axle, not the rim, which turns
+                    way = self._towards_end(line, k)
+                    yield BarMark(column_of(at), column_of(at + HOOK * radius * way))
+
+    def _towards_end(self, line: Line, k: int) -> Location:
+        """Return the direction in which a string pulls its first end (k = 0) or its last end (k = -1)."""
+        pulled, (place, other) = line.through[k], (line.places[k], line.places[1 if k == 0 else -2])
+        beside = line.through[1 if k == 0 else -2]
+        assert isinstance(pulled, Location)
+        x, y = (other - place).components
+        if isinstance(beside, Pulley):  # the string leaves a pulley with a radius beside its centre
+            x, y = (ZERO, y) if is_zero_direction(abs(x) - beside.radius) else (x, ZERO)
+        if is_zero_direction(x):
+            return Location((ZERO, ONE if self.number(y) > 0 else -ONE))
+        size = sqrt(tidied(x**2 + y**2))
+        return Location((tidied(x / size), tidied(y / size)))
 
     def _end(self, line: Line, place: Location, other: Location) -> Iterable[Mark]:
         """Yield the support of an end of a string or rod, if the end is fixed or has a prescribed motion."""

@@ -17,7 +17,16 @@ from derive.course.placement import AFTER, Placement
 from derive.course.stock import InLetters, Methods, Stock, told_at
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Complaint, Faults, Rejected, rejected
-from derive.figures import draw_after, draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
+from derive.figures import (
+    draw_after,
+    draw_alone,
+    draw_modes,
+    forces_as_named,
+    forces_in_state,
+    forces_on_pulley,
+    forces_on_rope,
+    sketch,
+)
 from derive.figures.positions import column_of
 from derive.mechanics import (
     Coordinate,
@@ -53,7 +62,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.strings import circles_of
+from derive.mechanics.model.strings import Line, circles_of
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
@@ -184,15 +193,34 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
         found = []
+        tensions = self._drawn_tensions(steps)
+        leads_to = [step.key for step in tensions.values()]
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
-            if laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
+            if any(line.drawn_on(of) for line in self._lines):
+                alone = forces_as_named(key, self.system, of, leads_to, tensions)
+            elif laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
                 alone = forces_as_named(key, self.system, of, laws, at_rest | along)
             else:
                 alone = forces_in_state(key, self.system, of, at_rest | along)
                 alone = alone or forces_in_state(key, self.system, of, at_rest)
             found += [alone] if alone is not None else []
+            for line in (each for each in self._lines if each.rope is not None and each.rope == of):
+                found += forces_on_rope(key, self.system, line, leads_to, tensions)
+        for name, one in self.pulleys.items():
+            wheel = moved(one, self.system.known)
+            alone = forces_on_pulley(f"forces_{name}", self.system, wheel, leads_to, tensions)
+            found += [alone] if alone is not None else []
         draw_alone(self.system, found)
+
+    @property
+    def _lines(self) -> list[Line]:
+        return [part for part in self.system.parts if isinstance(part, Line)]
+
+    def _drawn_tensions(self, steps: Sequence[Quantity]) -> dict[Any, Quantity]:
+        """Return the steps that derive tensions which only force diagrams show, by the symbols of the tensions."""
+        drawn = {line.drawn for line in self._lines if line.drawn is not None}
+        return {step.symbol: step for step in steps if step.symbol in drawn and isinstance(step.value, Expr)}
 
     def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
         """Return, in space, the keys of the equations of motion that contain constraint forces."""
@@ -248,6 +276,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def surfaces(self) -> dict[str, Any]:
         """Return the described surfaces, by name."""
         return {name: surface.made(self.parts_by_name) for name, surface in self.described.surfaces.items()}
+
+    @cached_property
+    def pulleys(self) -> dict[str, Any]:
+        """Return the massless pulleys, by name."""
+        return {name: pulley.made(self.parts_by_name) for name, pulley in self.described.pulleys.items()}
 
     @property
     def drawn_surfaces(self) -> dict[str, Any]:

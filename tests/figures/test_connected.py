@@ -373,7 +373,7 @@ def test_in_space_the_forces_are_drawn_before_the_equations_of_motion() -> None:
 def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius() -> None:
     drawn = library_drawings("rolling_coin")["system"]
     labels = {str(mark.label) for mark in drawn.marks if mark.label is not None}
-    assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g"}
+    assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g", "R", "Omega"}
     (table,) = of_class(drawn, TableMark)
     touch = next(mark for mark in of_class(drawn, Line) if str(mark.label) == "a").end
     values = dict(drawn.values)

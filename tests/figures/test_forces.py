@@ -7,9 +7,12 @@ from math import dist, pi, tan
 from pathlib import Path
 
 import pytest
+from sympy import Rational
 
+from derive.errors import DeriveError
 from derive.figures.annotations import FORCE, ForceArrow
 from derive.figures.forces import ALONG
+from derive.figures.parts import WHEEL, BarMark, WheelMark
 from derive.figures.pieces import Patch, Stroke
 from derive.figures.surroundings import SurfacePiece
 from derive.render.drawing.camera import FLAT, Numbers
@@ -20,11 +23,41 @@ from tests.figures.test_connected import drawings, library, of_class
 from tests.stock.described import edited
 
 
-def test_the_forces_on_all_bodies_have_one_scale() -> None:
-    drawn = library_drawings("movable_pulley")
-    _, once = of_class(drawn["forces_weight"], ForceArrow)
-    _, twice = of_class(drawn["forces_pulley"], ForceArrow)
-    assert str(twice.label) == "2*T" and twice.size == 2 * once.size
+def test_the_forces_on_all_bodies_have_one_scale(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("movable_pulley"))
+    _, pull = of_class(drawn["forces_weight"], ForceArrow)
+    _, left, right = of_class(drawn["forces_pulley"], ForceArrow)
+    assert pull.size == left.size == right.size
+
+
+def test_both_pieces_of_a_string_pull_a_small_pulley_at_its_rim(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("movable_pulley"))["forces_pulley"]
+    weight, *pulls = of_class(drawn, ForceArrow)
+    assert [str(pull.label) for pull in pulls] == ["T", "T"] and {pull.aside for pull in pulls} == {WHEEL, -WHEEL}
+    assert weight.aside == 0 and len(of_class(drawn, WheelMark)) == 1
+
+
+def test_the_strings_of_a_massless_pulley_balance_in_its_diagram(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("atwood_double"))
+    *lower, upper = sorted(of_class(drawn["forces_movable"], ForceArrow), key=lambda arrow: arrow.value[1])
+    assert [str(each.label) for each in (*lower, upper)] == ["S_2", "S_2", "S_1"]
+    assert upper.size == pytest.approx(sum(each.size for each in lower), abs=0.04)
+    assert [list(each.value) for each in (*lower, upper)] == [[0, -1], [0, -1], [0, 1]]
+    assert {"forces_first", "forces_second", "forces_third"} <= drawn.keys() and "forces_fixed" not in drawn
+
+
+def test_the_pieces_of_a_rope_are_drawn_alone(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("rope_over_edge"))
+    weight, normal, pull = of_class(drawn["forces_rope_1"], ForceArrow)
+    assert weight.size == normal.size and str(normal.label) == "N" and list(pull.value) == [1, 0]
+    weight, pull = of_class(drawn["forces_rope_2"], ForceArrow)
+    assert str(weight.label) == "M*g*x/l" and list(pull.value) == [0, 1] and pull.size < weight.size
+
+
+def test_a_tension_has_one_symbol(tmp_path: Path) -> None:
+    twice = edited(library("atwood"), ("tension: S}", "tension: S, drawn_tension: T}"))
+    with pytest.raises(DeriveError, match="has no effect"):
+        drawings(tmp_path, twice)
 
 
 def test_an_axle_balances_the_strings_and_the_weight_of_a_pulley() -> None:
@@ -92,3 +125,11 @@ def test_all_forces_on_a_ball_on_a_floor_act_on_one_line_through_the_contact() -
     tip = normal[1][1]
     assert tip == pytest.approx(ground[0][1]) and normal[0][1] < tip < weight[1][1] < weight[0][1]
     assert ALONG < 2  # so that both the surface and the friction along it are visible
+
+
+def test_a_hook_holds_the_axle_of_a_pulley_that_hangs_on_a_string(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("atwood_double"))["system"]
+    hanger, hook = of_class(drawn, BarMark)
+    wheels = of_class(drawn, WheelMark)
+    assert [hanger.start, hook.start] == [wheel.centre for wheel in wheels]
+    assert list(hook.end - hook.start) == [0, Rational(9, 5) * wheels[1].radius]

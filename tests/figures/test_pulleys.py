@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import hypot
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -50,6 +51,11 @@ def test_a_string_that_returns_has_two_parallel_pieces() -> None:
     assert spots[-1] == pytest.approx((126.0, 0.0)) and spots[-2][0] == pytest.approx(126.0)
     down = [spot for spot in spots if spot[0] == pytest.approx(114.0)]
     assert max(y for _, y in down) == pytest.approx(-6.0) and min(y for _, y in down) == pytest.approx(-240.0)
+
+
+def test_the_ceiling_of_a_pulley_has_the_height_of_a_fixed_end_above_it(tmp_path: Path) -> None:
+    hangers = [str(mark.hanger) for mark in of_class(movable(tmp_path), SmallPulleyMark) if mark.hanger is not None]
+    assert hangers == ["h", "h"]
 
 
 def test_an_end_at_a_body_keeps_its_place() -> None:
