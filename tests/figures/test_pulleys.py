@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import hypot
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -53,8 +52,8 @@ def test_a_string_that_returns_has_two_parallel_pieces() -> None:
     assert max(y for _, y in down) == pytest.approx(-6.0) and min(y for _, y in down) == pytest.approx(-240.0)
 
 
-def test_the_ceiling_of_a_pulley_has_the_height_of_a_fixed_end_above_it(tmp_path: Path) -> None:
-    hangers = [str(mark.hanger) for mark in of_class(movable(tmp_path), SmallPulleyMark) if mark.hanger is not None]
+def test_the_ceiling_of_a_pulley_has_the_height_of_a_fixed_end_above_it() -> None:
+    hangers = [str(mark.hanger) for mark in of_class(movable(), SmallPulleyMark) if mark.hanger is not None]
     assert hangers == ["h", "h"]
 
 
