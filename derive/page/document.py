@@ -138,6 +138,7 @@ class _Writer:
         self.rest: list[Step] = []  # the steps that the part shows after the current step
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
+        self.is_only_answer = False  # whether the part has one answer, which is framed even if an earlier part has it
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -304,6 +305,7 @@ class _Writer:
         self.before = None  # the first sentence of a part is a complete sentence
         boxed = {step.key for step in (answers if part.boxed is None else self.derivation.answering(part.boxed))}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers}, boxed)
+        self.is_only_answer = len(framed) == 1
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             begins[key] = len(blocks)
@@ -417,8 +419,7 @@ class _Writer:
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
-        is_framed = again in self.framed and self.shown_in.get(again or "") == self.shown_in.get(step.key)
-        count = results(step, lines) if framed and not is_framed else 0
+        count = results(step, lines) if framed and (again not in self.framed or self.is_only_answer) else 0
         self.framed |= {step.key} if count else set()
         conditions = conditions_of(step) if count else ()
         lines, count = (*lines, *conditions), count + len(conditions)

@@ -65,11 +65,8 @@ def _sentence(
     sort: str, figures: Sequence[Illustration], drawings: Mapping[str, m.Recorded], words: Phrases
 ) -> tuple[Inline, ...]:
     last, label = words.labels["and"], words.labels["figure"]
-    named = [
-        (FigureRef(f"{label}\u00a0{each.number}", each.key, each.number),)
-        for each in figures
-        if each.number is not None
-    ]
+    numbers = [(each.number, each.key) for each in figures if each.number is not None]
+    named = [(FigureRef(f"{label}\u00a0{number}", key, number),) for number, key in numbers]
     own: dict[str, Any] = {"figures": joined(named, last), "count": len(named)}
     plot = drawings[figures[0].key]
     if isinstance(plot, m.Plot):

@@ -146,7 +146,7 @@ def _frames_left_side(line: Printed, equations: Equations) -> bool:
     Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
     only its result in the frame. An inequality is framed as a whole, unless a formula with numbers precedes its result.
     """
-    if line.left is None or not equations.framed:
+    if line.left is None or not equations.framed or (equations.frames_bare_value and len(line.sides) > 1):
         return False
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
