@@ -125,8 +125,7 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
-    """A long formula is framed with its left side if it is an inequality; before a number after a formula, the left side
-    of an inequality is repeated."""
+    """A long formula is framed with its left side if it is an inequality; a number after it has the left side again."""
     S, c = Symbol("S"), LETTERS[2]
     for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
         formula = ChainLine(S, relation, LONG)
