@@ -77,7 +77,11 @@ def test_the_speed_of_a_particle_is_not_that_of_a_centre(tmp_path: Path, monkeyp
 @pytest.mark.parametrize(
     ("name", "outcome", "told"),
     [
-        ("rolling/ladder", "grows", "the angular acceleration is positive, so the angle increases and its rate is the positive root, θ̇ = √(3g"),
+        (
+            "rolling/ladder",
+            "grows",
+            "the angular acceleration is positive, so the angle increases and its rate is the positive root, θ̇ = √(3g",
+        ),
         ("pendulums/simple_pendulum", "falls", "At first θ decreases, so its rate is the negative root, θ̇ = -√(2g"),
         ("contacts/rod_that_pushes", "size", "The rate itself has the magnitude |θ̇| = √(2g"),
     ],
