@@ -34,7 +34,7 @@ def test_several_rows_are_aligned_at_their_relations() -> None:
 
 def test_an_answer_is_boxed_and_its_number_is_told_if_it_is_wanted() -> None:
     answer = display(ChainLine(a, "equals", b), ChainLine(None, "equals", c), framed=1)
-    assert display_latex(answer, Notation(), numbered=True) == r"a = b = \boxed{c}\qquad(4)"  # without a full stop
+    assert display_latex(answer, Notation(), numbered=True) == r"\boxed{a = b = c}\qquad(4)"  # without a full stop
 
 
 def test_an_answer_that_is_all_of_its_row_is_boxed_with_its_left_side() -> None:

@@ -52,14 +52,14 @@ def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -
 
 
 @pytest.mark.parametrize("nothing", [Integer(0), LETTERS[2]])
-def test_a_mere_number_or_letter_is_framed_on_the_line_of_its_chain_or_with_its_left_side(nothing: Any) -> None:
+def test_a_mere_number_or_letter_is_framed_with_the_whole_line_of_its_chain_or_with_its_left_side(nothing: Any) -> None:
     """The left side is repeated only if the chain has no room on one line: T = a = 0, but T = 0 below a long line."""
     T = Symbol("T")
     chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", nothing, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
     assert line.frames_all and len(line.sides) == 1
     (line,) = printed_lines(Equations("T", chain, 7, 1), NOTATION)
-    assert (line.framed, len(line.sides), line.frames_all) == (1, 2, False)
+    assert len(line.sides) == 2 and line.frames_all
     for begins, limit in ((LONG, 40), (LETTERS[0], 9)):
         lines = printed_lines(Equations("T", (replace(chain[0], right=begins), chain[1]), 7, 1), NOTATION, limit)
         assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
@@ -73,7 +73,7 @@ def test_a_mere_number_or_letter_is_framed_on_the_line_of_its_chain_or_with_its_
     assert line.framed == 1 and not line.frames_all, "a long line has only its result in the frame"
     vector = ImmutableDenseMatrix([0, 0, 0])
     *_, last = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", vector)), 7, 1), NOTATION)
-    assert last.framed == 1
+    assert last.frames_all
 
 
 def test_a_framed_line_that_is_broken_is_framed_as_a_whole() -> None:

@@ -144,10 +144,13 @@ def _frames_left_side(line: Printed, equations: Equations) -> bool:
     """Return whether the frame includes the left side of the last line.
 
     Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
-    only its result in the frame. An inequality is framed as a whole, unless a formula with numbers precedes its result.
+    only its result in the frame, unless this is a bare number or letter, which means nothing alone. An inequality is
+    framed as a whole, unless a formula with numbers precedes its result.
     """
-    if line.left is None or not equations.framed or (equations.frames_bare_value and len(line.sides) > 1):
+    if line.left is None or not equations.framed:
         return False
+    if equations.frames_bare_value:
+        return True
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
         return not (numeric and len(line.sides) > line.framed)
