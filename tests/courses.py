@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Mapping
 from pathlib import Path
+from typing import Any
 
 from derive.building.cache import Cache
 from derive.building.solution import rendered
@@ -64,3 +65,8 @@ def solved_once(root: Path, problem_id: str) -> tuple[Problem, Solved]:
     solved = Solved.from_data(kept().get_data(steps_key(problem)))
     assert solved is not None
     return problem, solved
+
+
+def library_drawings(name: str) -> dict[str, Any]:
+    """Return the drawings of a problem of the library by their keys; the problem is derived once for all tests."""
+    return {each.key: each for each in solved_once(ROOT, f"library/{name}")[1].drawings if hasattr(each, "marks")}

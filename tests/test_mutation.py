@@ -140,8 +140,8 @@ PRINTED_SOMETHING_FALSE = {  # run -> the beginnings of the ids of its mutants
     "library/ball_with_hole": ["mechanics.rotation.assembly:_share_of_mass: word: part.body.called"],
     "library/clock_pendulum": ["mechanics.bodies.parts:PlacedPart.turned: sign: turn * self.turn"],
     "library/cue_ball": ["mechanics.answers.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
-    "library/damped_oscillator": ["mechanics.vibrations.linear_motion:_sort: dropped: b ** 2 -> b"],
     "library/drift": ["mechanics.model.forces:Charge.stored: sign: -self.charge -> self.charge"],
+    "library/damped_oscillator": ["mechanics.vibrations.linear_motion:_sort: dropped: b ** 2 -> b"],
     "library/kepler": ["mechanics.rest.sides:_sides_taken: and/or"],
     "library/power_law": [
         "mechanics.vibrations.about_steady_motion:frequency_squared_about: role: {'potential': about.potential",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import acos, degrees
 
 import pytest
-from sympy import Expr, Symbol, cos, diff, simplify, sqrt
+from sympy import Expr, Symbol, cos, diff, pi, simplify, solve, sqrt
 
 from derive.algebra.expressions import explicit
 from tests.courses import ROOT, solved_once
@@ -43,3 +43,46 @@ def test_the_friction_that_rocking_needs_is_a_fraction_of_the_weight() -> None:
     F = explicit(solved.derivation.step("friction_needed").result)
     M, R, a, g, I, tilt = (letter(F, name) for name in ("M", "R", "a", "g", "I", "theta_0"))
     assert simplify(F + M * g * tilt * (I + M * a * R / 2) / (I + M * a**2 / 4)) == 0
+
+
+def test_the_rotation_about_the_axis_is_slower_than_the_spin_in_both_precessions() -> None:
+    """The rates are 15.13 and 939.5 rpm; the fast one is nearly I_z S/(I_x cos(theta)), 1.06 times the spin."""
+    cosine, spin = cos(pi / 4), 900.0
+    assert float(NUMBERS["I_z"] / NUMBERS["I_x"] / cosine) == pytest.approx(1.06, abs=0.005)
+    assert [float(spin - rate * cosine) for rate in (15.13, 939.5)] == pytest.approx([889, 236], abs=0.5)
+
+
+def test_the_slab_slips_long_before_its_potential_energy_is_greatest() -> None:
+    _, solved = solved_once(ROOT, "hw9/slab")
+    motion, N, F = (
+        explicit(solved.derivation.step(key).result) for key in ("equation_of_motion", "normal_force", "tangent_force")
+    )
+    theta = letter(N, "theta")
+    rate, turning = Symbol("rate"), Symbol("turning")
+
+    def at_rest(expr: Expr) -> Expr:
+        free = {each.name: each for each in expr.free_symbols}
+        names = {free[name]: new for name, new in (("theta_dot", rate), ("theta_ddot", turning)) if name in free}
+        return expr.xreplace(names).subs(rate, 0)
+
+    found = solve(at_rest(motion.left), turning)[0]
+    needed = -at_rest(F).subs(turning, found) / at_rest(N).subs(turning, found)
+    slab = {"M": 1.0, "g": 9.8, "R": 0.2, "a": 0.05, "I": (0.05**2 + 0.6**2) / 12}
+    known = {each: slab[each.name] for each in needed.free_symbols if each.name in slab}
+    assert float(needed.subs(known).subs(theta, 21.3 * pi / 180)) == pytest.approx(0.5, abs=0.005)
+    drawn = {"M": 1.0, "g": 9.8, "R": 1.0, "a": 0.5, "I": (3.5**2 + 0.5**2) / 12}
+    known = {each: drawn[each.name] for each in needed.free_symbols if each.name in drawn}
+    assert float(needed.subs(known).subs(theta, pi / 6)) == pytest.approx(0.75, abs=0.005)
+
+
+def test_the_angular_momentum_of_a_long_bar_is_nearly_perpendicular_to_it() -> None:
+    _, solved = solved_once(ROOT, "hw9/block")
+    tensor, spin = (
+        explicit(solved.derivation.step(key).result) for key in ("general_block_inertia_tensor", "general_block_spin")
+    )
+    a, b, c = (next(each for each in tensor.free_symbols if each.name == name) for name in "abc")
+    L = tensor * spin
+    cosine = (L.dot(spin) / (L.norm() * spin.norm())).subs(b, a)
+    assert float(
+        (cosine / (2 * sqrt(2) * a / c)).subs({a: 1, c: 1e4, **dict.fromkeys(cosine.free_symbols - {a, c}, 1)})
+    ) == (pytest.approx(1, rel=1e-4))

@@ -121,7 +121,7 @@ def _drawn(
     if isinstance(seen, Curves):
         from derive.render.drawing.plotting import plot_sheet
 
-        plotted = partial(plot_sheet, what, seen, notation, words, width, alt)
+        plotted = partial(plot_sheet, what, seen, notation, width, alt)
         return plotted(on_paper), plotted(on_screen)
     from derive.render.drawing.canvas import sheet_of
     from derive.render.drawing.picture import picture

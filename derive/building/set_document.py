@@ -15,7 +15,7 @@ from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import template_folder
 from derive.page.wording import Phrases, phrases
-from derive.render.printing.figure_numbers import numbered_in_a_row
+from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
 from derive.render.printing.told_once import told_once
@@ -83,7 +83,8 @@ def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered],
     label = phrases(template_folder(root)).labels["documents"][kind]
     listed = _listed(problems, kind)
     printed = [(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed]
-    bodies = numbered_in_a_row(told_once(printed))
+    numbered = equations_numbered(zip([each.number for each in listed], told_once(printed), strict=True))
+    bodies = numbered_in_a_row(numbered)
     return _page(root, "document.html.j2", heading, listed, kind_of_document=label, bodies=bodies)
 
 

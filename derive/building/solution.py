@@ -29,6 +29,7 @@ from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
+from derive.figures.places import with_places
 from derive.page.template import template_folder
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
@@ -94,7 +95,8 @@ def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple
         with during(lambda: "the comparison with the reference"):
             compared = comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
-    solved = Solved(derivation, values, tuple(c.told() for c in compared), tuple(run.drawings))
+    drawings = tuple(with_places(drawing, derivation.steps) for drawing in run.drawings)
+    solved = Solved(derivation, values, tuple(c.told() for c in compared), drawings)
     if not failures and not faults and not _edited(problem, begun):
         with suppress(ValueError, RecursionError):  # steps that JSON cannot represent are derived again next time
             cache.keep_data(key, solved.to_data())

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from derive.building.cache import digest, engine_digest
-from derive.course.placement import POLHODES
+from derive.course.placement import ON_REQUEST
 from derive.course.problem import Problem
 from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
@@ -80,7 +80,8 @@ def steps_key(problem: Problem) -> str:
     plots = [
         (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.levels, d.over)
         for d in problem.drawings
-        if d.is_of_engine or d.key == POLHODES
+        if d.is_of_engine or d.key in ON_REQUEST
     ]
-    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots))
+    marks = [(d.key, d.like, [mark.written for mark in d.marks]) for d in problem.drawings if d.marks or d.like]
+    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots), repr(marks))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

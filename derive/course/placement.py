@@ -13,12 +13,13 @@ from derive.course.expression import Declared
 from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
-from derive.course.written import DrawingKeys
+from derive.course.written import DrawingKeys, MarkKeys
 from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
-POLHODES = "polhodes"  # the name of a drawing that the engine makes only if the problem names it
+POLHODES, AFTER = "polhodes", "after"
+ON_REQUEST = (POLHODES, AFTER)  # the names of drawings that the engine makes only if the problem names them
 EQUILIBRIA = "equilibria"  # the answer whose plot is a bifurcation diagram
 _KEY = re.compile(r"[a-z][a-z0-9_]+", re.ASCII)
 WIDEST, NARROWEST = 15.0, 1.0  # centimetres
@@ -51,10 +52,14 @@ class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
         view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
+        like      the name of the drawing whose contents this further drawing repeats
+        marks     the marks that the problem adds to the drawing
         plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
         curves    several answers, whose curves the engine draws in one plot
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
+        up        the ends of the vertical axis of curves, outside of which they are not drawn
+        shows     the names of what the drawing of a body shows in addition to the outline
         panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
               bifurcation diagram: the range of its vertical axis
@@ -72,11 +77,15 @@ class Placement:
     values: tuple[tuple[Symbol, Expr], ...] = ()
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
+    up: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
+    like: Word | None = None
+    marks: tuple[MarkKeys, ...] = ()
     plot: tuple[Formula, ...] = ()
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
     surfaces: tuple[Word, ...] = ()
+    shows: tuple[Word, ...] = ()
     panels: str | None = None
     against: Formula | None = None
     levels: tuple[Formula, ...] = ()
@@ -117,11 +126,15 @@ def placements(
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
             range=Range(written.ends) if written.ends else None,
+            up=Range(written.up) if written.up else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
+            like=written.like,
+            marks=written.marks,
             plot=written.plot or (),
             curves=written.curves,
             labels=written.labels,
             surfaces=written.surfaces,
+            shows=written.shows,
             panels=written.panels,
             against=written.against,
             levels=written.levels,

@@ -278,6 +278,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
     `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
+        _check_shows(drawing, script, faults)
         if drawing.is_of_engine and isinstance(script, Script):
             name = "plot" if drawing.plot else "curves"
             message, help_line = (
@@ -303,11 +304,27 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             faults.error("unused-key", "`against` has no effect without `plot` or `curves`", drawing.against.place)
 
 
+def _check_shows(drawing: Placement, script: Script | StockScript | None, faults: Faults) -> None:
+    """Check that `shows` belongs to a drawing of the engine that can show its contents."""
+    known = script.stock.shows if isinstance(script, StockScript) else ()
+    for name in drawing.shows:
+        if not known or drawing.is_of_engine:
+            message = f"`shows` has no effect on `{drawing.key}`, which is not the drawing of a `body`"
+            faults.error("unused-key", message, name.place, help="leave it out")
+        elif name not in known:
+            help_line = did_you_mean(name, known) or f"the names are {', '.join(f'`{each}`' for each in known)}"
+            faults.error("wrong-argument", f"the drawing of a body cannot show `{name}`", name.place, help=help_line)
+
+
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Check that a drawing with `panels` has several curves, and a drawing with `labels` or `surfaces` is a path."""
+    """Check that a drawing with `panels` has several curves, and a drawing with `labels` or `surfaces` is a path, and
+    a drawing with `up` is not."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
+    if drawing.up and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels):
+        message = f"`up` has no effect on `{drawing.key}`, which is not a plot of curves"
+        faults.error("unused-key", message, drawing.up.place, help="leave it out, or write `over`")
     for name, words in (("labels", drawing.labels), ("surfaces", drawing.surfaces)):
         if words and len(drawing.plot) != 2:
             message = f"`{name}` has no effect on `{drawing.key}`, which is not a path"
@@ -335,7 +352,10 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
     record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
-            return problem.script.stock.answers(problem.described).solve(problem.asked, problem.drawings)
+            answers = problem.script.stock.answers(problem.described)
+            found = answers.solve(problem.asked, problem.drawings)
+            answers.mark(problem.drawings)
+            return found
         return run(problem.script, {given.name: given.value for given in problem.givens})
 
 

@@ -93,6 +93,9 @@ class Answering(Protocol):
         """Return the answers by the names that parts ask for, and draw the requested plots; one name may mean several
         steps."""
 
+    def mark(self, drawings: Sequence[Placement]) -> None:
+        """Add the marks of the problem to the drawings."""
+
     def every(self) -> dict[str, Any]:
         """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
 
@@ -104,11 +107,13 @@ class Stock:
     keys      the keys allowed under `given:`
     read      returns the description in the declared symbols; collects an error for each value that cannot be read
     answers   the class that derives the answers of a description
+    shows     the words that `shows` of a drawing may contain
     """
 
     keys: type[Record]
     read: Callable[[Any, Mapping[str, Declared], Faults], Described]
     answers: Callable[[Any], Answering]
+    shows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

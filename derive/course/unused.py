@@ -78,8 +78,13 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
 
 
 def _drawn(drawing: DrawingKeys) -> Iterator[str]:
-    """Yield the letters that a drawing uses: those with values, and those in the formulas of a plot."""
+    """Yield the letters that a drawing uses: those with values, those of its marks, and those in the formulas of a
+    plot."""
     yield from drawing.values
+    for mark in drawing.marks:
+        for node in (mark.at, mark.start, mark.end, mark.along):
+            yield from _names(node)
+        yield from _NAME.findall(mark.label or "")
     ends = [end for both in drawing.over.values() for end in both]
     for formula in (*(drawing.plot or ()), drawing.against or "", *drawing.levels, *(drawing.ends or ()), *ends):
         yield from _NAME.findall(formula)

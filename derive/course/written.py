@@ -39,7 +39,7 @@ from derive.course.schema import (
     record_of,
     wrong_type,
 )
-from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Word, shape_of
+from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Word, as_text, shape_of
 from derive.errors import Faults, did_you_mean
 
 ANY_OUTCOME = ""
@@ -47,6 +47,8 @@ POSITIVE = "positive"  # the word that may be before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
+MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle")
+SIDES = ("left", "right", "up", "down")
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
 
@@ -194,6 +196,63 @@ def _view(node: Tree, name: str, faults: Faults) -> tuple[float, float] | None:
 VIEW: Reader[tuple[float, float]] = Reader({"anyOf": [{"enum": list(VIEWS)}, _VIEW.schema]}, _view)
 
 
+_WAY = {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 3}]}
+_PLACE = {"anyOf": [*_WAY["anyOf"], {"type": "object", "additionalProperties": _WAY}]}
+_A_PLACE, _A_WAY = "the name of a place or its components", "a direction: components, `x`, a place or an answer"
+
+
+@dataclass(frozen=True)
+class MarkKeys(Record):
+    """The keys of one of `marks:` of a drawing."""
+
+    mark: str | None = key(
+        "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
+        "vector, the arc of an `angle`, the curved arrow of a `turn`, or a dashed `circle`",
+        one_of(MARKS),
+        required=True,
+    )
+    label: Formula | None = key("the letter, the formula or the answer that names it; by default no label", FORMULA)
+    at: Tree | None = key(
+        "the place of a point, the start of an arrow, the vertex of an angle or the centre of a turn or a circle; in "
+        "the drawing of a body, by default the origin; if the body is given by its moments, the components are numbers "
+        "relative to the semi-axes of the drawn ellipsoid",
+        as_written(_PLACE, _A_PLACE),
+    )
+    start: Tree | None = key(
+        "the start of a line or of a length; for an angle, the direction of its first side or a place on it",
+        as_written(_PLACE, _A_PLACE),
+        called="from",
+    )
+    end: Tree | None = key(
+        "the end of a line or of a length; a place on a circle; for an angle, the direction of its second side or a "
+        "place on it",
+        as_written(_PLACE, _A_PLACE),
+        called="to",
+    )
+    along: Tree | None = key(
+        "the direction of an arrow, or of the axis of a turn or a circle: components, `x`, `y` or `z`, or the name of "
+        "an answer that is a vector; a turn in a plane is counterclockwise by default, and clockwise with `[0, 0, -1]`",
+        as_written(_WAY, _A_WAY),
+    )
+    side: str | None = key("the side on which the dimension line of a length is", one_of(SIDES))
+    size: Formula | None = key(
+        "the length of an arrow, or the radius of a turn or of the arc of an angle, relative to the drawing", FORMULA
+    )
+
+    @property
+    def written(self) -> tuple[str, ...]:
+        """Return all that the file says about the mark, as texts without places."""
+        named = (self.mark, self.label, self.side, self.size)
+        return *map(str, named), *map(as_text, (self.at, self.start, self.end, self.along))
+
+
+MARKS_OF_DRAWING = list_of(
+    record_of(MarkKeys, "a mark", "a mapping such as `{mark: point, label: S, at: [x, y]}`", "a mark"),
+    "a list of marks such as `{mark: point, label: S, at: [x, y]}`",
+    each="a mark",
+)
+
+
 @dataclass(frozen=True)
 class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
@@ -204,6 +263,16 @@ class DrawingKeys(Record):
     )
     caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
     width: Tree | None = key("width without labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
+    like: Word | None = key(
+        "if `solve` is `system`, `body` or `rotation`: the name of the drawing whose contents this further drawing "
+        "repeats, with marks or values of its own",
+        TEXT,
+    )
+    marks: tuple[MarkKeys, ...] = key(
+        "if `solve` is `system`, `body` or `rotation`: [marks](#marks) that are drawn in addition, such as a centre of "
+        "mass, a length, a velocity or an angle",
+        MARKS_OF_DRAWING,
+    )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
         "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",
@@ -251,10 +320,20 @@ class DrawingKeys(Record):
         ENDS,
         called="range",
     )
+    up: tuple[Formula, ...] | None = key(
+        "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
+        ENDS,
+    )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
         "from those of the first",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
+    )
+    shows: tuple[Word, ...] = key(
+        "for a drawing of one `body`, what it shows in addition to the outline: `masses` of its parts, "
+        "`centre_of_mass`, `principal_axes`, `direction` of the axis of `moment_about`, or the `element` of its "
+        "integrals; under a new name, it is a further drawing of the body",
+        list_of(TEXT, "a list such as `[centre_of_mass]`", each="a name"),
     )
     panels: str | None = key(
         "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "

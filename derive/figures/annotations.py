@@ -37,6 +37,7 @@ APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 ROUND = 10.0  # least radius of a rotation arrow, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
@@ -95,21 +96,22 @@ class Axis(_Between):
             end = plus(end, unit(paper.numbers.vector(self.past)), PAST * paper.reach)
         spots = paper.spots(start, end)
         if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
-            return self._along_sight(spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
+            return _along_sight(self.label, spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
         return [Stroke(spots, "axis", head=True), Tag(self.label, spots[1], direction(*spots))]
 
-    def _along_sight(self, spot: Spot, comes: bool) -> list[Piece]:
-        """Return a circle, with a dot for an axis towards the viewer and with a cross for an axis away from the
-        viewer."""
-        (x, y), far = spot, EYE * 0.7
-        cross = [Stroke(((x - far, y - s * far), (x + far, y + s * far)), "thin") for s in (-1, 1)]
-        signs: list[Piece] = [Bullet(spot, 1.1)] if comes else [*cross]
-        return [
-            Bullet(spot, EYE),
-            Bullet(spot, EYE - 0.6, "blank"),
-            *signs,
-            Tag(self.label, spot, (-0.7, 0.7), EYE + 2.0),
-        ]
+
+def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7)) -> list[Piece]:
+    """Return a circle, with a dot for a vector towards the viewer and with a cross for a vector away from the
+    viewer."""
+    (x, y), far = spot, EYE * 0.7
+    cross = [Stroke(((x - far, y - s * far), (x + far, y + s * far)), "thin") for s in (-1, 1)]
+    signs: list[Piece] = [Bullet(spot, 1.1)] if comes else [*cross]
+    return [
+        Bullet(spot, EYE),
+        Bullet(spot, EYE - 0.6, "blank"),
+        *signs,
+        Tag(label, spot, towards, EYE + 2.0),
+    ]
 
 
 @dataclass(frozen=True)
@@ -213,12 +215,14 @@ class LengthMark(_Between):
 
 
 def _square_to(line: Spot, away: Spot) -> Spot:
-    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; `away` itself if it is along
-    the line."""
+    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; if `away` is along the line,
+    the upper or the left side."""
     share = away[0] * line[0] + away[1] * line[1]
     x, y = away[0] - share * line[0], away[1] - share * line[1]
     size = hypot(x, y)
-    return (x / size, y / size) if size > 0.05 else away
+    if size > 0.05:
+        return x / size, y / size
+    return (line[1], -line[0]) if line[1] - line[0] > 0 else (-line[1], line[0])  # to the left or upwards
 
 
 # --- vectors and angles ----------------------------------------------------------------------------------------------
@@ -260,6 +264,8 @@ class Arrow(Mark):
             x, y = direction(*(spots[::-1] if self.pushes else spots))
             spots = tuple((u - self.aside * y, v + self.aside * x) for u, v in spots)
         pen = "asked" if self.asked else "given"
+        if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6 < far:
+            return _along_sight(self.label, spots[0], dot(along, paper.stance.eye) > 0, (0.7, -0.7))
         if self.pushes:
             return [Stroke(spots[::-1], pen, head=True), Tag(self.label, spots[1], direction(*spots))]
         return [Stroke(spots, pen, head=True), Tag(self.label, spots[1], direction(*spots))]
@@ -267,7 +273,7 @@ class Arrow(Mark):
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * paper.reach
 
-    def in_words(self) -> InWords:
+    def in_words(self) -> InWords | None:
         names = {"label": self.label, "direction": _components(self.value)}
         if _vanishes(self.value):
             return "no_arrow", names
@@ -294,9 +300,10 @@ class ForceArrow(Arrow):
 
 @dataclass(frozen=True)
 class AppliedForce(Arrow):
-    """A given force on a part of a system: an arrow of a fixed length that starts outside this part.
+    """A given force on a part of a system: an arrow of a fixed length that starts outside this part or, if it pushes,
+    ends outside this part.
 
-    clear   the distance of the start of the arrow from the point of action, in points
+    clear   the distance of this end of the arrow from the point of action, in points
     """
 
     clear: float = 0.0
@@ -307,9 +314,29 @@ class AppliedForce(Arrow):
             return []
         (x, y), ahead = paper.spots(start, plus(start, along, paper.reach))
         u, v = direction((x, y), ahead)
-        far = self.clear + APPLIED
-        spots = (x + self.clear * u, y + self.clear * v), (x + far * u, y + far * v)
-        return [Stroke(spots, "given", head=True), Tag(self.label, spots[1], (u, v))]
+        x, y = x - self.aside * v, y + self.aside * u
+        side = -1 if self.pushes else 1
+        near, far = ((x + side * d * u, y + side * d * v) for d in (self.clear, self.clear + APPLIED))
+        ends = (far, near) if self.pushes else (near, far)
+        return [Stroke(ends, "given", head=True), Tag(self.label, far, (side * u, side * v))]
+
+
+@dataclass(frozen=True)
+class Projection(Arrow):
+    """The projection of a vector on the plane of x and y, and the line from its tip to this plane, both dashed. The
+    arrow of the vector is another mark with the same `size`."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, tip = paper.numbers.vector(self.start), self.tip(paper.numbers, paper.reach)
+        below = tip[0], tip[1], start[2]
+        return [Stroke(paper.spots(start, below, tip), "hidden")]
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
+
+    def in_words(self) -> None:
+        return None
 
 
 @dataclass(frozen=True)
@@ -347,12 +374,16 @@ class AngleMark(Mark):
     """The arc between two directions at a vertex; by default the radius is chosen so that the arc is readable.
 
     No arc is drawn if a direction is zero or if the directions are almost parallel or opposite.
+
+    radius   a length
+    part     the radius relative to the size of the bodies, if there is no length
     """
 
     vertex: Position
     a: Position
     b: Position
     radius: Any = None
+    part: Any = None
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -365,7 +396,7 @@ class AngleMark(Mark):
         if not size_of(a) or not size_of(b) or not 0.02 < size < pi - 0.02:
             return []
         # The arc of a small angle has a large radius, so that the arc is visible.
-        comfortable = max(0.3, min(0.8, 0.3 / size))
+        comfortable = max(0.3, min(0.8, 0.3 / size)) if self.part is None else paper.numbers.of(self.part)
         radius = paper.numbers.of(self.radius) if self.radius is not None else paper.reach * comfortable
         beside = unit(plus(b, a, -dot(a, b)))
         turned = [size * i / 48 for i in range(49)]
@@ -447,6 +478,15 @@ class PointMark(_Single):
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)
+
+
+@dataclass(frozen=True)
+class HollowPoint(PointMark):
+    """A point as a small circle, which is visible on a rod too."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(paper.numbers.vector(self.at))
+        return [Bullet(spot, HOLLOW), Bullet(spot, 0.6 * HOLLOW, "blank"), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
 
 @dataclass(frozen=True)

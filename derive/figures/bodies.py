@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sympy import Expr, Rational, sqrt
+from sympy import Expr, Rational, cos, pi, sin, sqrt
 
 from derive.algebra.expressions import AXES, column, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.figures.annotations import Axis, CentreMark, LengthMark, Line
+from derive.figures.annotations import AngleMark, Axis, CentreMark, LengthMark, Line, PointMark
 from derive.figures.marks import Mark, Position, Surface
 from derive.figures.space import numeric
 from derive.figures.surfaces import (
@@ -41,6 +41,7 @@ THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its ra
 EDGE = 32  # number of steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # height and thickness of a slice, relative to the height of the body
 BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
+TILT, INSIDE = 5 * pi / 18, Rational(4, 5)  # the drawn point of a section: its angle, and its distance relative to b
 CURVED = 48  # number of steps along a curved side; the steps are shorter at the ends, which may be tips
 
 
@@ -82,9 +83,45 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
         return [*found, *_measures(body, boundary, point)]
     found += _sizes(body, boundary, point, Y)
     for along, name in list(zip(UNIT, AXES, strict=True))[: 2 if is_in_plane(body) else 3]:
-        start = _end_on(found, along)
+        start = max(_end_on(found, along), _reach(body, point, along), key=lambda end: numeric(end.dot(along)))
         found.append(Axis(start, start, along, label=scalar(name)))
     return found
+
+
+def _reach(body: Body, point: Point, along: Position) -> Position:
+    """Return where an axis leaves a flat body with a curved edge, or a round body whose centre is on this axis, such as
+    a ball with a cavity or the ball at the end of a rod; the origin if it leaves no such body."""
+    match body.boundary:
+        case Rim() as rim:
+            ends = [point.seen(place) for place in rim.places(EDGE)]
+        case Hollowed(whole):
+            ends = _ends_of_round(whole, point.seen, point.axes.T, along)
+        case _:
+            parts = [part for part in getattr(body, "parts", ()) if part.sign > 0]
+            ends = [
+                end
+                for part in parts
+                if isinstance(part.body.boundary, Round) and not part.body.boundary.is_flat
+                for end in _ends_of_round(part.body.boundary, _seen_of(part, point), point.axes.T * part.turn, along)
+            ]
+    on_axis = [end for end in ends if all(is_zero(entry) for entry in end.cross(along))]
+    return max((ORIGIN, *on_axis), key=lambda end: numeric(end.dot(along)))
+
+
+def _seen_of(part: Any, point: Point) -> Callable[[Position], Position]:
+    return lambda place: point.seen(part.seen(place))
+
+
+def _ends_of_round(
+    boundary: Round, seen: Callable[[Position], Position], turn: Position, along: Position
+) -> list[Position]:
+    """Return the points of a round body with the least and the greatest coordinate along an axis that is parallel or
+    perpendicular to the axis of the body; an empty list for any other axis."""
+    own = turn.T * along
+    if own[2] != 0:
+        return [seen(z * Z) for z in boundary.ends] if abs(own[2]) == 1 else []
+    wide, radius = widest_of(boundary)
+    return [seen(wide * Z + side * radius * own) for side in (1, -1)]
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
@@ -362,6 +399,29 @@ def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
         end = centre + size * along
         marks += [Line(centre, end, "hidden", label=size), Axis(end, end, along, label=scalar(name))]
     return marks
+
+
+def torus_section(body: Body) -> list[Mark]:
+    """Return the section of a torus by the plane of y and z, with its axes and both radii, and a point of one
+    cross-section with its coordinates: the distance from the middle, and the angle from the y axis."""
+    boundary = body.boundary
+    assert isinstance(boundary, Toroidal)
+    (distance, *_), (angle, *_), *_ = body.map()[1]
+    radius, section = boundary.radius, boundary.section
+    middle = radius * Y
+    way = cos(TILT) * Y + sin(TILT) * Z
+    discs: list[Mark] = [Circle(side * middle, X, section, filled=True) for side in (1, -1)]
+    return [
+        *discs,
+        Axis(ORIGIN, (radius + section) * Y, Y, label=scalar("y")),
+        Axis(ORIGIN, section * Z, Z, label=scalar("z")),
+        LengthMark(ORIGIN, middle, -Z, section, label=radius),
+        Line(-middle, -middle + section * (sin(TILT) * Z - cos(TILT) * Y), "hidden", label=section),
+        Line(middle, middle + INSIDE * section * way, "construction", label=distance),
+        PointMark(middle + INSIDE * section * way),
+        PointMark(middle),
+        AngleMark(middle, Y, way, section / 2, label=angle),
+    ]
 
 
 def _torus(boundary: Toroidal, words: dict[str, Any], point: Point, named: bool) -> list[Mark]:

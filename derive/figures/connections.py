@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, column, explicit, rate
+from derive.algebra.ranges import range_of
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, Axis, AxisOfRotation, PointMark, Turn
 from derive.figures.annotations import Line as Edge
@@ -31,6 +32,7 @@ from derive.figures.parts import (
     DashpotMark,
     HeavyRopeMark,
     PlankMark,
+    RopeBelowMark,
     RopeMark,
     WedgeMark,
     WheelMark,
@@ -61,6 +63,7 @@ ACROSS = column(0, 0, 1)
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
+HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
@@ -346,12 +349,14 @@ class Connections:
         yield from euler_angles(self.system, touch.of, Rational(5, 4) * arm)
 
     def _table_radius(self, plane: Plane) -> Expr:
-        """The radius of a table. If the contacts keep their distances from the middle of the table, the radius is a
-        little greater than the greatest of these distances. Otherwise it is a multiple of `ball_size`."""
-        ways = [distance_of(plane.through, each.at) for each in self.contacts if each.surface == plane]
-        if any(moving_in(self.system, way) for way in ways):
+        """The radius of a table. If only particles touch the table, or if the contacts keep their distances from its
+        middle, the radius is a little greater than the greatest of these distances. Otherwise it is a multiple of
+        `ball_size`."""
+        touches = [each for each in self.contacts if each.surface == plane]
+        ways = [distance_of(plane.through, each.at) for each in touches]
+        if any(moving_in(self.system, way) for way in ways) and any(hasattr(each.of, "hub") for each in touches):
             return TABLE * self.ball_size
-        return BEYOND * max(ways, key=numeric)
+        return BEYOND * max(ways, key=self.number)
 
     @property
     def ball_size(self) -> Expr:
@@ -556,6 +561,11 @@ class Connections:
         small = self._span * WHEEL if self.in_a_plane and len(columns) > 2 else ZERO
         radii = (ZERO, *(e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]), ZERO)
         corners = self._small_pulleys(line)
+        if self._is_through_table(line):
+            for ends in pairwise(columns):
+                sort = RopeBelowMark if any(self.number(end[-1]) < -EXACT for end in ends) else RopeMark
+                yield sort(ends, (ZERO, ZERO))
+            return
         if not corners:
             yield RopeMark(columns, radii, label=self._kept_length(line) if len(columns) == 2 else None)
             return
@@ -567,10 +577,17 @@ class Connections:
             particle = next((one for one in self.system.particles if same(one.at, place)), None)
             hangs = particle is None and is_fixed(self.system, place)
             label = particle.mass if particle else None
-            yield SmallPulleyMark(string, k, HANGER * self._span if hangs else None, label=label)
+            yield SmallPulleyMark(string, k, self._hanger(line, place) if hangs else None, label=label)
         for k in (0, 1):
             if tied[k]:
                 yield TiedEndMark(string, k == 1)
+
+    def _hanger(self, line: Line, at: Location) -> Expr:
+        """Return the distance from a fixed small pulley to the ceiling: the height of an end of the string that is
+        fixed above the pulley, or by default a part of `_span`."""
+        fixed = [line.places[k] for k in (0, -1) if is_fixed(self.system, line.places[k])]
+        above = [tidied((place - at).components[1]) for place in fixed]
+        return next((height for height in above if self.number(height) > SMALL), HANGER * self._span)
 
     def _small_pulleys(self, line: Line) -> tuple[int, ...]:
         """Return the indices of the pulleys of negligible radius, for a system in a plane."""
@@ -590,6 +607,12 @@ class Connections:
         corner = line.through[1]
         is_alone = len(line.through) == 3 and not isinstance(corner, Pulley)
         return self.in_a_plane and is_alone and is_fixed(self.system, corner)  # type: ignore[arg-type]
+
+    def _is_through_table(self, line: Line) -> bool:
+        """Whether a string passes through the middle of a table that is drawn in space at the height zero."""
+        tables = [] if self.in_a_plane else [plane for plane in self._planes if self.is_drawn(plane)]
+        holes = line.places[1:-1]
+        return any(same(plane.through, hole) and hole.components[-1] == 0 for plane in tables for hole in holes)
 
     def _lifts(self, line: Line) -> tuple[float, float]:
         """The shifts of the two parts of a string away from the surfaces below. On a slope, or on any other
@@ -621,9 +644,27 @@ class Connections:
         label = radius if radius.is_Symbol else None
         yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
         if particle is None and is_fixed(self.system, at):
-            above = at + Location((ZERO, Rational(9, 5) * radius))
+            above = at + Location((ZERO, HOOK * radius))
             yield BarMark(column_of(at), column_of(above))
             yield FixedEnd(column_of(above), downwards(2))
+        for line in self.lines:
+            for k in (0, -1):
+                if same(line.places[k], at):  # the string holds the axle, not the rim, which turns
+                    way = self._towards_end(line, k)
+                    yield BarMark(column_of(at), column_of(at + HOOK * radius * way))
+
+    def _towards_end(self, line: Line, k: int) -> Location:
+        """Return the direction in which a string pulls its first end (k = 0) or its last end (k = -1)."""
+        pulled, (place, other) = line.through[k], (line.places[k], line.places[1 if k == 0 else -2])
+        beside = line.through[1 if k == 0 else -2]
+        assert isinstance(pulled, Location)
+        x, y = (other - place).components
+        if isinstance(beside, Pulley):  # the string leaves a pulley with a radius beside its centre
+            x, y = (ZERO, y) if is_zero_direction(abs(x) - beside.radius) else (x, ZERO)
+        if is_zero_direction(x):
+            return Location((ZERO, ONE if self.number(y) > 0 else -ONE))
+        size = sqrt(tidied(x**2 + y**2))
+        return Location((tidied(x / size), tidied(y / size)))
 
     def _end(self, line: Line, place: Location, other: Location) -> Iterable[Mark]:
         """Yield the support of an end of a string or rod, if the end is fixed or has a prescribed motion."""
@@ -660,13 +701,17 @@ class Connections:
         return [FixedEnd(column_of(pin.at), downwards(self.rows) if still else column_of(pin.at) * 0, True)]
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
-        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""
+        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies, within the
+        range of this coordinate if the range is finite."""
         at = wire.of.at
         (q,) = moving_in(self.system, *at.components) - {TIME}
         start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
         turns = any(c.has(TIME) for c in at.components) and not any(diff(c, q, 2) for c in at.components)
         is_half = turns and self.system.coordinates[q] == "length" and is_fixed(self.system, start)
         low, high = (-pi, pi) if self.system.coordinates[q] == "angle" else (ZERO if is_half else -FAR * q, FAR * q)
+        known = range_of(q)
+        if known is not None and known.least.is_finite and known.greatest.is_finite:
+            low, high = known.least, known.greatest
         yield WayMark(column_of(at), q, low, high, "wire")
 
     def _motor(self, motor: Motor) -> Iterable[Mark]:

@@ -27,11 +27,13 @@ NOISE = 1e-12  # relative size below which the value at an extremum is zero with
 
 @dataclass(frozen=True)
 class Extremum:
-    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum"."""
+    """An extremum of a curve: the value of the variable, the value of the curve, and "minimum" or "maximum". `name` is
+    the symbol that the solution has for this value of the variable, such as r_0."""
 
     at: float
     value: float
     kind: str
+    name: Any = None
 
 
 def values_along(expr: Expr, variable: Symbol, lower: float, upper: float, steps: int) -> list[tuple[float, float]]:
@@ -93,6 +95,16 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     if abs(z) <= NEAR_ZERO * size:
         return (*found, b)
     return (*found, _narrowed(f, a, b)) if y * z < 0 else tuple(found)
+
+
+def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
+    """Return the places inside the range at which two curves meet, also at its ends, but not where both start from
+    zero."""
+    found = zeros(one - other, variable, lower, upper)
+    f, g = (lambdify([variable], each, "math") for each in (one, other))
+    start, size = float(f(lower)), max(abs(float(each(upper))) for each in (f, g))
+    starts = abs(start - float(g(lower))) <= NEAR_ZERO * size < abs(start)
+    return (lower, *found) if starts else found
 
 
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:

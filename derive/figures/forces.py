@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin, sqrt
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
@@ -19,9 +20,9 @@ from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import FORCE, ForceArrow, PointMark
 from derive.figures.connections import Connections, connections_of, distance_of
-from derive.figures.links import Link, angle_of_link, is_fixed
+from derive.figures.links import Link, angle_of_link, is_fixed, same
 from derive.figures.marks import Drawing, Mark
-from derive.figures.parts import BarMark, ParticleMark, WheelMark
+from derive.figures.parts import WHEEL, BarMark, HeavyRopeMark, ParticleMark, WheelMark
 from derive.figures.placed_bodies import own_angle, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
@@ -34,8 +35,9 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce
 from derive.mechanics.model.contacts import Contact
-from derive.mechanics.model.strings import Line
+from derive.mechanics.model.strings import Line, Pulley
 from derive.mechanics.model.surfaces import Plane
+from derive.mechanics.model.surfaces import dot as product_of
 from derive.mechanics.model.system import System
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import coordinates_in, given_letters
@@ -43,7 +45,7 @@ from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero
 from derive.steps.trial_numbers import assumptions_about, trial_points
 
-__all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state"]
+__all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state", "forces_on_pulley", "forces_on_rope"]
 
 LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force on a rod, relative to the size of the rod
 # The drawn size of a body that is not a rod, in a plane and in space, in points. The radius of a disc in a plane is 0.7
@@ -59,6 +61,7 @@ ALONG = 1.8  # distance between a surface and the arrow of a force along it, on 
 # A round body whose weight and normal force are on one line: its drawn size in points, and the length of its longest
 # arrow, in units of FORCE points. Then the weight ends above the contact.
 STANDING, SHORT = 57.0, Rational(29, 50)
+ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians, about as in other drawings
@@ -127,6 +130,87 @@ def forces_as_named(
     return BodyAlone(key, of, (*_weight(system, of), *shown), tuple(leads_to))
 
 
+def forces_on_pulley(
+    key: str, system: System, of: Pulley, leads_to: Sequence[str], found: Mapping[Symbol, Quantity]
+) -> BodyAlone | None:
+    """Return a massless pulley that hangs on a string, with the pulls of all its strings; None in space, for a fixed
+    pulley, or if a string has no symbol for its tension."""
+    lines = [each for each in connections_of(system, Line) if any(same(of.at, at) for at in each.places)]
+    if len(of.at.components) != 2 or is_fixed(system, of.at) or not lines or any(each.drawn is None for each in lines):
+        return None
+    pulls = _drawn_pulls(system, of)
+    return BodyAlone(key, of, tuple(_pull(pull, found) for pull in pulls), tuple(leads_to))
+
+
+def _drawn_pulls(system: System, of: Any) -> list[PointForce]:
+    """Return the pulls of strings whose tension has a symbol only in force diagrams. The numbers of the drawing decide
+    about signs that the description leaves open."""
+    scene, found = Connections(system), []
+    for line in connections_of(system, Line):
+        for at, other in line.drawn_on(of):
+            way = tuple(tidied(c) for c in (other - at).components)
+            size = sqrt(tidied(Add(*(c**2 for c in way))))
+            alone = [c for c in way if c != 0]
+            if len(alone) == 1:  # along an axis
+                size = alone[0] if scene.number(alone[0]) > 0 else -alone[0]
+            found.append(PointForce(line.drawn, tuple(tidied(c / size) for c in way), at, of))
+    return found
+
+
+def forces_on_rope(
+    key: str, system: System, line: Line, leads_to: Sequence[str], found: Mapping[Symbol, Quantity]
+) -> list[BodyAlone]:
+    """Return the straight pieces of a rope with mass, each with its weight, the normal force of a surface, and the
+    tension at the bends of the rope. The names of the drawings are `key` with the number of the piece."""
+    if line.drawn is None or line.rope is None or len(line.places[0].components) != 2:
+        return []
+    pieces = list(pairwise(line.places))
+    lengths = [distance_of(*piece).replace(Abs, lambda size: size) for piece in pieces]
+    whole = tidied(Add(*lengths))
+    alone = []
+    for i, ((start, end), length) in enumerate(zip(pieces, lengths, strict=True)):
+        of = _RopePiece(start, end, tidied(line.rope.mass * length / whole), whole)
+        along = Location(tuple(tidied(c / length) for c in (end - start).components))
+        touching = [each for each in connections_of(system, Contact) if each.of == line.rope and each.is_kept]
+        normals = [each.normal for each in touching if is_zero(tidied(product_of(each.normal, along)))]
+        forces = [*_weight(system, of)]
+        forces += [_normal_of(of, normal, system, forces) for normal in normals]
+        for at, way, is_bend in ((start, -along, i > 0), (end, along, i < len(pieces) - 1)):
+            forces += [_pull(PointForce(line.drawn, way.components, at, None), found)] if is_bend else []
+        alone.append(BodyAlone(f"{key}_{i + 1}", of, tuple(forces), tuple(leads_to)))
+    return alone
+
+
+@dataclass(frozen=True)
+class _RopePiece:
+    """A straight piece of a rope with mass; `whole` is the length of the rope."""
+
+    start: Location
+    end: Location
+    mass: Expr
+    whole: Expr
+
+    @property
+    def at(self) -> Location:
+        """The middle of the piece."""
+        middle: Location = self.start + Rational(1, 2) * (self.end - self.start)
+        return middle
+
+
+def _normal_of(of: _RopePiece, normal: Location, system: System, others: Sequence[_Drawn]) -> _Drawn:
+    way = ImmutableDenseMatrix(list(normal.components))
+    plain = _Drawn(of.at, way, None, _letter_of_normal(system), pushes=True)
+    return replace(plain, value=_balance(plain, others))
+
+
+def _pull(pull: PointForce, found: Mapping[Symbol, Quantity]) -> _Drawn:
+    """Return the pull of a string with its value, if a step derives it."""
+    steps = [found[letter] for letter in pull.size.free_symbols if letter in found]
+    value = explicit(steps[0].value) if steps else None
+    keys = tuple(step.key for step in steps)
+    return _Drawn(pull.at, ImmutableDenseMatrix(list(pull.direction)), value, pull.size, keys)
+
+
 def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     """Return the diagrams of bodies of a system. All diagrams have the same scale of forces, if the forces are known
     for the same trial numbers."""
@@ -150,11 +234,13 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
     shares   the lengths of the arrows, in units of FORCE points; in space, relative to the body
     """
     of, drawn, reach = alone.of, alone.forces, _reach(alone.of, alone.forces, scene)
-    outline = list(_outline(of))
+    outline = list(_outline(of, is_pulley=_over_pulley(system, of) is not None))
     is_rod = any(isinstance(mark, BarMark | ThinRod) for mark in outline)
     stands = _stands(scene, alone)
     plain = BODY if scene.in_a_plane else BODY_IN_SPACE
-    size = (STANDING if stands else plain) if isinstance(of, PlacedBody) and not is_rod else None
+    size = (STANDING if stands else plain) if isinstance(of, PlacedBody | Pulley) and not is_rod else None
+    if isinstance(of, _RopePiece):
+        size = ROPE * scene.number(distance_of(of.start, of.end)) / scene.number(of.whole)
     longest = LONG if size is None else Rational(FORCE / size)
     lengths = [float(longest * share * reach) for share in shares]
     apart = _set_apart([each.line(length, scene) for each, length in zip(drawn, lengths, strict=True)])
@@ -164,12 +250,14 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
         apart = [0.0 if each.ends_there else off for each, off in zip(drawn, apart, strict=True)]
     if size is not None:
         apart = [off or _off_surface(each, touched, scene) for each, off in zip(drawn, apart, strict=True)]
+    apart = [each.aside or off for each, off in zip(drawn, apart, strict=True)]
     arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
     if stands:  # the weight is the first force
         arrows[0] = replace(arrows[0], inside=True)
     angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
-    marks, mass = [*outline, *_surfaces(touched, of), *arrows, *angles], explicit(_mass(of))
+    marks = [*outline, *_surfaces(touched, of), *arrows, *angles]
+    mass = None if isinstance(of, Pulley) else explicit(_mass(of))
     return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass, body_size=size)
 
 
@@ -206,21 +294,28 @@ def _acting(system: System, of: Any) -> list[PointForce]:
     """Return the forces of connections on a body. If there are such forces, and the coordinates alone keep the body on
     one fixed plane, the normal force of this plane is added, although no equation contains its symbol."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
+    named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
 
 
 def _unnamed_normals(system: System, of: Any) -> list[PointForce]:
     touching = [each for each in connections_of(system, Contact) if each.of == of and each.is_kept]
     flat = [each for each in touching if isinstance(each.surface, Plane) and is_fixed(system, each.surface.through)]
-    used = {*given_letters(), *(each.force.name for each in system.constraints)}
-    letter = scalar(next((name for name in NORMALS if name not in used), NORMALS[0]))
+    letter = _letter_of_normal(system)
     return [PointForce(letter, each.normal.components, each.at, of) for each in flat] if len(touching) == 1 else []
+
+
+def _letter_of_normal(system: System) -> Symbol:
+    """Return a symbol for a normal force that no equation contains."""
+    used = {*given_letters(), *(each.force.name for each in system.constraints)}
+    return scalar(next((name for name in NORMALS if name not in used), NORMALS[0]))
 
 
 @dataclass(frozen=True)
 class _Drawn:
     """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
-    is true for the force of a surface, which cannot pull; `ends_there` is true if the tip of the arrow is at `at`."""
+    is true for the force of a surface, which cannot pull; `ends_there` is true if the tip of the arrow is at `at`;
+    `aside` is a shift of the arrow to its left, in points, for a string that leaves the rim of a small pulley."""
 
     at: Location
     way: Any
@@ -229,6 +324,7 @@ class _Drawn:
     keys: tuple[str, ...] = ()
     pushes: bool = False
     ends_there: bool = False
+    aside: float = 0.0
 
     def reversed(self) -> _Drawn:
         assert self.value is not None
@@ -297,7 +393,9 @@ def _share(size: float) -> Rational:
 
 def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
     """Return the size of a body, which is approximately `Paper.reach` of its drawing; 1 for a particle."""
-    arms = [distance_of(each.at, of.centre) for each in drawn] if isinstance(of, PlacedBody) else []
+    middle = of.centre if isinstance(of, PlacedBody) else of.at
+    has_size = isinstance(of, PlacedBody | Pulley | _RopePiece)
+    arms = [distance_of(each.at, middle) for each in drawn] if has_size else []
     return max(map(scene.number, arms), default=0.0) or 1.0
 
 
@@ -393,19 +491,47 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
 
 
 def _multipliers(system: System, force: PointForce) -> list[Symbol]:
-    """The symbols of constraint forces in a force."""
+    """The symbols of constraint forces, and of tensions in diagrams only, in a force."""
     letters = force.size.free_symbols | {s for c in force.direction for s in c.free_symbols}
-    return [each.force for each in system.constraints if each.force in letters]
+    drawn = [each.drawn for each in connections_of(system, Line) if each.drawn is not None]
+    return [letter for letter in (*(each.force for each in system.constraints), *drawn) if letter in letters]
 
 
-def _outline(of: Any) -> Iterator[Mark]:
+def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
+    """Yield the outline of a body, or the disc of a particle. `is_pulley` is true for a particle that is a small
+    pulley."""
     if isinstance(of, PlacedBody):
         for mark in placed_outline(with_its_shape(of)):
             plain = replace(mark, label=None)
             yield replace(plain, pointer=None) if isinstance(plain, WheelMark) else plain
         yield PointMark(column_of(of.centre))
+    elif isinstance(of, Pulley):
+        yield WheelMark(column_of(of.at), of.radius)
+    elif isinstance(of, _RopePiece):
+        yield HeavyRopeMark((column_of(of.start), column_of(of.end)), (Integer(0), Integer(0)))
+    elif is_pulley:
+        yield WheelMark(column_of(of.at), label=of.mass)
     else:
         yield ParticleMark(column_of(of.at), label=of.mass)
+
+
+def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | None:
+    """Return the pulls of the two pieces of the string that runs over a particle, which is then a small pulley; None
+    without such a string. The rim of a pulley is drawn only in a plane."""
+    if isinstance(of, PlacedBody | Pulley | _RopePiece) or len(of.at.components) != 2:
+        return None
+    lines = [each for each in connections_of(system, Line) if any(same(of.at, at) for at in each.places[1:-1])]
+    pulls = [force for line in lines for force in line.on(of)]
+    return (pulls[0], pulls[1]) if len(pulls) == 2 else None
+
+
+def _asides(pulls: tuple[PointForce, PointForce]) -> tuple[float, float]:
+    """Return the shifts to their left of the pulls of the two pieces of a string at a small pulley, in points, so that
+    each arrow starts at the rim. Both pieces are on the outer side of the bend; where the string returns along itself,
+    one piece is on each side of the pulley."""
+    (x, y), (u, v) = (force.direction for force in pulls)
+    side = -1.0 if numeric(x * v - y * u) > SLIGHT else 1.0
+    return side * WHEEL, -side * WHEEL
 
 
 def _touched(scene: Connections, of: Any) -> list[Contact]:
@@ -454,7 +580,14 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
     surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
     named: list[_Drawn] = []
     unnamed: list[_Drawn] = []
-    for force, times in Counter(acting).items():  # a string pulls a pulley twice
+    over = _over_pulley(system, of)
+    counted = Counter(acting) if over is None else Counter(force for force in acting if force not in over)
+    for force, aside in zip(over, _asides(over), strict=True) if over is not None else ():
+        value = force.size.xreplace(values) if values.keys() >= {*_multipliers(system, force)} else None
+        keys = tuple(found[letter].key for letter in _multipliers(system, force) if letter in found)
+        way = ImmutableDenseMatrix(list(force.direction))
+        named.append(_Drawn(of.at, way, value, force.size, keys, aside=aside))
+    for force, times in counted.items():
         letters = _multipliers(system, force)
         size, direction = force.size, Location(force.direction)
         if size == 1:  # the direction of a friction force also contains its size

@@ -312,6 +312,7 @@ class Plot:
     others           curves of other quantities of the same kind in the same panel
     outlines         surfaces in the plane of a path
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
+    places           the values of the variable for which the solution has a symbol, such as r_0, with these symbols
     """
 
     key: str
@@ -329,6 +330,7 @@ class Plot:
     others: tuple[Further, ...] = ()
     outlines: tuple[Outline, ...] = ()
     diagram: Diagram | None = None
+    places: tuple[tuple[Any, Any], ...] = ()
 
     @property
     def each(self) -> tuple[Plot, ...]:

@@ -1,4 +1,5 @@
-"""Pictures of normal modes: the displaced system, with an arrow at each mass in the direction of its displacement.
+"""Pictures of small displacements, in normal modes and just after an impact: the displaced system, with an arrow at
+each mass in the direction of its displacement.
 
 The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
 equilibrium, times the amplitude of the coordinate. The lengths of the arrows are in the ratio of the displacements,
@@ -17,17 +18,18 @@ from typing import Any, ClassVar
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, sqrt
 from sympy.matrices import MatrixBase
 
-from derive.algebra.expressions import TIME, as_expr, explicit
+from derive.algebra.expressions import TIME, as_expr, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.figures.links import moving_in
 from derive.figures.marks import SENSES, Drawing, Mark, Position, ShownMode
-from derive.figures.parts import BLOCK, BOB, BlockMark, ParticleMark, WedgeMark, WheelMark
+from derive.figures.parts import BLOCK, BOB, BarMark, BlockMark, ConnectionMark, ParticleMark, WedgeMark, WheelMark
 from derive.figures.pieces import Paper, Piece, Stroke
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.sketches import things_of
 from derive.figures.space import Spot, direction, numeric, size_of
 from derive.figures.surroundings import FixedEnd, WayMark
+from derive.figures.velocities import Moment
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.system import System
 from derive.mechanics.vibrations.facts import Linear, Mode
@@ -36,7 +38,7 @@ from derive.steps.known_numbers import with_numbers
 from derive.steps.signs import sign_beside_root, sign_known
 from derive.steps.step import Quantity, is_zero
 
-__all__ = ["draw_modes"]
+__all__ = ["draw_after", "draw_modes"]
 
 ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
@@ -159,7 +161,7 @@ def draw_modes(
     for linear, own in _together(shapes):
         if {q.symbol for q, _ in linear.place} == {*system.coordinates}:
             siblings = tuple(each.key for each in own)
-            modes = [_Displaced(system, linear, each, *things) for each in own]
+            modes = [_InMode(system, *things, (each.key,), linear, each) for each in own]
             known = [mode for mode in modes if mode.is_known]
             found += (
                 [mode.drawn(siblings, like) for mode in known]
@@ -181,30 +183,49 @@ def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]
     return found
 
 
+def draw_after(
+    key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
+) -> Drawing | None:
+    """Draw a system in a plane a short time after an impact: displaced in the ratio of the rates just after it, with an
+    arrow for the velocity of each mass, and with dashed lines for the rods at the impact.
+
+    moment   the state at the impact
+    after    the rates just after the impact
+
+    The result is None if a sketch cannot show the system. The directions hold for the numbers of the drawing.
+    """
+    things = things_of(system, named)
+    if things is None or len(system.places[0].components) != 2:
+        return None
+    rest = {q: moment.at.get(q, Integer(0)) for q in system.coordinates}
+    rates = {each.symbol: explicit(each.value) for each in after}
+    moved = {q: rates.get(rate(q), Integer(0)) for q in rest}
+    return _Struck(system, *things, tuple(each.key for each in after), rest, moved).drawn_after(key)
+
+
 @dataclass(frozen=True)
 class _Displaced:
-    """A system displaced in one mode.
+    """A system that is slightly displaced.
 
-    linear   the linear equations
-    shape    the step of the amplitudes
     things   the marks of the system
     values   the numbers that replace symbols in the sketch of the system
+    keys     the keys of the steps that determine the displacement
     """
 
     system: System
-    linear: Linear
-    shape: Quantity
     things: Sequence[Mark]
     values: Mapping[Symbol, Any]
+    keys: tuple[str, ...]
 
-    @cached_property
-    def rest(self) -> dict[Symbol, Expr]:
-        return {q.symbol: value for q, value in self.linear.place}
+    @property
+    def rest(self) -> Mapping[Symbol, Expr]:
+        """The values of the coordinates before the displacement."""
+        raise AttributeError(f"{type(self).__name__} must define `rest`")
 
-    @cached_property
-    def amplitudes(self) -> dict[Symbol, Expr]:
-        entries = explicit(self.shape.value)
-        return {q.symbol: entry for (q, _), entry in zip(self.linear.place, entries, strict=True)}
+    @property
+    def amplitudes(self) -> Mapping[Symbol, Expr]:
+        """The displacement of each coordinate, up to a common factor."""
+        raise AttributeError(f"{type(self).__name__} must define `amplitudes`")
 
     @cached_property
     def masses(self) -> list[tuple[Expr, Location]]:
@@ -216,14 +237,6 @@ class _Displaced:
         """The rotation of each mass, counterclockwise; zero for a particle."""
         angles = [Integer(0)] * len(self.system.particles) + [each.turned for each in self.system.bodies]
         return [self._change(ImmutableDenseMatrix([angle]))[0] for angle in angles]
-
-    @property
-    def frequency(self) -> Quantity:
-        return next(each for each in self.shape.parents if each.fact(Mode) is not None)
-
-    @property
-    def sort(self) -> str:
-        return SORTS[self.frequency.needed(Mode).root.sign]
 
     @cached_property
     def displacements(self) -> list[MatrixBase]:
@@ -241,32 +254,10 @@ class _Displaced:
         fixed = {s: v for s, v in self.values.items() if s not in self.rest}
         return numeric(explicit(with_numbers(self._at_rest(value))), fixed)
 
-    # --- what is known ---
-
-    @cached_property
-    def is_known(self) -> bool:
-        """Whether the directions of all displacements and rotations are known for all allowed values of the symbols."""
-        if not all(self._is_real(value) for value in self.rest.values()):
-            return False
-        places = [self._at_rest(column_of(place)) for place in self.system.places]
-        if not all(map(self._is_number, (*places, *self.displacements, ImmutableDenseMatrix(self.rotations)))):
-            return False
-        components: list[Expr | None] = [self._along(each, at) for each, (_, at) in self._moving]
-        components += [each for each in self.rotations if each != 0]
-        known = [each for each in components if each is not None]
-        if not known or len(known) < len(components):
-            return False
-        return all(sign_beside_root(tidied(each / known[0])) in (1, -1) for each in known[1:])
-
     @property
     def _moving(self) -> list[tuple[MatrixBase, tuple[Expr, Location]]]:
         pairs = zip(self.displacements, self.masses, strict=True)
         return [(each, mass) for each, mass in pairs if any(each)]
-
-    def _is_real(self, value: Expr) -> bool:
-        exists = self.linear.exists
-        known = exists is None or sign_known(exists.residual) == (1 if exists.operator == ">" else -1)
-        return known and bool(explicit(with_numbers(value)).is_real)
 
     def _is_number(self, column: MatrixBase) -> bool:
         """Whether trial numbers give real components."""
@@ -289,10 +280,9 @@ class _Displaced:
 
     # --- the drawing ---
 
-    def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
-        values = {**self.values, **self._state()}
-        things = [self._as_in_sketch(mark) for mark in self.things]
-        return drawing(self.shape.key, *things, *self._arrows(), values=values, mode=self._shown(siblings, like))
+    def _things_and_values(self) -> tuple[list[Mark], dict[Symbol, Any]]:
+        """Return the marks of the displaced system, and the numbers that replace symbols."""
+        return [self._as_in_sketch(mark) for mark in self.things], {**self.values, **self._state()}
 
     def _as_in_sketch(self, mark: Mark) -> Mark:
         """Return the mark; a wall at the end of a spring has its direction at equilibrium, and a wire is as long as in
@@ -330,7 +320,7 @@ class _Displaced:
     def _arrows(self) -> Iterator[Mark]:
         room = self._least([at for _, at in self.masses])
         moved = tuple(self.displacements)
-        keys, exact = (self.shape.key,), self.lengths == TO_SCALE
+        keys, exact = self.keys, self.lengths == TO_SCALE
         for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
             if turned != 0 and not any(displacement):
                 yield RotationArrow(column_of(at), turned, keys=keys)
@@ -401,14 +391,6 @@ class _Displaced:
     def _distance(self, one: Position, other: Position) -> float:
         return hypot(*(self.number(c) for c in other - one))
 
-    # --- what the caption and the description in words state ---
-
-    def _shown(self, siblings: tuple[str, ...], like: str) -> ShownMode:
-        root = self.frequency.needed(Mode).root
-        moves, order = self._moves()
-        symbol, several = self.frequency.symbol, root.times > 1
-        return ShownMode(symbol, self.sort, several, self.lengths, self.letters, moves, order, siblings, like)
-
     @cached_property
     def lengths(self) -> str:
         """What the lengths of the arrows show, as in `ShownMode`."""
@@ -445,3 +427,88 @@ class _Displaced:
             return ()
         across = ("right" if x > 0 else "left",) if abs(x) > ALMOST * size else ()
         return (*across, "up" if y > 0 else "down") if abs(y) > ALMOST * size else across
+
+
+@dataclass(frozen=True)
+class _InMode(_Displaced):
+    """A system displaced in one mode.
+
+    linear   the linear equations
+    shape    the step of the amplitudes
+    """
+
+    linear: Linear
+    shape: Quantity
+
+    @cached_property
+    def rest(self) -> dict[Symbol, Expr]:
+        return {q.symbol: value for q, value in self.linear.place}
+
+    @cached_property
+    def amplitudes(self) -> dict[Symbol, Expr]:
+        entries = explicit(self.shape.value)
+        return {q.symbol: entry for (q, _), entry in zip(self.linear.place, entries, strict=True)}
+
+    @property
+    def frequency(self) -> Quantity:
+        return next(each for each in self.shape.parents if each.fact(Mode) is not None)
+
+    @property
+    def sort(self) -> str:
+        return SORTS[self.frequency.needed(Mode).root.sign]
+
+    @cached_property
+    def is_known(self) -> bool:
+        """Whether the directions of all displacements and rotations are known for all allowed values of the symbols."""
+        if not all(self._is_real(value) for value in self.rest.values()):
+            return False
+        places = [self._at_rest(column_of(place)) for place in self.system.places]
+        if not all(map(self._is_number, (*places, *self.displacements, ImmutableDenseMatrix(self.rotations)))):
+            return False
+        components: list[Expr | None] = [self._along(each, at) for each, (_, at) in self._moving]
+        components += [each for each in self.rotations if each != 0]
+        known = [each for each in components if each is not None]
+        if not known or len(known) < len(components):
+            return False
+        return all(sign_beside_root(tidied(each / known[0])) in (1, -1) for each in known[1:])
+
+    def _is_real(self, value: Expr) -> bool:
+        exists = self.linear.exists
+        known = exists is None or sign_known(exists.residual) == (1 if exists.operator == ">" else -1)
+        return known and bool(explicit(with_numbers(value)).is_real)
+
+    def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
+        things, values = self._things_and_values()
+        return drawing(self.shape.key, *things, *self._arrows(), values=values, mode=self._shown(siblings, like))
+
+    def _shown(self, siblings: tuple[str, ...], like: str) -> ShownMode:
+        root = self.frequency.needed(Mode).root
+        moves, order = self._moves()
+        symbol, several = self.frequency.symbol, root.times > 1
+        return ShownMode(symbol, self.sort, several, self.lengths, self.letters, moves, order, siblings, like)
+
+
+@dataclass(frozen=True)
+class _Struck(_Displaced):
+    """A system a short time after an impact.
+
+    at      the values of the coordinates at the impact
+    rates   the rates of the coordinates just after the impact, by coordinate
+    """
+
+    at: Mapping[Symbol, Expr]
+    rates: Mapping[Symbol, Expr]
+
+    @property
+    def rest(self) -> Mapping[Symbol, Expr]:
+        return self.at
+
+    @property
+    def amplitudes(self) -> Mapping[Symbol, Expr]:
+        return self.rates
+
+    def drawn_after(self, key: str) -> Drawing:
+        things, values = self._things_and_values()
+        bars = (mark for mark in self.things if isinstance(mark, BarMark))
+        at_impact = [ConnectionMark(self._at_rest(mark.start), self._at_rest(mark.end)) for mark in bars]
+        return drawing(key, *things, *at_impact, *self._arrows(), values=values)

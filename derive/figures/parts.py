@@ -7,14 +7,14 @@ of any scale.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import acos, atan2, cos, hypot, pi, sin, sqrt
 from typing import Any, ClassVar
 
 from sympy import Symbol
 
-from derive.figures.marks import InWords, Position, Surface
+from derive.figures.marks import BESIDE, InWords, Position, Surface
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import Spot, Vector, direction, midway, plus
 
@@ -32,6 +32,8 @@ LEAD = 7.0  # length of each straight end of a spring
 CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
 BESIDE_SPRING = 20.8  # distance of a dashpot from a spring between the same places
 
+BEND = 6.0  # radius of a bend of a rope
+TUBE, ALONG_TUBE = 3.0, 13.0  # half the width, and the length, of the tube at a bend of a rope
 SHORT = 3  # greatest number of characters in a name that is written on a block
 
 
@@ -196,14 +198,68 @@ class RopeMark(_Piecewise):
 
 
 @dataclass(frozen=True)
+class RopeBelowMark(RopeMark):
+    """A string below a table, which hides the part behind it."""
+
+    layer: ClassVar[int] = -3
+
+    @property
+    def told_as(self) -> str:
+        return "rope"
+
+
+@dataclass(frozen=True)
 class HeavyRopeMark(RopeMark):
-    """A rope with mass; its label is its mass."""
+    """A rope with mass; its label is its mass. A smooth tube guides it round each place between its ends."""
 
     pen: ClassVar[str] = "rod"
+
+    def string(self, circles: Sequence[tuple[Spot, float]]) -> list[Piece]:
+        """Return the rope, with round bends, and the two walls of the tube at each bend."""
+        spots = [spot for spot, _ in circles]
+        path, walls = [spots[0]], []
+        for a, b, c in zip(spots, spots[1:], spots[2:], strict=False):
+            path += _rounded(a, b, c, BEND)
+            for off in (-TUBE, TUBE):
+                ends = (_beyond(b, a, off, bend(a, b, c)), _beyond(b, c, off, -bend(a, b, c)))
+                corner = _shifted_corner(a, b, c, off)
+                walls.append(Stroke((ends[0], *_rounded(ends[0], corner, ends[1], BEND + off), ends[1]), "edge"))
+        longest = max(pairwise(spots), key=lambda line: hypot(line[1][0] - line[0][0], line[1][1] - line[0][1]))
+        return [Stroke((*path, spots[-1]), self.pen), *walls, beside(self.label, *longest)]
 
     @property
     def told_as(self) -> str:
         return "heavy_rope"
+
+
+def _rounded(a: Spot, b: Spot, c: Spot, radius: float) -> list[Spot]:
+    """Return an arc that touches both lines of the corner b from inside; the corner itself if it is almost straight."""
+    one, other = direction(b, a), direction(b, c)
+    cosine = max(-1.0, min(1.0, one[0] * other[0] + one[1] * other[1]))
+    half = acos(cosine) / 2
+    if not 0.05 < half < pi / 2 - 0.05 or radius <= 0:
+        return [b]
+    far, reach = radius / sin(half), radius * cos(half) / sin(half)
+    x, y = one[0] + other[0], one[1] + other[1]
+    size = hypot(x, y)
+    middle = b[0] + far * x / size, b[1] + far * y / size
+    ends = [(b[0] + reach * u, b[1] + reach * v) for u, v in (one, other)]
+    return _round(middle, radius * bend(a, b, c), *ends)
+
+
+def _beyond(corner: Spot, end: Spot, off: float, side: float) -> Spot:
+    """Return the end of a wall of a tube: along the line from its corner to an end of the rope, and beside this line.
+    A positive `off` is on the outer side of the bend."""
+    x, y = direction(corner, end)
+    far = min(ALONG_TUBE, 0.6 * hypot(end[0] - corner[0], end[1] - corner[1]))
+    return corner[0] + far * x - side * off * y, corner[1] + far * y + side * off * x
+
+
+def _shifted_corner(a: Spot, b: Spot, c: Spot, off: float) -> Spot:
+    """Return the corner of a wall of a tube, at the distance `off` from both lines, outside the bend if positive."""
+    (x, y), (u, v) = direction(b, a), direction(b, c)
+    sine = max(abs(x * v - y * u), 0.05)
+    return b[0] - off * (x + u) / sine, b[1] - off * (y + v) / sine
 
 
 def bend(a: Spot, b: Spot, c: Spot) -> float:
@@ -291,9 +347,10 @@ def _normal(along: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class ParticleMark(_Piecewise):
-    """A particle, a bob or a bead: a small disc."""
+    """A particle, a bob or a bead: a small disc with its mass and, if it has one, its charge."""
 
     at: Position
+    charge: Any = field(default=None, metadata=BESIDE)
     layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -301,7 +358,8 @@ class ParticleMark(_Piecewise):
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(*self.places(paper.numbers))
-        return [Bullet(spot, BOB, "ink"), Tag(self.label, spot, (0.9, -0.3), BOB + 2.5)]
+        label = self.label if self.charge is None else (self.label, ", ", self.charge)
+        return [Bullet(spot, BOB, "ink"), Tag(label, spot, (0.9, -0.3), BOB + 2.5)]
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,8 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     in_space = len(centre.components) == 3
     square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
     if outline or square == 0:
-        yield PointMark(column_of(centre))
+        named = not in_space and any(isinstance(mark, ThickBar) for mark in outline)
+        yield PointMark(column_of(centre), label=placed.body.mass if named and placed.body.mass.is_Symbol else None)
     else:
         yield from _axis_to(centre, placed)
     if square != 0 and is_fixed(system, placed.at):

@@ -10,33 +10,38 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from mpmath import mp
 from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected
 
+FAR = (1e5, 3e6, 7e7)  # distances that count as infinite, in units of the size of the horizontal axis
+SAME = 1e-4  # greatest difference of a value from the value at infinity, in units of the greatest value
 STEPS = 240  # number of steps of the grid in each direction
 EDGE = 0.1  # width of a margin, relative to the horizontal axis; only a curve within a margin has an arrowhead there
 
 
 @dataclass(frozen=True)
 class LevelLine:
-    """A curve: its points in the order of the motion, the index of the point with the arrowhead, and whether the curve
-    is thick."""
+    """A curve: its points in the order of the motion, the indices of the points with an arrowhead, whether the curve is
+    thick, and the index of its value."""
 
     points: tuple[tuple[float, float], ...]
-    head: int
+    heads: tuple[int, ...]
     is_thick: bool
+    of: int = 0
 
 
 @dataclass(frozen=True)
 class Portrait:
     """A phase portrait: the range of its vertical axis; the values, each with `True` if its curves are thick and
-    `False` otherwise; and the curves of all values."""
+    `False` otherwise; the curves of all values; and the centres, which are the points of stable rest."""
 
     low: float
     high: float
     values: tuple[tuple[float, bool], ...]
     lines: tuple[LevelLine, ...] = field(repr=False)
+    centres: tuple[tuple[float, float], ...] = ()
 
 
 def portrait_of(
@@ -49,7 +54,8 @@ def portrait_of(
 
     plane    the coordinate and the momentum
     box      the ends of the ranges of the coordinate and the momentum: left, right, below, above
-    values   the values, each with `True` if its curves are thick, and `False` otherwise
+    values   the values, each with `True` if its curves are thick, and `False` otherwise. The curves of the value at an
+             infinite coordinate, which separate bound motions from free ones, are always thick
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)
@@ -57,18 +63,47 @@ def portrait_of(
     rate = diff(expr, plane[1]), -diff(expr, plane[0])
     inner = box[0] + EDGE * (box[1] - box[0]), box[1] - EDGE * (box[1] - box[0])
     found: list[LevelLine] = []
-    for value, is_thick in values:
+    size = max(abs(value) for value, _ in values)
+    values = tuple(
+        (value, is_thick or _is_at_infinity(value, expr, plane, box[1] - box[0], size)) for value, is_thick in values
+    )
+    for i, (value, is_thick) in enumerate(values):
         own = [
             line
             for points in _contours(across, up, heights, value)
-            for line in _along(points, rate, plane, inner, is_thick)
+            for line in _along(points, rate, plane, inner, is_thick, i)
         ]
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
             message = f"no point of the phase portrait has the value {value:.4g}"
             raise Rejected(Complaint("drawing", message, help=f"in these ranges, the values go from {ends}"))
         found += own
-    return Portrait(*box[2:], values, tuple(found))
+    return Portrait(*box[2:], values, tuple(found), tuple(_centres(expr, plane, grid, heights)))
+
+
+def _is_at_infinity(value: float, expr: Expr, plane: tuple[Symbol, Symbol], wide: float, size: float) -> bool:
+    """Whether the function tends to this value as the coordinate becomes infinite and the momentum vanishes.
+
+    wide   the size of the horizontal axis
+    size   the greatest of all values
+    """
+    with np.errstate(all="ignore"):
+        far = lambdify(plane, expr, "numpy")(wide * np.array(FAR), np.zeros(len(FAR))) + np.zeros(len(FAR))
+    return bool(np.isrealobj(far) and np.all(np.abs(far - value) <= SAME * size))
+
+
+def _centres(
+    expr: Expr, plane: tuple[Symbol, Symbol], grid: Sequence[Any], heights: Any
+) -> Iterator[tuple[float, float]]:
+    """Yield the points inside the box at which the function has a minimum or a maximum."""
+    inner, last = heights[1:-1, 1:-1], STEPS - 1
+    around = [heights[1 + i : 1 + i + last, 1 + k : 1 + k + last] for i in (-1, 0, 1) for k in (-1, 0, 1) if i or k]
+    is_extreme = np.all([inner < each for each in around], axis=0) | np.all([inner > each for each in around], axis=0)
+    slope = [lambdify(plane, diff(expr, letter), "mpmath") for letter in plane]
+    for row, column in np.argwhere(is_extreme) + 1:
+        start = float(grid[0][row, column]), float(grid[1][row, column])
+        x, y = mp.findroot(lambda x, y: [each(x, y) for each in slope], start)
+        yield float(mp.chop(x)), float(mp.chop(y))
 
 
 def _on(expr: Expr, plane: tuple[Symbol, Symbol], across: Any, up: Any) -> Any:
@@ -98,10 +133,18 @@ def lines_of(
 
 
 def _along(
-    points: Any, rate: tuple[Expr, Expr], plane: tuple[Symbol, Symbol], inner: tuple[float, float], is_thick: bool
+    points: Any,
+    rate: tuple[Expr, Expr],
+    plane: tuple[Symbol, Symbol],
+    inner: tuple[float, float],
+    is_thick: bool,
+    of: int,
 ) -> Iterator[LevelLine]:
-    """Yield the line in the order of the motion, with the place of its arrowhead. A line of fewer than three points, or
-    of equal points, is left out."""
+    """Yield the line in the order of the motion, with the places of its arrowheads.
+
+    A line on which the coordinate first increases and then decreases, or the reverse, has two, unless it is closed. A
+    line of fewer than three points, or of equal points, is left out.
+    """
     flow = _on(rate[0], plane, *points.T), _on(rate[1], plane, *points.T)
     size = np.ptp(points, axis=0)
     if len(points) < 3 or not np.any(size):
@@ -110,8 +153,13 @@ def _along(
     along = points[at + 1] - points[at - 1]
     scale = np.where(size > 0, size, 1.0) ** 2
     is_forward = along[0] * flow[0][at] / scale[0] + along[1] * flow[1][at] / scale[1] >= 0
-    ordered, head = (points, at) if is_forward else (points[::-1], len(points) - 1 - at)
-    yield LevelLine(tuple((float(x), float(y)) for x, y in ordered), head, is_thick)
+    heads = [at]
+    if not np.array_equal(points[0], points[-1]):
+        back = _head(points[:, 0], np.where(flow[0] * flow[0][at] < 0, flow[0], 0.0), inner)
+        heads += [back] if flow[0][back] * flow[0][at] < 0 else []
+    if not is_forward:
+        points, heads = points[::-1], [len(points) - 1 - each for each in heads]
+    yield LevelLine(tuple((float(x), float(y)) for x, y in points), tuple(heads), is_thick, of)
 
 
 def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:

@@ -28,7 +28,7 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
     vectors   vectors with three components along the principal axes, drawn from the centre of mass; at most two are
               drawn
     """
-    sizes = _semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
+    sizes = semi_axes([moment.value if isinstance(moment, Quantity) else moment for moment in moments])
     marks: list[Mark] = [EllipsoidMark(ORIGIN, sizes, name=RigidBody.id), PointMark(ORIGIN)]
     for size, along, axis in zip(sizes, UNIT, AXES, strict=True):
         marks += [Line(ORIGIN, size * along, "hidden"), Axis(size * along, size * along, along, label=scalar(axis))]
@@ -37,7 +37,7 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
     return marks
 
 
-def _semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
+def semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
     """Return the semi-axes, up to a factor, of a uniform ellipsoid with approximately these moments; its I_x is
     (M/5)(b^2 + c^2).
 

@@ -13,8 +13,9 @@ from itertools import pairwise
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, Symbol, cos, diff, pi, sin, sqrt
+from sympy.matrices import MatrixBase
 
-from derive.algebra.expressions import TIME, Relation, as_expr, explicit, scalar
+from derive.algebra.expressions import TIME, Relation, as_expr, explicit, rate, scalar
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, Line, PointMark, Weight
 from derive.figures.connections import Connections
@@ -28,11 +29,11 @@ from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
 from derive.figures.tops import stance_values
-from derive.figures.turning import downwards, link_marks, moving_end
-from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, launch_marks, moment_drawn
+from derive.figures.turning import downwards, link_marks, moving_end, natural_length
+from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, later_marks, launch_marks, moment_drawn
 from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.forces import GivenForce
+from derive.mechanics.model.forces import Damper, GivenForce
 from derive.mechanics.model.joints import DragAlong
 from derive.mechanics.model.no_slip import Rolling
 from derive.mechanics.model.surfaces import Plane
@@ -48,6 +49,8 @@ BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the v
 ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
 ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
 UNDER_FLOOR = 16.0  # the distance from the middle of a block on a floor to the lower side of the floor, in points
+OVER_LABEL = 9.0  # the height of the label of a spring, in points
+APART = 5.0  # half the distance of the arrows of two forces at one place, in points
 BENEATH = 18.0  # the distance of dimension lines from each other, in points
 
 
@@ -105,6 +108,7 @@ class _Scene:
         impact: Moment | None = None,
     ):
         self.system, self.weights, self.start, self.impact = system, weights, start, impact
+        self.named = named
         self.rows = len(system.places[0].components)
         self.connections = Connections(system, start.at if start is not None else None)
         self.links = {
@@ -221,7 +225,13 @@ class _Scene:
         if self.impact is not None:
             found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
             found += impact_marks(self.system, self.impact)
+            found += later_marks(self.system, self.impact, self._at_any_time)
         return list(dict.fromkeys([*found, *self._between_supports(found)]))
+
+    @property
+    def _at_any_time(self) -> list[Mark]:
+        """The marks of the system without its impact."""
+        return _Scene(self.system, self.named).marks
 
     def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
         """Yield dimension lines for the distances of supports at the same height in a plane, on the side away from the
@@ -230,7 +240,7 @@ class _Scene:
             return
         number = self.connections.number
         places = [Location(tuple(mark.at)) for mark in marks if isinstance(mark, FixedEnd) and any(mark.away)]
-        places = sorted(dict.fromkeys(places), key=lambda place: number(place.components[0]))
+        places = sorted(dict.fromkeys(places), key=lambda place: [number(c) for c in place.components[::-1]])
         heights = [at.components[1] for _, at in self.system.masses]
         for one, other in pairwise(places):
             x, y = (tidied(c) for c in (other - one).components)
@@ -295,7 +305,8 @@ class _Scene:
         if block is not None:
             yield from block
             return
-        yield ParticleMark(column_of(particle.at), label=particle.mass)
+        charge = next((each.charge for each in self.system.charges if same(each.at, particle.at)), None)
+        yield ParticleMark(column_of(particle.at), charge, label=particle.mass)
         link = self.links.get(i)
         if link is not None and not self._is_drawn(particle, link):
             marks = link_marks(self.system, link)
@@ -358,6 +369,11 @@ class _Scene:
             yield Axis(origin, end, label=q)
             if self.rows == 2:
                 yield ConnectionMark(column_of(at), column_of(ahead))
+        if self.rows == 3:  # down to the plane of the first two axes, and from there to these axes
+            x, y, _ = at.components
+            foot = column_of(Location((x, y, ZERO)))
+            yield ConnectionMark(column_of(at), foot)
+            yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
         """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
@@ -408,7 +424,25 @@ class _Scene:
             if found is not None:
                 start, at = found
                 shown.add(q)
-                yield self._dimension(q, start, at, len(shown))
+                yield from self._with_natural_length(self._dimension(q, start, at, len(shown)), start)
+
+    def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
+        """Yield a dimension line that begins at `start`. If it shows the extension or the length of the only spring,
+        also yield the natural length of the spring: in line with the extension, with room for the label of the spring,
+        or opposite to the length."""
+        springs = [each for each in self.system.between if is_spring(each)]
+        ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
+        length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None
+        if length is not None:
+            ways = [tidied(c) for c in (start - ends[0]).components]
+            if sorted(abs(c) for c in ways if c != 0) == [length] and isinstance(mark, DistanceMark):
+                mark = replace(mark, off=mark.off + OVER_LABEL)
+                yield replace(mark, start=column_of(ends[0]), end=column_of(start), label=length)
+            elif not any(ways) and isinstance(mark, LengthMark) and isinstance(mark.aside, MatrixBase):
+                way = mark.end - mark.start
+                far = mark.start + length / sqrt(tidied(way.dot(way))) * way
+                yield replace(mark, end=far, aside=-mark.aside, label=length)
+        yield mark
 
     def _is_shown(self, q: Symbol) -> bool:
         """Whether another mark has the coordinate as its label: an axis, or the line of a polar coordinate."""
@@ -426,13 +460,14 @@ class _Scene:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
         If a piece of a rope has the length q, the ends are those of the piece. Otherwise q must be the distance that a
-        mass has moved along a fixed line; the ends are its positions at q = 0 and at the drawn value of q. If several
-        masses have moved in this way, the result is for the mass whose position contains the fewest coordinates.
+        mass, or the point at which a body is held, has moved along a fixed line; the ends are its positions at q = 0
+        and at the drawn value of q. If there are several, the result is for the position with the fewest coordinates.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
             return piece
-        for _, at in self.system.masses:
+        held = [placed.at for placed in self.system.bodies]
+        for at in [*(at for _, at in self.system.masses), *held]:
             way = Location(tuple(diff(c, q) for c in at.components))
             if any(way.components) and is_fixed(self.system, way) and tidied(Add(*(c**2 for c in way.components))) == 1:
                 start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
@@ -496,23 +531,44 @@ class _Scene:
     # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
-        """Yield the arrows of uniform electric and magnetic fields, next to all other marks."""
-        beside = 0
-        for each in self.system.charges:
-            for field in (each.electric, each.magnetic):
-                strength = [c for c in field if c != 0] if len(field) == self.rows else []
-                if strength and not moving_in(self.system, *field):
-                    label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
-                    yield FieldMark(ImmutableDenseMatrix(field), beside, label=label)
-                    beside += 1
+        """Yield the arrows of uniform electric and magnetic fields, next to all other marks. Arrows of different
+        directions start at one point."""
+        shown: list[Sequence[Expr]] = []
+        fields = [field for each in self.system.charges for field in (each.electric, each.magnetic)]
+        fields = [field for field in fields if len(field) == self.rows and any(field)]
+        fields = [field for field in fields if not moving_in(self.system, *field)]
+        rises = any(field[-1] != 0 for field in fields)
+        for field in fields:
+            strength = [c for c in field if c != 0]
+            label = strength[0] if len(strength) == 1 and strength[0].is_Symbol else None
+            way = ImmutableDenseMatrix(field)
+            parallel = [one for one in shown if ImmutableDenseMatrix.hstack(way, ImmutableDenseMatrix(one)).rank() == 1]
+            yield FieldMark(way, len(parallel), rises, label=label)
+            shown.append(field)
 
     def _applied(self) -> Iterable[Mark]:
-        """Yield the arrows of given forces at a place."""
-        for each in self.system.given_forces:
-            if (found := self._drawn_force(each)) is not None:
-                way, size = found
-                place = Location(tuple(each.place))
-                yield AppliedForce(column_of(place), way, 1, False, label=size, clear=self._covered(place) or BOB)
+        """Yield the arrows of given forces and drags at a place. Arrows at the same place are side by side."""
+        forces = [(each, drawn) for each in self.system.given_forces if (drawn := self._drawn_force(each)) is not None]
+        drags = [(each, drawn) for each in self.system.dampers if (drawn := self._drawn_drag(each)) is not None]
+        for each, (way, size) in [*forces, *drags]:
+            place = Location(tuple(each.place))
+            is_drag, clear = isinstance(each, Damper), self._covered(place) or BOB
+            aside = (
+                APART if sum(same(place, Location(tuple(other.place))) for other, _ in [*forces, *drags]) > 1 else 0.0
+            )
+            yield AppliedForce(column_of(place), way, 1, False, is_drag, aside, label=size, clear=clear)
+
+    def _drawn_drag(self, each: Damper) -> tuple[ImmutableDenseMatrix, Expr] | None:
+        """Return the direction and the magnitude of the arrow of a drag, for the positive direction of a displacement
+        along a fixed line in a plane; None for any other drag. The arrow ends at the side to which the place moves."""
+        if isinstance(each, DragAlong) or self.rows != 2 or len(each.at) != self.rows:
+            return None
+        moving = moving_in(self.system, *each.place)
+        if len(moving) != 1 or moving == {TIME}:
+            return None
+        (q,) = moving
+        way = ImmutableDenseMatrix([-diff(c, q) for c in each.place])
+        return (way, each.constant * rate(q)) if way.dot(way) == 1 and not moving_in(self.system, *way) else None
 
     def _drawn_force(self, each: GivenForce) -> tuple[ImmutableDenseMatrix, Expr] | None:
         """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
@@ -549,7 +605,8 @@ class _Scene:
             sort = "force" if more or self.system.coordinates.get(at) != "angle" else "torque"
             values = tuple(each.components)
             found.append((sort, values[0] if len(values) == 1 else values))
-        drags = [each for each in self.system.dampers if not isinstance(each, DragAlong)]
+        hidden = [each for each in self.system.dampers if not isinstance(each, DragAlong)]
+        drags = [each for each in hidden if self.impact is not None or self._drawn_drag(each) is None]
         return [*found, *(("drag", each.constant) for each in drags)]
 
     def _weights(self) -> Iterable[Mark]:
@@ -584,19 +641,27 @@ class _Scene:
             constant = tidied(diff(explicit(each.energy), each.distance, 2))
             yield SpringMark(a, b, (self._covered(each.start), self._covered(each.end)), label=constant)
         for end, way in ((each.start, b - a), (each.end, a - b)):
-            if self._moves(end):
+            if not elastic and is_fixed(self.system, end):
+                yield from () if self._moves(end) else (PointMark(column_of(end)),)
+                yield from self._orbit(each, end)
+            elif self._moves(end):
                 yield from moving_end(self.system, end, False) if elastic and self._is_free(end) else ()
-                continue
-            if elastic:
+            elif elastic and self._is_nail(way):
+                yield PointMark(column_of(end))
+            elif elastic:
                 turns = any(same(link.start, end) for link in self.links.values())
                 yield FixedEnd(column_of(end), downwards(self.rows) if turns else way)
-            else:
-                yield ParticleMark(column_of(end))
-                yield from self._orbit(each, end)
         linked = {(link.start.components, link.end.components) for link in self.links.values()}
         ends = (each.start.components, each.end.components)
         if not elastic and not linked & {ends, ends[::-1]}:
             yield ConnectionMark(a, b)
+
+    def _is_nail(self, way: ImmutableDenseMatrix) -> bool:
+        """Whether a spring is held by a nail in a horizontal plane: its length is zero if all coordinates are zero, and
+        its other end moves round the nail."""
+        moving = self.system.coordinates
+        is_round = len([c for c in way if moving_in(self.system, c) - {TIME}]) > 1
+        return not self.system.weights and is_round and not any(c.xreplace(dict.fromkeys(moving, ZERO)) for c in way)
 
     def _orbit(self, each: Central, centre: Location) -> Iterable[Mark]:
         """Yield an ellipse with the centre of an inverse-square force at one focus; nothing for any other force."""

@@ -8,7 +8,7 @@ from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
 from derive.figures.annotations import ASIDE, measured
-from derive.figures.marks import LAST, InWords, Mark, Position, Surface
+from derive.figures.marks import BESIDE, LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot, midway, plus, size_of, unit
@@ -161,6 +161,7 @@ class MovingEnd(Surface):
     side    the side of the arrow
     joint   whether the point is a pivot
     is_to_and_fro   whether the support may move in both directions, so that the arrow is a double arrow
+    motion   the label of the arrow: the constant acceleration of the support; by default no label
     """
 
     at: Position
@@ -168,6 +169,7 @@ class MovingEnd(Surface):
     side: Position
     joint: bool = False
     is_to_and_fro: bool = True
+    motion: Any = field(default=None, metadata=BESIDE)
     layer: ClassVar[int] = 4
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -193,6 +195,7 @@ class MovingEnd(Surface):
         return [
             *(slider if self.joint else [Stroke((moved(0.0, -STAND), moved(0.0, STAND)), "bar")]),
             Stroke((moved(-MOVES, BESIDE_RAIL), moved(MOVES, BESIDE_RAIL)), "given", True, self.is_to_and_fro),
+            Tag(self.motion, moved(MOVES, BESIDE_RAIL), (p, q)),
             Tag(self.label, spot, (-u, -v), RAIL),
         ]
 
@@ -300,6 +303,7 @@ class AngleBetween(Mark):
     dashed: bool = False
     growing: Position = None
     layer: ClassVar[int] = 5
+    share: ClassVar[float] = 0.4  # the radius of the arc, divided by the length of the lines
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -316,7 +320,8 @@ class AngleBetween(Mark):
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
         # The arc of a small angle has a larger radius, so that the arc is visible.
-        points = min(max(0.4 * reach, ARC[0]), ARC[1]) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
+        part, most = self.share, self.share / AngleBetween.share * ARC[1]
+        points = min(max(part * reach, ARC[0]), most) if size > 0.35 else min(0.6 * reach, 1.5 * ARC[1])
         along, across = unit(a), unit(plus(b, unit(a), -dot(b, unit(a))))
         radius = points / paper.scale
         turned = [size * i / 48 for i in range(49)]
@@ -343,7 +348,9 @@ class AngleBetween(Mark):
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
     """An angle that does not affect the choice of the view, because the values in the drawing already turn the vertical
-    plane of the angle towards the viewer."""
+    plane of the angle towards the viewer. The arc is larger, because the body covers the vertex."""
+
+    share: ClassVar[float] = 0.8
 
     @property
     def directions(self) -> tuple[Position, ...]:
@@ -408,10 +415,15 @@ class GravityMark(Mark):
 
 @dataclass(frozen=True)
 class FieldMark(Mark):
-    """The arrow of a uniform field next to all other marks; `before` is the number of field arrows above it."""
+    """The arrow of a uniform field next to all other marks.
+
+    before   the number of field arrows above it
+    rises    whether a field has a vertical component, so that the arrows start below the room for an arrow upwards
+    """
 
     along: Position
     before: int = 0
+    rises: bool = False
     layer: ClassVar[int] = LAST
 
     @property
@@ -421,7 +433,7 @@ class FieldMark(Mark):
     def pieces(self, paper: Paper) -> list[Piece]:
         along = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.along)))
         right, top = max(x for x, _ in paper.drawn) + FREE, max(y for _, y in paper.drawn)
-        start = right, top - 1.5 * ARROW - self.before * 2.2 * ARROW - max(0.0, along[1]) * ARROW
+        start = right, top - (1.5 + 2.2 * self.before + self.rises) * ARROW
         end = start[0] + ARROW * along[0], start[1] + ARROW * along[1]
         return [Stroke((start, end), "given", head=True), Tag(self.label, end, along)]
 

@@ -17,7 +17,7 @@ from derive.figures.parts import COIL, ConnectionMark
 from derive.figures.positions import column_of
 from derive.figures.surroundings import AngleBetween, DistanceMark, MovingEnd, WayMark
 from derive.mechanics.kinematics.places import Location
-from derive.mechanics.model.system import System
+from derive.mechanics.model.system import Central, System
 
 ZERO = Integer(0)
 PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, in points
@@ -85,6 +85,13 @@ def _has_spring(system: System, link: Link) -> bool:
     )
 
 
+def natural_length(system: System, spring: Central) -> Expr | None:
+    """Return the natural length of a spring; None if it is not a constant symbol."""
+    pull, stiffness = (diff(spring.energy, spring.distance, n) for n in (1, 2))
+    length = tidied(spring.distance - pull / stiffness)
+    return length if length.is_Symbol and not moving_in(system, length) else None
+
+
 def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]:
     """Yield a support with a prescribed motion along a straight line in a plane, and its displacement if the line is
     horizontal or vertical. Yield nothing for any other support."""
@@ -98,7 +105,9 @@ def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]
     sense = _sense(y if x == 0 else x)
     along = (sense or 1) * ImmutableDenseMatrix([1, slope] if x != 0 else [0, 1])
     side = ImmutableDenseMatrix([0, 1] if x != 0 else [-1, 0])
-    yield MovingEnd(column_of(support), along, side, joint, sense == 0)
+    pull = tidied(diff(y if x == 0 else x, TIME, 2))
+    motion = (-pull if pull.could_extract_minus_sign() else pull) if pull != 0 and not pull.has(TIME) else None
+    yield MovingEnd(column_of(support), along, side, joint, sense == 0, motion)
     if x == 0 or y == 0:
         yield DistanceMark(column_of(rest), column_of(support), side, PAST_SUPPORT, label=x if y == 0 else y)
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, sqrt
+from sympy import Add, Basic, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sqrt
+from sympy.matrices import MatrixBase
 
 from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
@@ -14,7 +15,7 @@ from derive.figures.annotations import Arrow, Axis, LengthMark, PointMark
 from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
-from derive.figures.parts import WheelMark
+from derive.figures.parts import BarMark, ConnectionMark, WheelMark
 from derive.figures.placed_bodies import placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.space import numeric
@@ -30,6 +31,9 @@ from derive.steps.step import is_zero
 ZERO, ONE = Integer(0), Integer(1)
 AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
+TURNED = (pi / 9, pi / 5)  # angles of the dashed bodies in the drawing of an impact
+SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
+ROLLED = 3  # displacement of the dashed bodies, relative to the radius of a round body
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
 Values = Mapping[Symbol, Expr]
@@ -149,6 +153,7 @@ def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
         velocity = Location(tuple(tidied(Add(*_shares(c, moment))) for c in place.components))
         if any(velocity.components) and is_fixed(system, velocity):
             yield _arrow(place, velocity, LONG)
+    yield from _common_line(system)
     for push, at in moment.pushes:
         if any(push.components) and is_fixed(system, push):
             yield Arrow(column_of(at), column_of(push), 2 * LONG, False, True, label=_size(push))
@@ -156,6 +161,19 @@ def impact_marks(system: System, moment: Moment) -> Iterable[Mark]:
             yield from _from_the_joint(system, places, at, True)
     for at in moment.meeting:
         yield from _from_the_joint(system, places, at)
+
+
+def _common_line(system: System) -> Iterable[Mark]:
+    """Yield the axis of two particles that move along one line, if their coordinates have a name in common: x for x_1
+    and x_2."""
+    names = {q.name.partition("_")[0] for q in system.coordinates}
+    places = [particle.at for particle in system.particles]
+    if system.bodies or len(places) != 2 or len(names) != 1:
+        return
+    one, other = places
+    if all(is_fixed(system, Location(place.components[1:])) for place in places):
+        way = column_of(other - one)
+        yield Axis(column_of(one) - way / 8, column_of(other) + way / 3, label=Symbol(*names))
 
 
 def _shares(component: Expr, moment: Moment) -> list[Expr]:
@@ -181,9 +199,10 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
     if len(at.components) != 2 or len(system.bodies) != 1:
         return
     there = Location(tuple(tidied(c.xreplace(dict(moment.at))) for c in at.components))
-    x, y = there.components
+    y = there.components[1]
     if y.is_Symbol and not moving_in(system, y):
-        low = Location((x, ZERO))
+        middle = system.bodies[0].centre.components[0].xreplace(dict(moment.at))
+        low, there = Location((middle, ZERO)), Location((middle, y))
         clear = getattr(system.bodies[0].body, "radius", ZERO)
         yield LengthMark(column_of(low), column_of(there), ImmutableDenseMatrix([ONE, ZERO]), clear, label=y)
 
@@ -196,8 +215,9 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location, hi
     for placed, far in _met(system, at, hinged):
         way = at - placed.at
         yield PointMark(column_of(at))
-        if len(way.components) == 2:
-            aside = ImmutableDenseMatrix([-way.components[1], way.components[0]])
+        if len(way.components) == 2 and far != getattr(placed.body, "length", None):
+            side = 1 if hinged else -1  # dashed rods of `later_marks` are on the other side
+            aside = side * ImmutableDenseMatrix([-way.components[1], way.components[0]])
             yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
 
 
@@ -209,6 +229,40 @@ def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[A
         is_joint = is_fixed(system, placed.at) or hinged and isinstance(placed.at, PointOfBody)
         if is_joint and far.is_Symbol and not moving_in(system, far):
             yield placed, far
+
+
+def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterable[Mark]:
+    """Yield the rods and round bodies of a plane system, dashed, at positive values of the coordinates that are zero at
+    an impact, with the marks of these coordinates.
+
+    marks   the marks of the system at any values of the coordinates
+    """
+    outlines = {mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))}
+    zero = [q for q in system.coordinates if moment.at.get(q) == 0 and moment.rates.get(q, ZERO) == 0]
+    solids = [mark for mark in outlines if isinstance(mark, BarMark | WheelMark)]
+    acts = moment.meeting or any(any(push.components) for push, _ in moment.pushes)
+    if not acts or not solids or len(system.places[0].components) != 2:
+        return
+    angles = [q for q in zero if system.coordinates[q] == "angle"]
+    radius = next((mark.radius for mark in solids if isinstance(mark, WheelMark)), None)
+    length = next((placed.body.length for placed in system.bodies if getattr(placed.body, "length", None)), ONE)
+    shift = SHIFTED * length if radius is None else ROLLED * radius
+    later: dict[Symbol, Expr] = {q: shift for q in zero if q not in angles}
+    later |= {q: TURNED[min(n, len(TURNED) - 1)] for n, q in enumerate(angles)}
+    for mark in marks:
+        if mark in solids and (there := _at(mark, later)) != mark:
+            if isinstance(there, BarMark):
+                yield ConnectionMark(there.start, there.end)
+            elif isinstance(there, WheelMark):
+                yield Ghost(of=replace(there, label=None, pointer=None))
+        elif mark.label in later and isinstance(mark, AngleBetween | DistanceMark | LengthMark):
+            yield _at(mark, later)
+
+
+def _at(mark: Mark, values: Values) -> Mark:
+    """Return the mark with values substituted in its positions and directions."""
+    own = {f.name: getattr(mark, f.name) for f in fields(mark) if f.name != "label"}
+    return replace(mark, **{k: v.xreplace(values) for k, v in own.items() if isinstance(v, MatrixBase | Basic)})
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:

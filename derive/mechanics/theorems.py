@@ -6,6 +6,8 @@ Each step that uses a theorem is checked, and the rule of such a step names the 
 
 from __future__ import annotations
 
+from typing import Any
+
 from sympy import MatAdd, Symbol
 
 from derive.algebra.expressions import (
@@ -26,6 +28,7 @@ from derive.steps.rule import Theorem
 M, r, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("q")
 G, OMEGA = vector("G"), vector("omega")
 L, MULTIPLIER, CONSTRAINT = scalar("L"), scalar("lambda_k"), scalar("f_k")
+ONE_MULTIPLIER, ONE_CONSTRAINT = scalar("lambda"), scalar("f")  # of a system with one constraint
 INERTIA_AND_FORCE = Terms(TimeRate(Partial(L, rate(q))), -Partial(L, q))  # the left side of Lagrange's equation
 
 PARALLEL_AXES = Theorem(
@@ -50,26 +53,27 @@ ROTATING_AXES = Theorem(
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9",
     (("any", G), ("turning", OMEGA)),
 )
-MULTIPLIERS = Theorem(
-    "multipliers",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),  # the right side is summed over k
-    "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
-)
-MULTIPLIERS_OF_BOTH = Theorem(  # for systems with constraints between coordinates and constraints between rates
-    "multipliers_of_both",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, q)),
-    "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    (
-        ("coordinate", q),
-        ("multiplier", MULTIPLIER),
-        ("constraint", CONSTRAINT),
-        ("of_rate", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
-    ),
-)
-MULTIPLIERS_OF_RATES = Theorem(  # for systems with constraints between rates only, such as rolling
-    "multipliers_of_rates",
-    Relation(INERTIA_AND_FORCE, "=", MULTIPLIER * Partial(CONSTRAINT, rate(q))),
-    "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
-    (("coordinate", q), ("multiplier", MULTIPLIER), ("constraint", CONSTRAINT)),
-)
+
+
+def _of_multipliers(name: str, multiplier: Symbol, constraint: Symbol, along: Any, further: bool = False) -> Theorem:
+    """Return the theorem about Lagrange's equation with constraints; the right side is summed over all constraints.
+
+    along     the coordinate or the rate by which the constraint is differentiated
+    further   whether the phrase also names the force of a constraint between rates
+    """
+    letters = (("coordinate", q), ("multiplier", multiplier), ("constraint", constraint))
+    return Theorem(
+        name,
+        Relation(INERTIA_AND_FORCE, "=", multiplier * Partial(constraint, along)),
+        "Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
+        (*letters, ("of_rate", multiplier * Partial(constraint, rate(q)))) if further else letters,
+    )
+
+
+MULTIPLIER_OF_ONE = _of_multipliers("multiplier_of_one", ONE_MULTIPLIER, ONE_CONSTRAINT, q)
+MULTIPLIER_OF_ONE_RATE = _of_multipliers("multiplier_of_one_rate", ONE_MULTIPLIER, ONE_CONSTRAINT, rate(q))
+MULTIPLIERS = _of_multipliers("multipliers", MULTIPLIER, CONSTRAINT, q)
+# constraints between coordinates, and constraints between rates
+MULTIPLIERS_OF_BOTH = _of_multipliers("multipliers_of_both", MULTIPLIER, CONSTRAINT, q, further=True)
+# constraints between rates only, such as rolling
+MULTIPLIERS_OF_RATES = _of_multipliers("multipliers_of_rates", MULTIPLIER, CONSTRAINT, rate(q))

@@ -329,12 +329,13 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key `range`, `cases` or `panels` of a drawing that is not a plot, and for each `view`
-    of a drawing that is not in space."""
+    """Return a warning for each key `range`, `up`, `cases` or `panels` of a drawing that is not a plot, and for each
+    `view` of a drawing that is not in space."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
         said = {"range": placement.range is not None, "cases": bool(placement.cases), "panels": bool(placement.panels)}
+        said["up"] = placement.up is not None
         for name in (name for name in said if said[name] and no_plot):
             message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
             place = placement.range.place if placement.range and name == "range" else placement.place
@@ -595,9 +596,19 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
             "high": with_unit(curve.portrait.high, plot.unit_up),
             "up": _named(plot.label),
             "values": joined([(Text(with_unit(value, plot.levels.unit)),) for value, _ in curve.portrait.values], last),
-            "thick": joined([(Math(value),) for value, is_thick in plot.levels.values if is_thick], last),
+            "thick": joined(_thick(plot.levels, curve.portrait.values), last),
         }
         yield filled(words.drawings["portrait_values"], own)
+
+
+def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]]) -> list[tuple[Inline, ...]]:
+    """Return the values on the thick curves: formulas, or numbers with their unit."""
+    every = zip(levels.values, numbers, strict=True)
+    return [
+        (Math(value),) if value.free_symbols else (Text(with_unit(number, levels.unit)),)
+        for (value, _), (number, is_thick) in every
+        if is_thick
+    ]
 
 
 def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import accumulate
 from typing import Any
 
 from sympy import MatrixBase, preorder_traversal
@@ -20,7 +21,7 @@ from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.placement import STATEMENT
 from derive.course.problem import Problem
-from derive.course.prose import TexFormula, latex_in
+from derive.course.prose import FIGURE, TexFormula, latex_in
 from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
@@ -40,6 +41,7 @@ from derive.page.depiction import (
     not_drawn,
     placed_after,
 )
+from derive.page.figures_named import figures_mentioned
 from derive.page.formulas import Formulas
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
@@ -136,6 +138,7 @@ class _Writer:
         self.rest: list[Step] = []  # the steps that the part shows after the current step
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
+        self.is_only_answer = False  # whether the part has one answer, which is framed even if an earlier part has it
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -302,6 +305,7 @@ class _Writer:
         self.before = None  # the first sentence of a part is a complete sentence
         boxed = {step.key for step in (answers if part.boxed is None else self.derivation.answering(part.boxed))}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers}, boxed)
+        self.is_only_answer = len(framed) == 1
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             begins[key] = len(blocks)
@@ -321,6 +325,8 @@ class _Writer:
         blocks += [Paragraph(said) for said in [self._observed(index)] if said]
         own = [illustration for illustration in illustrations if illustration.at == label]
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
+        drawings = {each.key: each for each in self.drawings}
+        placed = figures_mentioned(placed, drawings, self._figures_named(), self.words)
         return PartPage(label, self._question(label, part, illustrations), part.points, placed, part.extra)
 
     def _question(self, label: str, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
@@ -339,6 +345,11 @@ class _Writer:
         if mentioned or all(are_told(each, asked) for each in cases):
             return asked
         return (*asked, *take(numbers, self.words))
+
+    def _figures_named(self) -> set[str]:
+        """Return the keys of the drawings that a text of the author mentions."""
+        mentions = (mention for prose in self.problem.texts for mention in prose.mentions)
+        return {mention.name for mention in mentions if mention.of == FIGURE}
 
     def _observed(self, index: int) -> tuple[Inline, ...]:
         """Return the observations about the answers of a part, as one paragraph."""
@@ -408,7 +419,7 @@ class _Writer:
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
-        count = results(step, lines) if framed and again not in self.framed else 0
+        count = results(step, lines) if framed and (again not in self.framed or self.is_only_answer) else 0
         self.framed |= {step.key} if count else set()
         conditions = conditions_of(step) if count else ()
         lines, count = (*lines, *conditions), count + len(conditions)
@@ -557,6 +568,7 @@ def _illustrated(
         else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
         for drawing, place in zip(own, completed, strict=True)
     ]
+    places = list(accumulate(places, max))  # in the order of their numbers
     before_values = steps if steps < len(blocks) and _parts_nothing(blocks, steps) else steps - 1
     found: list[Block] = []
     for i, block in enumerate(blocks):

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from sympy import Expr, Symbol, nan, oo, pi, zoo
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import TIME, explicit
 from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
@@ -22,7 +22,7 @@ from derive.course.stock import told_at
 from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected
-from derive.figures.extrema import NOISE, Extremum, extrema, values_along, zeros
+from derive.figures.extrema import NOISE, Extremum, extrema, meetings, values_along, zeros
 from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
@@ -38,7 +38,8 @@ STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
 MOST_POINTS = 2  # a curve with more zeros, or a panel with more meeting points, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
-MOST_MARKED = 6  # a curve with more extrema has no marks
+MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
+NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
@@ -53,6 +54,7 @@ class Curve:
     portrait the curves of a phase portrait
     outlines surfaces in the plane of a path
     diagram  the branches of a bifurcation diagram
+    places   the values of the variable for which the solution has a symbol, with these symbols
     """
 
     expr: Expr
@@ -67,6 +69,7 @@ class Curve:
     portrait: Portrait | None = None
     outlines: tuple[Outline, ...] = ()
     diagram: Bifurcations | None = None
+    places: tuple[tuple[Any, float], ...] = ()
 
     @cached_property
     def spots(self) -> Path:
@@ -76,9 +79,10 @@ class Curve:
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
-        """Return the extrema to mark: none if there are many, as for an oscillation, because the marks would hide the
-        curve."""
-        return self.extrema if len(self.extrema) <= MOST_MARKED else ()
+        """Return the extrema to mark: none if there are many, because the marks would hide the curve. The extrema of an
+        oscillation in time differ only in their number, so a few are enough."""
+        most = MOST_IN_TIME if self.variable == TIME else MOST_MARKED
+        return self.extrema if len(self.extrema) <= most else ()
 
 
 @dataclass(frozen=True)
@@ -104,6 +108,8 @@ class Curves:
     up            the unit of the vertical axis
     across        the unit of the horizontal axis
     is_together   whether all curves are in one panel
+    ends_up       the ends of the vertical axis in SI units, if the problem states them
+    is_lettered   whether the caption refers to the curves of one panel as (i), (ii)
     """
 
     curves: tuple[Curve, ...]
@@ -112,24 +118,26 @@ class Curves:
     across: Axis
     shared: tuple[Measured, ...] = ()
     is_together: bool = False
+    is_lettered: bool = False
+    ends_up: tuple[float, float] | None = None
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
         """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
         is a zero.
 
-        They are the points at which the curves of two quantities meet. Otherwise, and for one curve, they are
-        the zeros at which a quantity changes sign. The zero of an energy is arbitrary, so it is not marked.
+        They are the points at which the curves of two quantities meet. Otherwise they are the zeros at which a
+        quantity vanishes. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
-        if others and not (len(others) == 1 and self.labels_differ and one.variable == others[0].variable):
+        if self.labels_differ and len(own) > 2:
             return ()
         found = []
-        if others:
-            places = zeros(one.expr - others[0].expr, one.variable, one.lower, one.upper)
+        if others and self.labels_differ:
+            places = meetings(one.expr, others[0].expr, one.variable, one.lower, one.upper)
             found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
         if not found and self.up.unit != JOULE:
             every = [(each, at) for each in own for at in zeros(each.expr, each.variable, each.lower, each.upper)]
-            found = [(at, 0.0, True) for each, at in every if at < each.upper]
+            found = [(at, 0.0, True) for _, at in every]
         return tuple(found) if len(found) <= MOST_POINTS else ()
 
     @property
@@ -167,7 +175,10 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
         raise Rejected(Complaint("drawing", message, _place(problem, placement), help=help_line))
     across = _axis(plot.across.unit) if plot.across else variable
     together = _are_together(problem, plot, placement, found)
-    return Curves(found, variable, _axis(plot.unit_up), across, shared, together)
+    said = placement.caption.text if placement and placement.caption else ""
+    is_lettered = together and f"({case_label(1)})" in said
+    ends_up = _ends_up(problem, plot, placement)
+    return Curves(found, variable, _axis(plot.unit_up), across, shared, together, is_lettered, ends_up)
 
 
 def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
@@ -247,6 +258,15 @@ def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
     return list(plot.ends)
 
 
+def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[float, float] | None:
+    """Return the ends of the vertical axis if the problem states them."""
+    if placement is None or placement.up is None:
+        return None
+    with told_at(placement.up.place):
+        low, high = _range(problem, plot, placement, plot.variable, placement.up.of_kind(plot.kind), {})
+    return float(low), float(high)
+
+
 def _numbers(
     problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
 ) -> dict[Any, Expr]:
@@ -317,6 +337,8 @@ def _curve(
         place = _place(problem, placement)
         raise Rejected(Complaint("drawing", message, place, help="change a number: avoid a resonance, for example"))
     lower, upper = (float(end) for end in ends)
+    known = [(name, value.xreplace(numbers)) for name, value in plot.places]
+    places = tuple((name, float(value)) for name, value in known if value.is_number and value.is_real)
     with told_at(_place(problem, placement)):
         if plot.levels is not None:
             low, high = _range(problem, plot, placement, plot.levels.up, plot.ends[2:], numbers)
@@ -325,13 +347,19 @@ def _curve(
             from derive.figures.portrait import portrait_of  # imports NumPy
 
             portrait = portrait_of(expr, *plane, values)
-            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait)
+            return Curve(expr, plot.variable, lower, upper, own, (), plot.label, portrait=portrait, places=places)
         if across:
             path = _path((across[0], expr), plot.variable, lower, upper)
             outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
-        found = extrema(expr, plot.variable, lower, upper)
+        found = with_names(extrema(expr, plot.variable, lower, upper), places, NEAR * (upper - lower))
         return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+
+
+def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:
+    """Return the extrema, each with the name of the first of the places that is not farther away than `near`."""
+    names = [next((name for name, at in places if abs(at - each.at) <= near), None) for each in found]
+    return tuple(replace(each, name=name) for each, name in zip(found, names, strict=True))
 
 
 def _diagram(
@@ -382,7 +410,9 @@ def panel_letters(curves: Curves) -> list[str]:
 
 
 def curve_letters(curves: Curves) -> list[str]:
-    """Return the letter of the panel of each curve."""
+    """Return the letter of each curve: that of its panel, or its own if the caption refers to it."""
+    if curves.is_lettered:
+        return [case_label(i) for i, _ in enumerate(curves.curves)]
     letters = zip(panel_letters(curves), curves.panels, strict=True)
     return [letter for letter, panel in letters for _ in panel]
 
@@ -400,9 +430,8 @@ def with_unit(value: float, unit: str) -> str:
 
 
 def to_three_figures(value: float, unit: str) -> str:
-    """Return a number to three figures with its unit."""
-    shown = f"{value:#.3g}".rstrip(".") if abs(value) < 1000 else f"{value:.3g}"
-    return _signed(f"{shown}{_gap(unit)}{unit}")
+    """Return a number to at most three figures with its unit."""
+    return _signed(f"{value:.3g}{_gap(unit)}{unit}")
 
 
 def _gap(unit: str) -> str:

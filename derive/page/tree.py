@@ -42,8 +42,10 @@ class Display:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """Return the punctuation after each step: commas between steps, and `end` after the last step."""
-        return (",",) * (len(self.groups) - 1) + (self.end,)
+        """Return the punctuation after each step: commas between steps, and `end` after the last step. There is no
+        punctuation next to a frame."""
+        stops = (",",) * (len(self.groups) - 1) + (self.end,)
+        return tuple("" if group.framed else stop for group, stop in zip(self.groups, stops, strict=True))
 
 
 @dataclass(frozen=True)
@@ -115,6 +117,11 @@ class Document:
     strategy: tuple[Inline, ...] = ()
     limits: PartPage | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
+
+    def points_of(self, part: PartPage) -> Fraction | None:
+        """Return the points in the heading of a part; None if the heading of the problem already shows them, because
+        no other part has points."""
+        return None if part.points == self.points and not part.extra else part.points
 
     @property
     def parts_shown(self) -> tuple[PartPage, ...]:

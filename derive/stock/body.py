@@ -13,7 +13,7 @@ from sympy import Expr
 from derive.course.expression import Declared
 from derive.course.placement import Placement
 from derive.course.schema import SCALAR, TEXT, Record, key, mapping_of, record_of
-from derive.course.stock import Described, InLetters, Stock, attempted, each
+from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, rejected
 from derive.mechanics import (
@@ -39,7 +39,7 @@ from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, StockAnswers, answer, answer_for_each
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
-from derive.stock.keys.outlines import drawn
+from derive.stock.keys.outlines import SHOWS, drawn, name_of_drawing
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
@@ -350,7 +350,14 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         """Return the answers by the requested names, and draw each body."""
         for prefix, one in self.of.items():
             asks_centre = any(name.startswith(f"{prefix}centre_of_mass") for name in asked)
-            drawn(one.body, "" if asks_centre else one.about, one.about in one.described.described.points)
+            at = "" if asks_centre else one.about
+            is_named = one.about in one.described.described.points
+            drawn_with = {drawing.key: drawing for drawing in drawings if drawing.shows}
+            own = name_of_drawing(one.body)
+            drawn(one, at, is_named, shown=drawn_with.pop(own).shows if own in drawn_with else ())
+            for name, drawing in drawn_with.items() if len(self.of) == 1 else ():
+                with told_at(drawing.place):
+                    drawn(one, at, is_named, name, drawing.shows)
         return super().solve(asked, drawings)
 
     @property
@@ -384,4 +391,4 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         return there.under_key(wanted, own, key, {"symbol": str(symbol)} if symbol else {}, tensor)
 
 
-STOCK = Stock(GivenBody, read, BodiesAnswers)
+STOCK = Stock(GivenBody, read, BodiesAnswers, SHOWS)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
 
-from sympy import Expr
+from sympy import Expr, ImmutableDenseMatrix, MatrixBase
 
 from derive.algebra.expressions import column, component_names
 from derive.algebra.kinds import Asked
@@ -16,8 +16,10 @@ from derive.course.given import Given
 from derive.course.placement import POLHODES, Placement
 from derive.course.schema import SCALAR, TEXT, Record, key, list_of
 from derive.course.stock import Described, InLetters, Stock, attempted, each, told_at
+from derive.course.yaml_tree import Sequence as SequenceNode
 from derive.course.yaml_tree import Tree, Word
 from derive.errors import Faults, Place, rejected
+from derive.figures.rigid_bodies import semi_axes
 from derive.mechanics import (
     RigidBody,
     angle_between,
@@ -217,6 +219,15 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
             with told_at(drawing.place):
                 self._draw_polhodes(asked)
         return found
+
+    def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
+        """Return a place relative to the origin of the drawing. For a body that is described by its moments, the
+        components are numbers, relative to the semi-axes of the drawn ellipsoid."""
+        if not self.described.moments or not isinstance(node, SequenceNode):
+            return super().place_of_mark(node, name, letters)
+        sizes = semi_axes(self.described.moments)
+        parts = each([partial(letters.of_kind, item, name, "number") for item in node.items])
+        return ImmutableDenseMatrix([part * size for part, size in zip(parts, sizes, strict=False)])
 
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
         """Draw the curves on which the tip of the angular momentum of a free body stays.

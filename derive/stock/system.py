@@ -8,16 +8,26 @@ from functools import cached_property
 from itertools import chain
 from typing import Any
 
-from sympy import Expr, Integer, diff
+from sympy import Expr, Integer, MatrixBase, diff
 
 from derive.algebra.expressions import Relation, depends_on_time, explicit, rate
 from derive.algebra.tidy import tidied
 from derive.course.parts import BOTH, ENERGY, LAGRANGE
-from derive.course.placement import Placement
-from derive.course.stock import Methods, Stock, told_at
-from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Rejected, rejected
-from derive.figures import draw_alone, draw_modes, forces_as_named, forces_in_state, sketch
+from derive.course.placement import AFTER, Placement
+from derive.course.stock import InLetters, Methods, Stock, told_at
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import Complaint, Faults, Rejected, rejected
+from derive.figures import (
+    draw_after,
+    draw_alone,
+    draw_modes,
+    forces_as_named,
+    forces_in_state,
+    forces_on_pulley,
+    forces_on_rope,
+    sketch,
+)
+from derive.figures.positions import column_of
 from derive.mechanics import (
     Coordinate,
     System,
@@ -52,7 +62,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
-from derive.mechanics.model.strings import circles_of
+from derive.mechanics.model.strings import Line, circles_of
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
@@ -70,6 +80,7 @@ from derive.stock.answering.moments import check_starts, started, struck
 from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.answering.sticking import state_static_friction
 from derive.stock.keys.deferred import made, parts_of, told_at_part
+from derive.stock.keys.places import PLACE
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
@@ -111,6 +122,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         self._check_letters()
         if self.described.given is None:
             self._draw_forces()
+            self._draw_after(drawings)
             run = current_run.get()
             draw_modes(self.system, run.established if run is not None else (), self._named, SYSTEM)
             self._state_static_friction()
@@ -135,10 +147,30 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         check_one_law_for_each_key(found, methods.stated)
         return {str(name): found[str(name)] for name in asked}
 
+    def _draw_after(self, drawings: Sequence[Placement]) -> None:
+        """Draw the system just after an impact, if the problem has an entry for this drawing."""
+        for each in (each for each in drawings if each.key == AFTER and not each.is_of_engine):
+            if self.of_impact is None:
+                rejected("drawing", "the drawing `after` needs an impact", each.place, "describe it under `impact`")
+            rates = [self.of_impact.rate_after(name) for name in self.of_impact.moving]
+            draw_after(AFTER, self.system, struck(self.of_impact.impact), rates, self._named)
+
     @cached_property
     def _named(self) -> list[Any]:
         """Return the places of `places:`, which drawings prefer as starts of lines."""
         return list(made(self.described.named, self.parts_by_name))
+
+    def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
+        """Return a place of the system: its components, a displacement from a place, or the name of a place, of a
+        particle, of a body (its centre of mass) or of a point of a body."""
+        faults = Faults()
+        written = PLACE.read(node, name, faults)
+        faults.stop()
+        places = self.described.places
+        assert written is not None and places is not None
+        with told_at(node.place):
+            found = made(places.at(written, name), self.parts_by_name)
+            return column_of(getattr(found, "centre", None) or getattr(found, "at", None) or found)
 
     def _state_static_friction(self) -> None:
         """State the conditions under which static friction suffices, unless steps of the answers derive these
@@ -161,15 +193,34 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
         found = []
+        tensions = self._drawn_tensions(steps)
+        leads_to = [step.key for step in tensions.values()]
         for name, part in self.parts_by_name.items():
             key, of = f"forces_{name}", moved(part, self.system.known)
-            if laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
+            if any(line.drawn_on(of) for line in self._lines):
+                alone = forces_as_named(key, self.system, of, leads_to, tensions)
+            elif laws := laws_of(steps, self.system, of) or self._motions_with_forces(steps):
                 alone = forces_as_named(key, self.system, of, laws, at_rest | along)
             else:
                 alone = forces_in_state(key, self.system, of, at_rest | along)
                 alone = alone or forces_in_state(key, self.system, of, at_rest)
             found += [alone] if alone is not None else []
+            for line in (each for each in self._lines if each.rope is not None and each.rope == of):
+                found += forces_on_rope(key, self.system, line, leads_to, tensions)
+        for name, one in self.pulleys.items():
+            wheel = moved(one, self.system.known)
+            alone = forces_on_pulley(f"forces_{name}", self.system, wheel, leads_to, tensions)
+            found += [alone] if alone is not None else []
         draw_alone(self.system, found)
+
+    @property
+    def _lines(self) -> list[Line]:
+        return [part for part in self.system.parts if isinstance(part, Line)]
+
+    def _drawn_tensions(self, steps: Sequence[Quantity]) -> dict[Any, Quantity]:
+        """Return the steps that derive tensions which only force diagrams show, by the symbols of the tensions."""
+        drawn = {line.drawn for line in self._lines if line.drawn is not None}
+        return {step.symbol: step for step in steps if step.symbol in drawn and isinstance(step.value, Expr)}
 
     def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
         """Return, in space, the keys of the equations of motion that contain constraint forces."""
@@ -225,6 +276,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def surfaces(self) -> dict[str, Any]:
         """Return the described surfaces, by name."""
         return {name: surface.made(self.parts_by_name) for name, surface in self.described.surfaces.items()}
+
+    @cached_property
+    def pulleys(self) -> dict[str, Any]:
+        """Return the massless pulleys, by name."""
+        return {name: pulley.made(self.parts_by_name) for name, pulley in self.described.pulleys.items()}
 
     @property
     def drawn_surfaces(self) -> dict[str, Any]:

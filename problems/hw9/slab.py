@@ -52,7 +52,9 @@ def solve(
     if amplitude is not None:  # small oscillations need the greatest friction at a turning point
         turning = solved_for(small, theta.acceleration, keys=["turning"])
         at_rest = put_in(F, turning, {theta.rate: 0, theta: amplitude}, key="turning_force")
-        needed = [limiting_case(at_rest, amplitude, key="friction_needed")]
+        greatest = limiting_case(at_rest, amplitude, key="friction_needed", symbol="F_max")
+        least = let("least_friction", lambda F: -F / (mass * gravity), greatest, symbol="mu_min", kind="number")
+        needed = [greatest, least]
 
     top, C, O = (radius + thickness) * across, point_mark(point(*centre), "C"), point_mark(point(0, 0), "O")
     way = length_mark(top - radius * theta * along, top, "s")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -140,5 +141,12 @@ def pairs_in(text: str) -> list[Pair]:
     return found
 
 
+def families() -> list[str]:
+    """The families of the kept pairs, without reading the expressions."""
+    _, _, body = FILE.read_text(encoding="utf-8").partition("\n\n")
+    return sorted({line.partition(" | ")[0] for line in body.splitlines()})
+
+
+@cache
 def kept() -> list[Pair]:
     return pairs_in(FILE.read_text(encoding="utf-8"))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 import pytest
@@ -247,19 +248,25 @@ def cmath_functions() -> dict[str, Any]:
     return {name: getattr(cmath, name) for name in names}
 
 
-SLIPS = [
-    (what, left, slipped)
-    for left, right in PROVED + SAMPLED[:3]
-    for what, slipped in list(slips(right))[:4]
-    if apart(left, slipped)
-]
+@cache
+def slips_of_the_corpus() -> list[tuple[str, Expr, Expr]]:
+    """The slips that make a difference. Made when they are needed, because the comparison takes longer than an import
+    should."""
+    return [
+        (what, left, slipped)
+        for left, right in PROVED + SAMPLED[:3]
+        for what, slipped in list(slips(right))[:4]
+        if apart(left, slipped)
+    ]
 
 
 def test_there_are_slips_of_every_sort() -> None:
-    assert len(SLIPS) > 120
-    assert {what for what, *_ in SLIPS} >= {"a sign", "a term left out", "a factor", "another function", "an index"}
+    assert len(slips_of_the_corpus()) > 120
+    assert {what for what, *_ in slips_of_the_corpus()} >= {
+        *("a sign", "a term left out", "a factor", "another function", "an index")
+    }
 
 
-@pytest.mark.parametrize(("what", "left", "slipped"), SLIPS, ids=[f"{w}: {s}" for w, _, s in SLIPS])
-def test_a_slip_is_refuted(what: str, left: Expr, slipped: Expr) -> None:
-    assert equal(left, slipped).grade is Grade.REFUTED
+def test_every_slip_is_refuted() -> None:
+    wrong = [each for each in slips_of_the_corpus() if equal(*each[1:]).grade is not Grade.REFUTED]
+    assert not wrong

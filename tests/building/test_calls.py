@@ -63,7 +63,7 @@ EDITS = [
 ]
 
 
-@pytest.mark.parametrize("problem", ["block", "double"])
+@pytest.mark.parametrize("problem", [pytest.param("block", marks=pytest.mark.long), "double"])
 def test_after_an_edit_the_page_is_the_one_derived_afresh(tmp_path: Path, problem: str) -> None:
     course = course_in(tmp_path, problem=problem)
     file = course / "problems" / "hw9" / f"{problem}.yaml"

@@ -300,7 +300,7 @@ def test_on_a_sheet_a_problem_begins_where_its_drawing_has_room(tmp_path: Path) 
 def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path: Path) -> None:
     root = course_in(tmp_path, {"What torque must": "With <<spin>> from <<eq spin>>, what torque must"})
     solution = rendered_once(root, "hw9/block")
-    assert r"from \hyperlink{hw9.block.17}{(17)}, what torque" in solution.latex
+    assert r"from \hyperlink{hw9.block.17}{\eqnumber{17}}, what torque" in solution.latex
     assert r"from part (b), what torque" in solution.sheet
     assert "With ω⃗ from (17), what torque" in solution.texts["text"]
 

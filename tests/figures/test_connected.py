@@ -11,7 +11,7 @@ from sympy import symbols as symbols_of
 
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
-from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line
+from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line, PointMark
 from derive.figures.marks import Drawing, Mark
 from derive.figures.parts import (
     BarMark,
@@ -38,6 +38,7 @@ from derive.figures.surroundings import (
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.steps.record import Run
+from tests.courses import library_drawings
 from tests.mechanics.test_connections import ON_ITS_SIDE, ROPE
 from tests.stock.described import course_with, edited, loaded
 
@@ -361,18 +362,18 @@ def test_the_normal_force_of_a_plane_is_drawn_although_no_equation_contains_it(t
     assert str(of_class(drawings(tmp_path, taken)["forces_ball"], Arrow)[-1].label) == "F_n"
 
 
-def test_in_space_the_forces_are_drawn_before_the_equations_of_motion(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, library("rolling_coin"))["forces_coin"]
+def test_in_space_the_forces_are_drawn_before_the_equations_of_motion() -> None:
+    drawn = library_drawings("rolling_coin")["forces_coin"]
     weight, *forces = of_class(drawn, Arrow)
     assert [str(each.label) for each in forces] == ["N", "F_x", "F_y"]
     assert {each.size for each in (weight, *forces)} == {1}
     assert "motion_theta" in drawn.leads_to and drawn.keys == ()
 
 
-def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, library("rolling_coin"))["system"]
+def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius() -> None:
+    drawn = library_drawings("rolling_coin")["system"]
     labels = {str(mark.label) for mark in drawn.marks if mark.label is not None}
-    assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g"}
+    assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g", "R", "Omega"}
     (table,) = of_class(drawn, TableMark)
     touch = next(mark for mark in of_class(drawn, Line) if str(mark.label) == "a").end
     values = dict(drawn.values)
@@ -419,14 +420,14 @@ def library(name: str) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def test_the_forces_on_a_body_at_rest_are_to_scale(tmp_path: Path) -> None:
-    weight, normal, friction = of_class(drawings(tmp_path, library("block_on_incline"))["forces_block"], Arrow)
+def test_the_forces_on_a_body_at_rest_are_to_scale() -> None:
+    weight, normal, friction = of_class(library_drawings("block_on_incline")["forces_block"], Arrow)
     assert normal.size / weight.size == pytest.approx(cos(0.63), abs=0.02)
     assert friction.size / weight.size == pytest.approx(sin(0.63), abs=0.02)
 
 
 def test_a_top_of_unknown_shape_is_a_cone_with_the_same_centre_of_mass(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, library("heavy_top"))["system"]
+    drawn = library_drawings("heavy_top")["system"]
     (cone,) = of_class(drawn, Revolved)
     (apex, tip), (height, _) = cone.profile
     assert apex == tip == 0 and str(3 * height / 4) == "l"
@@ -443,16 +444,16 @@ parts:
 """
 
 
-def test_a_rod_on_a_rotating_shaft_hangs_from_the_shaft(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, library("rod_on_shaft"))["system"]
+def test_a_rod_on_a_rotating_shaft_hangs_from_the_shaft() -> None:
+    drawn = library_drawings("rod_on_shaft")["system"]
     shaft = next(mark for mark in of_class(drawn, BarMark) if type(mark) is BarMark)
     (hinge,) = of_class(drawn, FixedEnd)
     assert hinge.joint and list(hinge.at) == list(shaft.start)
     assert [str(c) for c in shaft.end - shaft.start] == ["0", "0", "3*l/8"]
 
 
-def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense(tmp_path: Path) -> None:
-    drawn = drawings(tmp_path, library("atwood_disc"))["system"]
+def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense() -> None:
+    drawn = library_drawings("atwood_disc")["system"]
     (angle,) = of_class(drawn, AngleBetween)
     (value,) = (value for letter, value in drawn.values if letter == angle.label)
     assert numeric(value) > 0
@@ -461,9 +462,9 @@ def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense(tmp_path
         assert isinstance(arc, Stroke) and (arc.head, arc.tail) == pointed
 
 
-def test_a_particle_that_does_not_rotate_has_no_link_to_one_that_does(tmp_path: Path) -> None:
+def test_a_particle_that_does_not_rotate_has_no_link_to_one_that_does() -> None:
     """The distance between the puck and the hanging mass does not depend on the angle of the puck."""
-    marks = drawings(tmp_path, library("table_with_hole"))["system"].marks
+    marks = library_drawings("table_with_hole")["system"].marks
     labels = [str(label) for mark in marks if (label := getattr(mark, "label", None)) is not None]
     assert labels.count("phi") == 1 and not [label for label in labels if label.startswith("sqrt")]
 
@@ -562,10 +563,32 @@ def test_a_given_force_that_the_figure_does_not_show_is_named_in_the_caption(tmp
     assert caption in " ".join(page.split())
 
 
+def test_a_drag_along_a_line_is_an_arrow_against_the_motion_beside_a_driving_force(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("driven_oscillator"))["system"]
+    force, drag = of_class(drawn, AppliedForce)
+    assert (str(drag.label), list(drag.value), drag.pushes) == ("b*x_dot", [-1, 0], True)
+    assert not force.pushes and force.aside == drag.aside > 0  # on opposite sides, because the directions are opposite
+    assert drawn.undrawn == ()
+
+
+def test_the_natural_length_of_a_spring_is_drawn_with_its_extension_or_opposite_to_its_length(tmp_path: Path) -> None:
+    cart = drawings(tmp_path / "cart", library("damped_oscillator"))["system"]
+    natural, extension = of_class(cart, DistanceMark)
+    assert [str(each.label) for each in (natural, extension)] == ["a", "x"] and natural.end == extension.start
+    ball = drawings(tmp_path / "ball", library("hanging_mass"))["system"]
+    natural, whole = of_class(ball, LengthMark)
+    assert [str(each.label) for each in (natural, whole)] == ["l", "y"] and natural.aside == -whole.aside
+
+
+def test_a_spring_on_a_table_is_held_by_a_nail(tmp_path: Path) -> None:
+    drawn = drawings(tmp_path, library("turning_plane"))["system"]
+    assert not of_class(drawn, FixedEnd) and any(list(mark.at) == [0, 0, 0] for mark in of_class(drawn, PointMark))
+
+
 @pytest.mark.long
-def test_friction_and_dashpots_are_not_named_as_forces_that_are_left_out(tmp_path: Path) -> None:
+def test_friction_and_dashpots_are_not_named_as_forces_that_are_left_out() -> None:
     for name in ("block_on_plank", "carts_with_dashpot", "driven_arm"):
-        assert drawings(tmp_path / name, library(name))["system"].undrawn == ()
+        assert library_drawings(name)["system"].undrawn == ()
 
 
 def test_a_view_of_a_plane_drawing_has_no_effect(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from sympy import Abs, Expr, Integer, Rational, cos, diff, exp, log, sin, sqrt, 
 
 from derive.errors import Rejected, Unverified
 from derive.figures import extrema as module
-from derive.figures.extrema import MAXIMUM, MINIMUM, extrema, values_along
+from derive.figures.extrema import MAXIMUM, MINIMUM, extrema, meetings, values_along
 
 x = symbols("x", real=True)
 
@@ -102,3 +102,9 @@ def test_a_wrong_derivative_is_refused_by_the_curve(monkeypatch: pytest.MonkeyPa
 def test_a_pole_inside_the_range_is_an_error(place: Rational) -> None:
     with pytest.raises(Rejected, match="infinite near"):
         extrema(1 / Abs(x - place), x, -1, 2)
+
+
+def test_two_curves_may_meet_where_they_start() -> None:
+    assert meetings(1 + sqrt(x), 1 - sqrt(x), x, 0.0, 1.0) == (0.0,)
+    assert meetings(x, 2 * x, x, 0.0, 1.0) == (), "both start from zero"
+    assert meetings(x, 1 - x, x, 0.0, 1.0) == (pytest.approx(0.5),)

@@ -165,7 +165,7 @@ def test_a_wrong_shape_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         entries = list(self.shape.value.doit())
         return {q.symbol: entry for (q, _), entry in zip(self.linear.place, entries[::-1], strict=True)}
 
-    monkeypatch.setattr(module._Displaced, "amplitudes", property(exchanged))
+    monkeypatch.setattr(module._InMode, "amplitudes", property(exchanged))
     assert not any(of_chain(each) for each in modes(tmp_path / "wrong", CHAIN))
 
 

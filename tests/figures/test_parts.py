@@ -9,11 +9,13 @@ import pytest
 
 from derive.figures import block, cart, drawing, particle, rod, rope, spring_mark, wedge, wheel
 from derive.figures.marks import Drawing, Mark
-from derive.figures.parts import BLOCK, BOB, COIL, WHEEL, CornerRopeMark
+from derive.figures.parts import BEND, BLOCK, BOB, COIL, TUBE, WHEEL, CornerRopeMark, HeavyRopeMark
 from derive.figures.pieces import Bullet, Patch, Stroke, Tag
 from derive.figures.positions import column_of
 from derive.figures.surroundings import FixedEnd
 from derive.mechanics import point
+from derive.render.drawing.camera import FLAT, Numbers
+from derive.render.drawing.hidden_lines import OnPaper
 from tests.figures.machines import l, m, seen
 from tests.figures.scenery import strokes
 
@@ -162,3 +164,13 @@ def test_a_wedge_is_told_and_named_away_from_its_sharp_corner() -> None:
     middle = [sum(c[k] for c in corners) / 3 for k in (0, 1)]
     far = [max(c[0] for c in corners), min(c[1] for c in corners)]
     assert tag.spot == pytest.approx(tuple(m + (m - f) / 5 for m, f in zip(middle, far, strict=True)))
+
+
+def test_a_tube_guides_a_rope_round_a_bend() -> None:
+    places = [column_of(point(*each)) for each in ((-1, 0), (0, 0), (0, -1))]
+    rope_piece, inner, outer = HeavyRopeMark(tuple(places), (0, 0, 0)).pieces(OnPaper(Numbers({}), FLAT, 60.0))[:3]
+    assert isinstance(rope_piece, Stroke) and isinstance(inner, Stroke) and isinstance(outer, Stroke)
+    corner = min(hypot(x, y) for x, y in rope_piece.spots)
+    assert corner == pytest.approx(BEND * (2**0.5 - 1), abs=0.05)
+    assert outer.spots[0][1] == pytest.approx(TUBE) and outer.spots[-1][0] == pytest.approx(TUBE)
+    assert inner.spots[0][1] == pytest.approx(-TUBE) and inner.spots[-1][0] == pytest.approx(-TUBE)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import hypot
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +13,8 @@ from derive.figures.pieces import Bullet, Stroke
 from derive.figures.pulleys import PulleyRopeMark, SmallPulleyMark, TiedEndMark
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
-from tests.figures.test_connected import drawings, library, of_class
+from tests.courses import library_drawings
+from tests.figures.test_connected import of_class
 
 PAPER = OnPaper(Numbers({}), FLAT, 60.0)
 
@@ -29,8 +29,8 @@ def _column(place: tuple[int, int]) -> Any:
     return ImmutableDenseMatrix(list(place))
 
 
-def movable(tmp_path: Path) -> Drawing:
-    return drawings(tmp_path, library("movable_pulley"))["system"]
+def movable() -> Drawing:
+    return library_drawings("movable_pulley")["system"]
 
 
 def test_the_pieces_of_a_string_keep_their_directions() -> None:
@@ -52,6 +52,11 @@ def test_a_string_that_returns_has_two_parallel_pieces() -> None:
     assert max(y for _, y in down) == pytest.approx(-6.0) and min(y for _, y in down) == pytest.approx(-240.0)
 
 
+def test_the_ceiling_of_a_pulley_has_the_height_of_a_fixed_end_above_it() -> None:
+    hangers = [str(mark.hanger) for mark in of_class(movable(), SmallPulleyMark) if mark.hanger is not None]
+    assert hangers == ["h", "h"]
+
+
 def test_an_end_at_a_body_keeps_its_place() -> None:
     spots = string((0, -3), (0, 0), (0, -2)).pieces(PAPER)[0].spots
     assert (spots[0], spots[-1]) == ((0.0, -180.0), (0.0, -120.0))
@@ -64,8 +69,8 @@ def test_a_straight_string_runs_over_its_pulley() -> None:
     assert all(y == pytest.approx(0.0) for _, y in rope.pieces(PAPER)[0].spots)
 
 
-def test_a_movable_pulley_hangs_between_the_ceiling_and_a_fixed_pulley(tmp_path: Path) -> None:
-    drawn = movable(tmp_path)
+def test_a_movable_pulley_hangs_between_the_ceiling_and_a_fixed_pulley() -> None:
+    drawn = movable()
     (rope,), (anchor,) = of_class(drawn, PulleyRopeMark), of_class(drawn, TiedEndMark)
     first, second, moving = of_class(drawn, SmallPulleyMark)
     assert first.hanger == second.hanger is not None and moving.hanger is None and str(moving.label) == "m_2"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from sympy import ImmutableDenseMatrix, cos, sin
 
@@ -18,8 +16,8 @@ from derive.mechanics.kinematics.places import Location
 from derive.render.drawing.camera import FLAT, Numbers
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.render.drawing.picture import picture
+from tests.courses import library_drawings
 from tests.figures.machines import SKETCHES, SYSTEMS, a, at, labels, of, omega
-from tests.figures.test_connected import drawings, library
 
 
 def test_a_double_pendulum_has_two_rods_two_angles_and_one_pivot() -> None:
@@ -46,8 +44,8 @@ def test_no_rod_or_string_passes_through_the_hatches_of_its_support(joint: bool,
     assert bool(hatches) == bool(side) and all(side * end[1] > 0 for _, end in hatches)
 
 
-def test_the_supports_of_upright_pendulums_are_below_them(tmp_path: Path) -> None:
-    for drawing in drawings(tmp_path, library("upright_pendulums")).values():
+def test_the_supports_of_upright_pendulums_are_below_them() -> None:
+    for drawing in library_drawings("upright_pendulums").values():
         pieces = picture(drawing, Numbers({}), 5.0, 4.2)
         grounds = [piece.spots[0][1] for piece in pieces if isinstance(piece, Stroke) and piece.pen == "ground"]
         ends = [

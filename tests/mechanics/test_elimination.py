@@ -18,7 +18,7 @@ from derive.mechanics.model.constraint import Constraint
 from derive.solving.elimination import Substitution, isolated_in_order, substitutions
 from derive.steps.record import Run
 from derive.steps.rule import Judged
-from tests.courses import ROOT
+from tests.courses import ROOT, rendered_once
 from tests.stock.described import course_with
 
 x, y, N, S = symbols("x_ddot y_ddot N S", real=True)
@@ -89,7 +89,7 @@ def test_equations_that_do_not_give_the_result_are_refused(problem_id: str, rule
 
 
 def test_a_page_solves_equation_by_equation(tmp_path: Path) -> None:
-    text = " ".join(rendered(ROOT, "library/sliding_to_rolling", only={"text"}).texts["text"].split())
+    text = " ".join(rendered_once(ROOT, "library/sliding_to_rolling", only={"text"}).texts["text"].split())
     assert normalize("NFD", "With y = a and ÿ = 0, equation (2) gives") in text and "= 5μ N/(2M a) = 5μ g/(2a)" in text
 
 
@@ -133,7 +133,7 @@ def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain(tmp_pa
     ],
 )
 def test_a_constraint_is_differentiated_after_its_reason(problem_id: str, reason: str) -> None:
-    text = " ".join(rendered(ROOT, problem_id, only={"text"}).texts["text"].split())
+    text = " ".join(rendered_once(ROOT, problem_id, only={"text"}).texts["text"].split())
     assert f"{reason}" in text and "Differentiating this" in text
 
 

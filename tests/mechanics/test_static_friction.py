@@ -169,6 +169,7 @@ def test_a_block_on_a_plank_that_is_pulled(tmp_path: Path) -> None:
 # --- along a motion ---
 
 
+@pytest.mark.long
 def test_a_rod_slips_over_the_edge_of_a_table(tmp_path: Path) -> None:
     outcome, result, sense = told(tmp_path, library("rod_over_edge"))
     assert (outcome, sense) == ("slips", "down")

@@ -61,7 +61,7 @@ def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> No
 def in_coordinate(formula: Any, lagrangian: Expr, function: Expr = S.Zero) -> Expr:
     """Left minus right of Lagrange's equation, with values for L and f_k."""
     q = scalar("q")
-    put = {scalar("L"): lagrangian, scalar("f_k"): function}
+    put = {scalar("L"): lagrangian, scalar("f_k"): function, scalar("f"): function}
 
     def evaluated(node: Any) -> Any:
         if isinstance(node, Partial):
@@ -73,13 +73,14 @@ def in_coordinate(formula: Any, lagrangian: Expr, function: Expr = S.Zero) -> Ex
     return explicit(evaluated(formula.left)) - explicit(evaluated(formula.right))
 
 
-@pytest.mark.parametrize("name", ["multipliers", "multipliers_of_rates"])
+@pytest.mark.parametrize("name", ["multipliers", "multipliers_of_rates", "multiplier_of_one", "multiplier_of_one_rate"])
 def test_a_positive_multiplier_pushes_towards_a_larger_constraint(name: str) -> None:
     """A bead held at the height q = 0 by f = q, or by f = q': the force that holds it is + m g."""
     (m, g), q = symbols("m g", positive=True), scalar("q")
-    function = q if name == "multipliers" else rate(q)
+    function = rate(q) if "rate" in name else q
     found = in_coordinate(BY_NAME[name].formula, m * rate(q) ** 2 / 2 - m * g * q, function)
-    assert equal(found.subs(rate(q, 2), 0), m * g - scalar("lambda_k"))
+    multiplier = scalar("lambda" if "one" in name else "lambda_k")
+    assert equal(found.subs(rate(q, 2), 0), m * g - multiplier)
 
 
 @pytest.mark.parametrize("theorem", theorems(), ids=lambda theorem: theorem.name)

@@ -30,7 +30,7 @@ from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
 from derive.render.printing.text_page import inline_text
 from derive.steps.step import Level
-from tests.courses import ROOT, course_in, solved_once
+from tests.courses import ROOT, course_in, rendered_once, solved_once
 from tests.stock.described import course_with, edited
 
 WORDS = phrases(ROOT / "templates")
@@ -216,7 +216,7 @@ def test_a_note_that_remained_while_the_problem_changed_is_reported(
 def test_no_note_of_the_library_contradicts_its_page() -> None:
     """With the formulas of three notes that name results by their symbols."""
     for name in ("power_law", "yoyo", "driven_oscillator"):
-        assert not rendered(ROOT, f"library/{name}", only={"text"}).warnings
+        assert not rendered_once(ROOT, f"library/{name}", only={"text"}).warnings
 
 
 MACHINE = (ROOT / "problems" / "library" / "constraints" / "atwood_disc.yaml").read_text(encoding="utf-8")
@@ -228,7 +228,7 @@ def test_an_equation_of_the_wording_that_remained_while_the_problem_changed_is_r
     said = [each.message for each in warnings if each.code == "differs-from-result"]
     typed = r"\frac{1}{2}M\ddot x = S_1 - S_2"
     assert f"`{typed}` is printed, but it does not hold for the results of the page" in said
-    unchanged = rendered(course_with(tmp_path / "unchanged", MACHINE), "trial/one").warnings
+    unchanged = rendered_once(ROOT, "library/atwood_disc").warnings
     assert not [each for each in unchanged if each.code == "differs-from-result"]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from derive.algebra.equality import Grade
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
@@ -29,3 +31,10 @@ def test_a_step_stands_beside_another_in_one_row_with_one_number() -> None:
 
 def test_commas_stand_between_steps_and_the_end_is_that_of_the_sentence() -> None:
     assert display("a", Grade.PROVED).with_more(display("b", Grade.PROVED)).stops == (",", ".")
+
+
+def test_no_punctuation_stands_next_to_a_frame() -> None:
+    plain, framed = display("a", Grade.PROVED), display("b", Grade.PROVED)
+    framed = replace(framed, groups=(replace(framed.groups[0], framed=1),))
+    assert plain.with_more(framed).stops == (",", "")
+    assert framed.with_more(plain).stops == ("", ".")

@@ -69,11 +69,6 @@ def preview(course: Path) -> Iterator[Preview]:
         pass
 
 
-def test_an_interrupt_ends_it_cleanly_with_its_worker(preview: Preview) -> None:
-    assert preview.address.startswith("http://127.0.0.1:")
-    assert preview.ended() == 0
-
-
 def endless(course: Path) -> None:
     """Let the script of the problem write the file `begun`, and then do nothing for ever."""
     script = course / "problems" / "hw9" / "block.py"
@@ -83,10 +78,14 @@ def endless(course: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+OTHERS = [pytest.param(signum, marks=pytest.mark.long) for signum in (signal.SIGTERM, signal.SIGHUP)]
+
+
+@pytest.mark.parametrize("signum", [signal.SIGINT, *OTHERS])
 def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
     preview: Preview, course: Path, signum: int
 ) -> None:
+    assert preview.address.startswith("http://127.0.0.1:")
     endless(course)
     with preview.asked():
         until((course / "begun").exists)
@@ -96,6 +95,7 @@ def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
     assert preview.said() == ""
 
 
+@pytest.mark.long
 def test_its_worker_ends_with_it_when_it_is_killed(preview: Preview, course: Path) -> None:
     endless(course)
     with preview.asked():

@@ -12,7 +12,7 @@ from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
-from derive.render.printing.figure_numbers import numbered_in_a_row
+from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
 from derive.render.printing.told_once import told_once
 from derive.render.rendered import Rendered
 from tests.courses import course_in, kept
@@ -33,7 +33,8 @@ def test_a_document_is_there_in_tex_and_in_html(course: Path, solved: Rendered, 
     heading = problem_set(course, "hw9")
     tex = document_on_request(course, heading, [solved], kind)
     page = document_page(course, heading, [solved], kind)
-    (body,) = numbered_in_a_row(told_once([("block", "1", solved.documents[f"{kind}.html"])]))
+    once = told_once([("block", "1", solved.documents[f"{kind}.html"])])
+    (body,) = numbered_in_a_row(equations_numbered([("1", *once)]))
     assert tex.rstrip().endswith(r"\end{document}") and solved.documents[kind] in tex
     assert page.rstrip().endswith("</html>") and body in page
 

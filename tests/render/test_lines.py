@@ -52,13 +52,15 @@ def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -
 
 
 @pytest.mark.parametrize("nothing", [Integer(0), LETTERS[2]])
-def test_a_mere_number_or_letter_is_framed_with_its_left_side(nothing: Any) -> None:
-    """What is in a frame is an equation that you may copy: not 0 or c alone, but T = 0 and T = c."""
+def test_a_mere_number_or_letter_is_framed_with_the_whole_line_of_its_chain_or_with_its_left_side(nothing: Any) -> None:
+    """The left side is repeated only if the chain has no room on one line: T = a = 0, but T = 0 below a long line."""
     T = Symbol("T")
     chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", nothing, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
     assert line.frames_all and len(line.sides) == 1
-    for begins, limit in ((LONG, 40), (LETTERS[0], 40), (LETTERS[0], 9)):
+    (line,) = printed_lines(Equations("T", chain, 7, 1), NOTATION)
+    assert len(line.sides) == 2 and line.frames_all
+    for begins, limit in ((LONG, 40), (LETTERS[0], 9)):
         lines = printed_lines(Equations("T", (replace(chain[0], right=begins), chain[1]), 7, 1), NOTATION, limit)
         assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
         assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(nothing)),)
@@ -123,15 +125,16 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
-    """A long formula is framed with its left side if it is an inequality; a number after a formula is framed alone."""
+    """A long formula is framed with its left side if it is an inequality; a number after it has the left side again."""
     S, c = Symbol("S"), LETTERS[2]
     for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
         formula = ChainLine(S, relation, LONG)
         (line,) = printed_lines(Equations("S", (formula,), 7, 1), NOTATION, 999)
         assert line.frames_all == whole or not whole
         chain = (formula, ChainLine(None, "approx", 2 * c, numeric=True))
-        (line,) = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
-        assert (line.framed, line.frames_all) == (1, False)
+        *before, line = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
+        assert (len(before), line.framed, line.frames_all) == (int(whole), 1, whole)
+        assert line.sides[0][0] == relation and not any(each.framed for each in before)
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0
 

@@ -318,7 +318,7 @@ expressions = st.recursive(
     max_leaves=8,
 )
 vectors = st.lists(expressions, min_size=3, max_size=3).map(lambda entries: ex.column(*map(explicit, entries)))
-bounded = settings(max_examples=60, deadline=None, derandomize=True)
+bounded = settings(max_examples=30, deadline=None, derandomize=True)
 
 
 def is_ordinary(expr: Any) -> bool:

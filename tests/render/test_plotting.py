@@ -17,7 +17,6 @@ from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Across, Further, Levels, Outline, Plot
 from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
-from derive.page.wording import phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
 from derive.render.drawing.lettering import letters_of
@@ -31,18 +30,16 @@ from derive.render.drawing.plotting import (
     Names,
     Writing,
     _names,
-    _names_with_room,
+    _names_of_turns,
     line_of,
     plot_sheet,
 )
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
-from tests.courses import ROOT
 
 theta = Symbol("theta", real=True)
 V = Symbol("V")
 a = symbols("a", positive=True)
-WORDS = phrases(ROOT / "templates")
 
 
 def plot_of(expr: Expr, lower: Expr = -pi / 2, upper: Expr = pi / 2, of: str = "angle") -> Plot:
@@ -58,13 +55,13 @@ def curves(plot: Plot, *cases: int, panels: str | None = "apart") -> Curves:
 
 
 def sheet(plot: Plot, *cases: int, width: float | None = None, alt: str = "", together: str | None = "apart") -> Sheet:
-    return plot_sheet(plot, curves(plot, *cases, panels=together), Notation(), WORDS, width, alt)
+    return plot_sheet(plot, curves(plot, *cases, panels=together), Notation(), width, alt)
 
 
 def panels(plot: Plot, *cases: int, together: str | None = "apart") -> list[Panel]:
     found = curves(plot, *cases, panels=together)
     height = TALL * CM - AROUND
-    return [panel_of(plot, own, found, Notation(), WORDS, height=height) for own in found.panels]
+    return [panel_of(plot, own, found, Notation(), height=height) for own in found.panels]
 
 
 def test_every_curve_has_a_panel_of_the_same_width() -> None:
@@ -95,12 +92,35 @@ def test_axes_are_named_with_their_units() -> None:
 
 
 def test_each_extremum_is_named_clear_of_the_curve() -> None:
-    (panel,) = panels(plot_of(cos(2 * theta), -3 * pi / 4, 3 * pi / 4))
-    assert [(pytest.approx(at), is_lowest) for at, is_lowest, _ in panel.turns] == [
-        ((-90, -1), True), ((0, 1), False), ((90, -1), True)
+    (panel,) = panels(plot_of(cos(2 * theta - pi / 18), -3 * pi / 4, 3 * pi / 4))
+    assert [(pytest.approx(at), is_lowest, names) for at, is_lowest, names in panel.turns] == [
+        ((-85, -1), True, (r"${-}85{}^{\circ}$",)), ((5, 1), False, (r"$5{}^{\circ}$",)),
+        ((95, -1), True, (r"$95{}^{\circ}$",)),
     ]  # fmt: skip
-    assert len({name for _, _, name in panel.turns}) == 2
-    assert panel.values[1] < -1.3 and panel.values[3] > 1.3, "there is room for the words"
+    assert panel.values[1] < -1.3 and panel.values[3] > 1.3, "there is room for the names"
+
+
+def test_an_extremum_at_a_tick_needs_no_name_and_a_symbol_of_the_solution_is_its_name() -> None:
+    (panel,) = panels(plot_of(cos(theta)))
+    assert [names for _, _, names in panel.turns] == [()]
+    (named,) = panels(replace(plot_of(a * cos(2 * theta - a / 9)), places=((Symbol("theta_0"), a / 18),)), 2)
+    assert named.turns[1][2] == (r"$\theta_{0} = 6.37{}^{\circ}$", r"$\theta_{0}$")
+    (at_tick,) = panels(replace(plot_of(a * cos(theta)), places=((Symbol("theta_0"), a - a),)), 2)
+    assert at_tick.turns[0][2] == (r"$\theta_{0}$",)
+
+
+def test_a_dotted_line_leads_from_an_extremum_to_the_axis() -> None:
+    (panel,) = panels(plot_of(cos(theta)))
+    frame = Frame((0.0, 0.0, 180.0, 90.0), panel.values)
+    ((_, end),) = [each.spots for each in plotting._pieces(panel, frame, ()) if getattr(each, "pen", "") == "hidden"]
+    assert end == (pytest.approx(90.0), 0.0)
+
+
+def test_a_curve_close_to_zero_has_zero_on_its_axis_and_an_axis_has_at_least_three_ticks() -> None:
+    (panel,) = panels(plot_of(theta**2 + Rational(1, 10), Integer(0), Integer(1), "length"))
+    assert [text for _, text in panel.up] == ["$0.0$", "$0.5$", "$1.0$"]
+    (far,) = panels(plot_of(Rational(86, 100) * theta + 2, Integer(0), Integer(1), "length"))
+    assert len(far.up) >= 3 and far.up[0][0] > 0
 
 
 def test_the_numbers_of_a_case_stand_over_its_panel() -> None:
@@ -141,7 +161,8 @@ def test_all_of_a_plot_is_on_its_sheet_and_no_text_on_another(drawn: list[Shape]
 def test_a_curve_is_drawn_to_the_scale_of_its_axes(drawn: list[Shape]) -> None:
     sheet(plot_of(cos(theta)))
     frame, curve = (
-        next(s for s in drawn if s.width == canvas.PENS[pen].width and not s.fill) for pen in ("frame", "curve")
+        next(s for s in drawn if s.width == canvas.PENS[pen].width and not s.fill and not s.dashes)
+        for pen in ("frame", "curve")
     )
     left, below, right, above = box(frame)
     start, low, end, high = panels(plot_of(cos(theta)))[0].values
@@ -168,16 +189,12 @@ def test_a_curve_that_is_level_has_an_axis_all_the_same() -> None:
     assert panel.values[1] < 5 < panel.values[3]
 
 
-def test_an_extremum_is_marked_with_its_number_and_panels_with_their_letters() -> None:
+def test_panels_have_their_letters() -> None:
     found = curves(plot_of(a * cos(theta)), 1, 2)
     one, two = (
-        panel_of(plot_of(a * cos(theta)), own, found, Notation(), WORDS, letter)
+        panel_of(plot_of(a * cos(theta)), own, found, Notation(), letter)
         for letter, own in zip("ab", found.panels, strict=True)
     )
-    assert [names for panel in (one, two) for _, _, names in panel.turns] == [
-        (r"$\mathrm{maximum}\;\;1.000\,\mathrm{J}$", r"$1.000\,\mathrm{J}$"),
-        (r"$\mathrm{maximum}\;\;2.000\,\mathrm{J}$", r"$2.000\,\mathrm{J}$"),
-    ]
     assert one.numbers[0].startswith(r"$({\mathrm{a}})") and two.numbers[0].startswith(r"$({\mathrm{b}})")
 
 
@@ -239,6 +256,7 @@ def test_a_phase_portrait_has_a_thick_curve_and_arrowheads() -> None:
     (panel,) = panels(portrait)
     assert panel.names == (r"$\theta\,/\,{}^{\circ}$", r"$p\,/\,(\mathrm{kg\,m^{2}/s})$")
     assert panel.values == (-90, -2, 90, 2)
+    assert panel.levels == (r"$0.5\,\mathrm{J}$", r"$1\,\mathrm{J}$") and panel.turns == (((0, 0), True, ()),)
     strokes = [each for each in line_of(panel, Frame((0, 0, 1, 1), (0, 0, 1, 1))) if isinstance(each, Stroke)]
     assert [(stroke.pen, stroke.head) for stroke in strokes] == [
         ("level", False), ("level", True), ("separatrix", False), ("separatrix", True)
@@ -252,21 +270,24 @@ def test_a_range_of_two_turns_has_a_few_ticks() -> None:
     assert [at for at, _ in panel.across] == [-360, -180, 0, 180, 360]
 
 
-@pytest.mark.parametrize(("wide", "form"), [(400, 0), (140, 1), (30, None)])
+@pytest.mark.parametrize(("wide", "form"), [(400, 0), (180, 1), (15, None)])
 def test_all_extrema_are_named_in_the_same_form_or_none(wide: int, form: int | None) -> None:
-    """If there is little room, the names are without the kind; if there is less, there are none."""
-    (panel,) = panels(plot_of(cos(2 * theta), -3 * pi / 4, 3 * pi / 4))
+    """If there is little room, the names are only symbols; if there is less, there are none."""
+    places = tuple((Symbol(f"theta_{i}"), pi / 36 + i * pi / 2) for i in (0, 1))
+    plot = replace(plot_of(cos(2 * theta - pi / 18), -pi / 4, 3 * pi / 4), places=places)
+    (panel,) = panels(plot)
     writing = Writing(letters_of(set(panel.texts())))
-    frame = Frame((0.0, 0.0, float(wide), 90.0), panel.values)
-    found = [name for _, _, name, _ in _names_with_room(panel, frame, writing)]
-    assert found == ([] if form is None else [names[form] for _, _, names in panel.turns])
+    found = _names_of_turns(panel, Frame((0.0, 0.0, float(wide), 90.0), panel.values), writing, ())
+    sizes = [box[2] - box[0] for _, box in found]
+    expected = [] if form is None else [writing.size(names[form], plotting.SMALLEST)[0] for _, _, names in panel.turns]
+    assert sizes == pytest.approx(expected)
 
 
 def test_the_name_of_an_extremum_is_clear_of_the_ticks_of_the_axis() -> None:
-    (panel,) = panels(plot_of(cos(theta), -pi / 12, pi / 2))
+    (panel,) = panels(plot_of(cos(theta - pi / 180), -pi / 12, pi / 2))
     writing = Writing(letters_of(set(panel.texts())))
-    ((middle, _, name, _),) = _names_with_room(panel, Frame((0.0, 0.0, 120.0, 90.0), panel.values), writing)
-    assert middle - writing.size(name, plotting.SMALLEST)[0] / 2 > plotting.TICK + 3
+    ((_, box),) = _names_of_turns(panel, Frame((0.0, 0.0, 120.0, 90.0), panel.values), writing, ())
+    assert box[0] > plotting.TICK + 3
 
 
 def strokes(panel: Panel) -> list[Stroke]:
@@ -289,26 +310,48 @@ def named(plot: Plot, *cases: int, size: tuple[float, float] = (180.0, 90.0)) ->
     return panel, _names(panel, Frame((0.0, 0.0, *size), panel.values), writing)
 
 
-def test_each_curve_has_its_name_next_to_it_and_extrema_are_marked_where_there_is_room() -> None:
-    panel, names = named(plot_of(a * cos(theta)), 4, 1)
+def test_each_curve_has_its_name_next_to_it() -> None:
+    _, names = named(plot_of(a * cos(theta)), 4, 1)
     assert len(names.curves) == 2 and not any(shape.width for shape in names.curves), "no lines of a legend"
     assert names.above == 0
-    assert names.marked == panel.turns and len(names.turns) == 2
     texts = [box(shape) for shape in names.curves]
     assert texts[0][1] > texts[1][1], "the name of the upper curve is above that of the lower curve"
 
 
-def test_extrema_that_would_be_close_to_another_curve_are_not_marked() -> None:
-    panel, names = named(plot_of(cos(a * theta)), 2, 3)
-    assert len(panel.turns) > len(names.marked)
-    assert {turn for trace in panel.traces[:1] for turn in trace.turns}.isdisjoint(names.marked), (
-        "all or none of a curve"
-    )
+def test_a_legend_has_the_order_of_the_curves() -> None:
+    (panel,) = panels(plot_of(cos(theta) + a / 100), 1, 2, together="together")
+    assert plotting._from_the_top(panel) == [1, 0]
+
+
+def test_curves_of_one_panel_have_the_letters_of_the_caption() -> None:
+    plot, problem = plot_of(a * cos(theta)), SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
+    cases = tuple((Measured(a, Integer(n), "m", Integer(n)),) for n in (2, 1))
+    caption: Any = SimpleNamespace(text="The energy for (i) a large and (ii) a small length.")
+    placement = Placement("potential", Place("one.yaml", 9), cases=cases, caption=caption)
+    found = curves_of(problem, plot, placement)  # type: ignore[arg-type]
+    (panel,) = [panel_of(plot, own, found, Notation()) for own in found.panels]
+    assert [trace.name for trace in panel.traces] == [
+        r"$({\mathrm{i}})\;\;a = 2\,\mathrm{m}$", r"$({\mathrm{ii}})\;\;a = 1\,\mathrm{m}$"
+    ]  # fmt: skip
+
+
+def test_the_value_of_a_phase_portrait_is_in_a_gap_of_its_curve() -> None:
+    momentum = Symbol("p", real=True)
+    levels = Levels(momentum, Integer(-2), Integer(2), ((Integer(1), False),), "J")
+    plot = Plot("portrait", momentum, (momentum**2 + theta**2) / 2, theta, Integer(-2), Integer(2), "number", "time",
+                (), "kg m/s", levels=levels)  # fmt: skip
+    (panel,) = panels(plot)
+    writing, frame = Writing(letters_of(set(panel.texts()))), Frame((0.0, 0.0, 180.0, 150.0), panel.values)
+    names = _names(panel, frame, writing)
+    ((_, (left, below, right, above)),) = names.gaps
+    drawn = [spot for each in line_of(panel, frame, names.gaps) if isinstance(each, Stroke) for spot in each.spots]
+    assert len(names.curves) == 1 and drawn
+    assert not any(left < x < right and below < y < above for x, y in drawn)
 
 
 def test_names_without_room_next_to_the_curves_are_in_a_legend() -> None:
     """The curves coincide nearly, so that a name next to one of them would also be next to the other."""
-    near = plot_of(cos(theta) + a / 100)
+    near = plot_of(theta + a / 100)
     _, inside = named(near, 1, 2)
     assert len([shape for shape in inside.curves if shape.width]) == 2, "a line for each curve"
     assert inside.above == 0, "the legend is in a corner of the panel"
@@ -351,7 +394,6 @@ def test_an_angle_on_an_axis_of_a_path_or_of_a_curve_is_in_degrees() -> None:
     assert panel.traces[0].points[-1] == pytest.approx((-57.29578, 45.0))
     (curve,) = panels(Plot("angle", V, sin(theta) / 2, theta, Integer(0), Integer(3), "angle", "time"))
     assert curve.names[1] == r"$V\,/\,{}^{\circ}$"
-    assert curve.turns[0][2][1] == r"$28.65{}^{\circ}$"
 
 
 def test_the_axes_of_a_phase_portrait_have_powers_of_ten() -> None:
@@ -378,7 +420,7 @@ def test_many_numbers_are_in_several_rows_above_a_panel(drawn: list[Shape]) -> N
     problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
     numbers = tuple(Measured(letter, Integer(1234567), "m", Integer(1)) for letter in letters)
     placement = Placement("potential", Place("one.yaml", 9), cases=(numbers,))
-    plot_sheet(plot, curves_of(problem, plot, placement), Notation(), WORDS, None, "")
+    plot_sheet(plot, curves_of(problem, plot, placement), Notation(), None, "")
     texts = [box(shape) for shape in drawn if shape.fill == canvas.QUIET][-5:]
     assert len({round(each[1]) for each in texts}) > 1
     assert all(0 < each[0] < each[2] < plotting.PANEL * CM for each in texts)
@@ -423,7 +465,7 @@ def test_a_zero_is_marked_where_a_quantity_changes_its_sign() -> None:
     found = force_of(2 - 3 * cos(theta))
     assert points_of(found) == [(0.8411, 0.0)]
     panel = panel_of(Plot("force", V, 2 - 3 * cos(theta), theta, Integer(0), pi, "force", "angle", unit="N"),
-                     found.panels[0], found, Notation(), WORDS)  # fmt: skip
+                     found.panels[0], found, Notation())  # fmt: skip
     assert panel.is_signed and [name for _, name in panel.points] == [r"$48.2{}^{\circ}$"]
 
 
@@ -456,5 +498,15 @@ def test_a_degree_sign_above_a_panel_has_no_space_before_it() -> None:
     numbers = ((Measured(a, Rational(120), "degree", Rational(2, 3) * pi),),)
     plot = plot_of(a * cos(theta))
     found = curves_of(problem, plot, Placement("potential", Place("one.yaml", 9), cases=numbers))
-    panel = panel_of(plot, found.panels[0], found, Notation(), WORDS)
+    panel = panel_of(plot, found.panels[0], found, Notation())
     assert panel.numbers == (r"$a = 120{}^{\circ}$",)
+
+
+def test_a_curve_is_cut_at_the_ends_of_the_vertical_axis_that_the_problem_states() -> None:
+    plot = plot_of(theta**2 - 1, Integer(-2), Integer(2), "length")
+    found = replace(curves(plot, 1), ends_up=(-0.5, 1.0))
+    panel = panel_of(plot, found.panels[0], found, Notation())
+    assert (panel.values[1], panel.values[3]) == (-0.5, 1.0) and panel.turns == (), "the minimum is outside"
+    drawn = [each.spots for each in line_of(panel, Frame(panel.values, panel.values)) if isinstance(each, Stroke)]
+    assert len(drawn) == 2 and {round(y, 9) for part in drawn for _, y in (part[0], part[-1])} == {-0.5, 1.0}
+    assert drawn[0][0][0] == pytest.approx(-(2**0.5), abs=1e-3)

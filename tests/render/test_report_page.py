@@ -26,13 +26,13 @@ def page(errata: tuple[Erratum, ...] = (), remarks: tuple[Remark, ...] = ()) -> 
 
 def test_a_step_is_told_by_its_symbol_and_the_number_of_its_equation() -> None:
     one, several = (page().steps(row) for row in ROWS)
-    assert "T" in one and one.endswith(f"~({WHOLE.numbers['energy']})")
+    assert "T" in one and one.endswith(rf"~\eqnumber{{{WHOLE.numbers['energy']}}}")
     assert several.count(", ") == 1
 
 
 def test_a_step_without_either_is_told_by_the_equations_that_it_comes_from() -> None:
     from_an_equation = Row(("law",), ("mass", "energy"), "answers.put_in", Grade.PROVED, 1, (), ())
-    assert page().steps(from_an_equation) == "from (1), (2)"
+    assert page().steps(from_an_equation) == r"from \eqnumber{1}, \eqnumber{2}"
     from_a_letter = ReportPage(replace(WHOLE, numbers={}), WORDS, NOTATION)
     assert from_a_letter.steps(from_an_equation).startswith("from ")
     assert "T" in from_a_letter.steps(from_an_equation)

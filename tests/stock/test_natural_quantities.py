@@ -172,7 +172,10 @@ def test_a_defined_letter_with_a_second_meaning_is_an_error_at_its_definition(
 
 
 def test_a_defined_quantity_is_not_proposed_again(tmp_path: Path) -> None:
-    found = solved(tmp_path, defined("{Omega: sqrt(k/m)}"))
+    strong = "    strong: {solution: motion_x, for: x, start: x_0, case: overdamped}\n"
+    found = solved(
+        tmp_path, edited(defined("{Omega: sqrt(k/m)}"), (strong, ""), ("answer: [weak, strong]", "answer: weak"))
+    )
     assert {str(s) for s in found["weak"].step.result.free_symbols} == {"x_0", "beta", "omega_1", "t"}
     assert str(found["omega_1"].step.result) == "sqrt(Omega**2 - beta**2)"
     assert "omega_0" not in found

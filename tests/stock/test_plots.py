@@ -14,7 +14,7 @@ from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Outline, Plot
 from derive.steps.record import Run
-from tests.figures.test_connected import library
+from tests.courses import ROOT, solved_once
 from tests.stock.described import CART_WITH_DRAG, complaints, course_with, edited, loaded, messages
 
 HOOP = """\
@@ -579,6 +579,10 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
         ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
         ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "the path is not in the plane of `sphere`"),
         ([("plot: [path_x, path_z]", "plot: path_z")], "`surfaces` has no effect on `path`, which is not a path"),
+        (
+            [("surfaces: [sphere, floor]", "up: [0 m, 1 m]")],
+            "`up` has no effect on `path`, which is not a plot of curves",
+        ),
     ],
 )
 def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
@@ -588,11 +592,13 @@ def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
     assert any(said in each for each in found), found
 
 
-def test_a_path_shows_the_circle_of_a_string(tmp_path: Path) -> None:
+def test_a_path_shows_the_circle_of_a_string() -> None:
     """A bob whose string goes slack flies inside this circle, from one of its points to another."""
-    run = Run()
-    run_solve(loaded(tmp_path, library("slack_pendulum")), run)
-    plot = next(each for each in run.drawings if isinstance(each, Plot) and each.across)
+    plot = next(
+        each
+        for each in solved_once(ROOT, "library/slack_pendulum")[1].drawings
+        if isinstance(each, Plot) and each.across
+    )
     (circle,) = plot.outlines
     assert circle.name == "circle_of_bob"
     x, y = circle.plane

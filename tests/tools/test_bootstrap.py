@@ -116,6 +116,7 @@ def test_the_tests_are_added_to_an_environment_without_them(checkout: Checkout) 
     assert checkout.asked() == WITH_TESTS
 
 
+@pytest.mark.long
 def test_a_failed_installation_says_why_without_an_address_and_is_repaired(checkout: Checkout) -> None:
     code, out, err = checkout.set_up(FAILING="yes", PIP_NO_INDEX="yes")
     assert code == 1

@@ -17,7 +17,13 @@ from derive.mechanics.lagrange import claims
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Load, Matter
 from derive.mechanics.model.forces import Damper, GivenForce
-from derive.mechanics.theorems import MULTIPLIERS, MULTIPLIERS_OF_BOTH, MULTIPLIERS_OF_RATES
+from derive.mechanics.theorems import (
+    MULTIPLIER_OF_ONE,
+    MULTIPLIER_OF_ONE_RATE,
+    MULTIPLIERS,
+    MULTIPLIERS_OF_BOTH,
+    MULTIPLIERS_OF_RATES,
+)
 from derive.steps.claims import lasts, vanishes
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.level import Level
@@ -247,6 +253,8 @@ FORCED_EQUATION = Rule(
             between=frozenset({constrained}),
         )
         for theorem, constrained in (
+            (MULTIPLIER_OF_ONE, "coordinates_once"),
+            (MULTIPLIER_OF_ONE_RATE, "rates_once"),
             (MULTIPLIERS, "coordinates"),
             (MULTIPLIERS_OF_RATES, "rates"),
             (MULTIPLIERS_OF_BOTH, "both"),
@@ -343,9 +351,10 @@ def difference(first: Expr, second: Expr) -> Expr:
 
 def _between(constraints: Sequence[Constraint]) -> str:
     """Return the quantities that the constraints relate: "coordinates", "rates", or "both" if some relate coordinates
-    and some rates."""
+    and some rates. For one constraint, "_once" is added."""
     in_rates = {c.in_rates for c in constraints}
-    return "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
+    found = "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
+    return f"{found}_once" if len(constraints) == 1 else found
 
 
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:

@@ -306,7 +306,8 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
     multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
     Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The word
-    under `between` must be "coordinates", "rates" or "both", as the stated functions require.
+    under `between` must be "coordinates", "rates" or "both", as the stated functions require, and for one function
+    "coordinates_once" or "rates_once".
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -320,6 +321,8 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
 
     kinds = {has_rates(function) for function in told.values()}
     word = "both" if len(kinds) > 1 else "rates" if True in kinds else "coordinates"
+    if len(told) == 1:
+        word = f"{word}_once"
     return facts.words.get("between") == word and all(map(is_stated, facts.inputs["letters"]))
 
 

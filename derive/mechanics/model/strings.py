@@ -52,11 +52,16 @@ class Line(Connection):
     through   one end, the pulleys or holes in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
+    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length; for a rope with mass, of
+              the tension at its bends
+    pieces    the straight pieces, in order
     """
 
     through: tuple[Location | Pulley, ...]
     is_rod: bool
     rope: Any = None
+    drawn: Symbol | None = None
+    pieces: tuple[Piece, ...] = ()
 
     @property
     def places(self) -> tuple[Location, ...]:
@@ -72,7 +77,23 @@ class Line(Connection):
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through = (e.moved(known) if isinstance(e, Pulley) else e.with_values(known) for e in self.through)
-        return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known))
+        pieces = tuple(piece.moved(known) for piece in self.pieces)
+        return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known), pieces=pieces)
+
+    def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
+        """Return the ends of pieces that pull a particle, a body or a massless pulley in its force diagram, if `drawn`
+        is a symbol: the place at which a piece pulls, and its other end."""
+        if self.drawn is None or self.rope is not None:
+            return []
+        ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
+        if not isinstance(of, Pulley):
+            owners = [[piece.of[k] for piece in self.pieces] for k in (0, 1)]
+            return [end for k in (0, 1) for end, own in zip(ends[k], owners[k], strict=True) if own == of]
+        found = []
+        for k, each in enumerate(self.through):
+            if each == of or isinstance(each, Location) and each.components == of.at.components:
+                found += [*ends[1][max(k - 1, 0) : k], *ends[0][k : k + 1]]
+        return found
 
 
 @dataclass(frozen=True)
@@ -128,6 +149,10 @@ class Piece:
     end: Location
     of: tuple[Any, Any]
 
+    def moved(self, known: Mapping[Symbol, Expr]) -> Piece:
+        of = tuple(moved(each, known) for each in self.of)
+        return Piece(self.start.with_values(known), self.end.with_values(known), (of[0], of[1]))
+
     def pulls(self, tension: Symbol) -> tuple[PointForce, PointForce]:
         """The forces on the two ends: each is the tension, directed towards the other end."""
         along = direction_between(self.start, self.end)
@@ -164,7 +189,13 @@ def wire(of: Any) -> Wire:
 
 
 def string(
-    start: Any, end: Any, length: Any = None, over: Sequence[Any] = (), tension: str = "", mass_of: Any = None
+    start: Any,
+    end: Any,
+    length: Any = None,
+    over: Sequence[Any] = (),
+    tension: str = "",
+    mass_of: Any = None,
+    drawn_tension: str = "",
 ) -> tuple[Line | Constraint, ...]:
     """A massless inextensible string between two ends, over massless frictionless pulleys or through smooth holes.
     With `mass_of`, it is a uniform rope that has the mass of a particle.
@@ -179,15 +210,23 @@ def string(
     mass_of      for a uniform rope: the particle that has the mass of the rope. All pieces of the rope must have the
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
                  height of the particle must be constant; gravity acts on each piece of the rope
+    drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string, so
+                 that no equation contains the tension; for a rope with mass, the tension at its bends
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
-    found = _of_length("string", (start, *over, end), length, tension)
+    if tension and drawn_tension:
+        message = f"force diagrams show the tension `{tension}`, so `{drawn_tension}` has no effect"
+        raise Rejected(Complaint("twice", message, help="leave out `drawn_tension`"))
+    line, *more = _of_length("string", (start, *over, end), length, tension)
+    assert isinstance(line, Line)
+    if drawn_tension:
+        line = replace(line, drawn=scalar(drawn_tension), pieces=tuple(_pieces((start, *over, end))))
     if mass_of is None:
-        return found
-    _check_rope(found[0], mass_of, tension)
-    return (replace(found[0], rope=mass_of),)
+        return line, *more
+    _check_rope(line, mass_of, tension)
+    return (replace(line, rope=mass_of),)
 
 
 def _check_rope(line: Any, particle: Any, tension: str) -> None:

@@ -394,6 +394,17 @@ def vanishes_there(sign_changes: bool) -> Predicate:
     return is_so
 
 
+def vanishes_for_equal_symbols(facts: Judged) -> bool:
+    """Whether the answer vanishes if two symbols are equal, and changes its sign there."""
+    is_symbol = isinstance(facts.result.left, Symbol) and isinstance(facts.result.right, Symbol)
+    return is_symbol and bool(vanishes_there(True)(facts))
+
+
+def is_in_the_result(facts: Judged, told: Any) -> bool:
+    """Whether the stated symbol is the left side of the result."""
+    return bool(told == facts.result.left)
+
+
 def grows_without_bound_there(facts: Judged) -> bool:
     """Whether the amplitude exceeds every bound near the stated value of the symbol, where the free oscillation has the
     same angular frequency."""

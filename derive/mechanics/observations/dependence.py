@@ -204,12 +204,13 @@ ZERO_OF = Rule(
     source="Morin, *Introduction to Classical Mechanics*, section 1.1",
     outcomes={
         "changes": claims.vanishes_there(True),
+        "equal_masses": claims.vanishes_for_equal_symbols,
         "touches": claims.vanishes_there(False),
         "changes_at_angle": claims.vanishes_there(True),
         "touches_at_angle": claims.vanishes_there(False),
     },
     evidence={"put_in": CHECK},
-    named={"place": claims.is_the_result, "size": claims.is_rounded},
+    named={"place": claims.is_the_result, "size": claims.is_rounded, "letter": claims.is_in_the_result},
 )
 
 
@@ -219,7 +220,13 @@ def zero_of(view: View) -> Observed:
         for base, power in _factors(explicit(of.value)):
             place = _zero_in(view, base)
             if place is not None and not _is_told(view, place):
-                yield _zero(of, place, "changes" if power % 2 else "touches")
+                yield _zero(of, place, _change(view, place) if power % 2 else "touches")
+
+
+def _change(view: View, place: Relation) -> str:
+    """Return the outcome for a value with a change of sign."""
+    are_masses = all(view.letters.get(side) == "mass" for side in (place.left, place.right))
+    return "equal_masses" if are_masses else "changes"
 
 
 def _factors(value: Expr) -> list[tuple[Expr, int]]:
@@ -266,7 +273,11 @@ def _zero(of: Quantity, place: Relation, outcome: str) -> Quantity:
         routes={"put_in": lambda found: (explicit(of.value).xreplace({found.left: explicit(found.right)}), Integer(0))},
         outcome=f"{outcome}_at_angle" if at_angle else outcome,
         phrase_data=PhraseData(
-            named={"place": place, **({"size": _in_degrees(place.right)} if at_angle else {})},
+            named={
+                "place": place,
+                **({"size": _in_degrees(place.right)} if at_angle else {}),
+                **({"letter": place.left} if outcome == "changes" and not at_angle else {}),
+            },
             outcome_data={"angle": place.right} if at_angle else {},
         ),
         key=f"{of.key}_zero",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Rational, diff, linsolve, prime, sqrt
 
@@ -177,11 +178,17 @@ def perturbation_rate_squared(
         )
     }
     (first, first_other), (second, second_other) = names[i], names[j]
+    in_letters = first.is_Symbol and second.is_Symbol
+
+    def law(*_: Any) -> Expr:
+        if in_letters:
+            return -first_other * second_other / (first * second)
+        return Ratio(Factors(Integer(-1), first_other, second_other), Factors(first, second))
 
     return establish(
         PERTURBATION_RATE_SQUARED,
         Pow(scalar(symbol), 2),
-        lambda *_: Ratio(Factors(Integer(-1), first_other, second_other), Factors(first, second)),
+        law,
         {},
         lines=Lines(
             put_in=None,
@@ -386,7 +393,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
     return establish(
         BODY_CONE_RATE,
         scalar(symbol),
-        lambda: Factors(Ratio(coupling, across), z),
+        lambda: coupling * z / across if across.is_Symbol else Factors(Ratio(coupling, across), z),
         {},
         lines=Lines(put_in=None),
         routes={"angle": lambda found: (found, rate_of_angle())},

@@ -319,6 +319,7 @@ def _shape(
 
     entries = zip(equations.together.displacements, column, strict=True)
     moved = next(s.symbol for s, entry in entries if not is_zero(entry))
+    row, ratio = _ratio(equations, frequency, column)
     return establish(
         MODE_SHAPE,
         MatrixSymbol(f"{letter_of_shapes(column.free_symbols)}_{n}", len(column), 1),
@@ -328,7 +329,8 @@ def _shape(
         routes={"motion": moving, "orthogonal": across},
         outcome=_shape_outcome(root, column),
         phrase_data=PhraseData(
-            points_to={"linear": linear[0]},
+            points_to=row or {"linear": linear[0]},
+            formulas=ratio,
             outcome_data={
                 "squared": root.value,
                 **equations.judged_by(),
@@ -340,6 +342,32 @@ def _shape(
         key=f"{equations.start}mode_{n}",
         parents=[*linear, *before],
     )
+
+
+def _ratio(
+    equations: Equations[Conservative], frequency: Quantity, column: MatrixBase
+) -> tuple[dict[str, Quantity], dict[str, tuple[Relation, Relation]]]:
+    """Return the equation that determines the ratio of two amplitudes, and this ratio in terms of the frequency.
+
+    The result is empty for more than two coordinates, for a repeated or free root, and for a coordinate at rest.
+    """
+    root = frequency.needed(Mode).root
+    if len(column) != 2 or root.times > 1 or root.sign == 0 or any(map(is_zero, column)):
+        return {}, {}
+    letter, square = equations.letter, frequency.symbol**2
+    here = {letter**2: -square if root.sign == -1 else square}
+    rows = equations.matrix(I * letter)
+    # The coefficient in the denominator must not vanish for this mode.
+    usable = [i for i in (0, 1) if not is_zero(tidied(rows[i, 1].subs(letter**2, root.value)))]
+    if not usable:
+        return {}, {}
+    i = min(usable, key=lambda i: (rows[i, 0] / rows[i, 1]).count_ops())
+    one, other = equations.moving
+    again = equations.factors_of_amplitudes(cos(letter * T))
+    given = tidied(-rows[i, 0].xreplace(here) / rows[i, 1].xreplace(here))
+    second = tidied(-again[i, 0].expand().xreplace(here) / again[i, 1].expand().xreplace(here))
+    name = Ratio(other, one)
+    return {"row": equations.linear[i]}, {"ratio": (Relation(name, "=", given), Relation(name, "=", second))}
 
 
 def _shape_outcome(root: CharacteristicRoot, column: MatrixBase) -> str:

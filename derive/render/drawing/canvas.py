@@ -148,7 +148,10 @@ def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
     if isinstance(label, tuple):
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)
-    return (Span(rf"$\mathrm{{{label}}}$"),) if isinstance(label, str) else runs(notation.result(label))
+    if isinstance(label, str):
+        spaced = label.replace(" ", "\\;")  # mathematical text has no spaces of its own
+        return (Span(rf"$\mathrm{{{spaced}}}$"),)
+    return runs(notation.result(label))
 
 
 # --- lines -----------------------------------------------------------------------------------------------------------

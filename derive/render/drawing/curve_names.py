@@ -17,6 +17,7 @@ ENOUGH = 30.0  # in points: a greater distance from the other curves is not bett
 STEP = 2.0  # in points: the distance between the points that represent a curve
 TRIED = 48  # the number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
+LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
 ENDS = 0.04  # part of a curve at either end that has no name
 
 
@@ -70,6 +71,32 @@ def beside_curves(
             return None
         found.append(box)
     return found
+
+
+def on_curve(
+    own: Sequence[Spot], size: tuple[float, float], panel: Extent, taken: Sequence[Extent], lines: Sequence[Spot]
+) -> Extent | None:
+    """Return the box of a name in a gap of its curve, far from other lines, or None if no place is clear.
+
+    own     points of the curve, close to each other
+    lines   points of all other lines
+    """
+    wide, high = size
+    every = [own[i] for i in range(0, len(own), max(1, len(own) // TRIED))]
+    boxes = [(x - wide / 2, y - high / 2, x + wide / 2, y + high / 2) for x, y in every]
+    tried = [
+        (min(ENOUGH, _distance(box, lines)), box)
+        for box in boxes
+        if is_inside(box, panel)
+        and is_clear(box, lines, taken)
+        and sum(is_within(x, box) for x in own) < LONGEST * len(own)
+    ]
+    return max(tried, key=lambda each: each[0], default=(0.0, None))[1]
+
+
+def is_within(spot: Spot, box: Extent) -> bool:
+    """Return whether a point is in a box or close to it."""
+    return box[0] - CLEAR < spot[0] < box[2] + CLEAR and box[1] - CLEAR < spot[1] < box[3] + CLEAR
 
 
 def _boxes(own: Sequence[Spot], size: tuple[float, float]) -> list[Extent]:

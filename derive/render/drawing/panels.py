@@ -10,12 +10,11 @@ from typing import Any, TypeAlias
 from derive.algebra.expressions import Amount
 from derive.course.given import Measured
 from derive.figures.branches import Bifurcations
-from derive.figures.extrema import MINIMUM
+from derive.figures.extrema import MINIMUM, Extremum
 from derive.figures.marks import Outline, Plot
 from derive.figures.portrait import LevelLine, Portrait
 from derive.figures.space import Spot
-from derive.page.plots import DEGREES, Axis, Curve, Curves, to_three_figures, told_value, with_unit
-from derive.page.wording import Phrases
+from derive.page.plots import DEGREES, NEAR, Axis, Curve, Curves, curve_letters, to_three_figures, with_names, with_unit
 from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
 from derive.render.notation.latex import unit_latex
@@ -33,10 +32,13 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
+NEAR_ZERO = 0.25  # a curve above zero whose distance from zero is a smaller part of its height has zero on its axis
+FEWEST = 3  # least number of ticks, if smaller steps can give it
+AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
-Turn: TypeAlias = tuple[Spot, bool, tuple[str, str]]
+Turn: TypeAlias = tuple[Spot, bool, tuple[str, ...]]
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ class Trace:
     """One curve of a panel.
 
     points   the curve, in the units of the axes
-    turns    the extrema: the point, whether it is a minimum, and its names, with and without the kind
+    turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
+             axis, the shortest last; there is none if a tick already shows the place
     name     the name of the curve; empty if the panel has no other curve
     """
 
@@ -80,6 +83,8 @@ class Panel:
     numbers          the texts above the panel: its letter, and the numbers that were substituted
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
+    levels           the values on these curves
+    rests            the points of stable rest in a phase portrait, like extrema of a curve
     outlines         the lines of surfaces in the plane of a path
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
@@ -97,6 +102,8 @@ class Panel:
     is_path: bool = False
     shape: float | None = None
     lines: tuple[LevelLine, ...] = ()
+    levels: tuple[str, ...] = ()
+    rests: tuple[Turn, ...] = ()
     outlines: tuple[tuple[Spot, ...], ...] = ()
     branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
     changes: tuple[Mark, ...] = ()
@@ -109,13 +116,14 @@ class Panel:
 
     @property
     def turns(self) -> tuple[Turn, ...]:
-        """Return the extrema of all curves."""
-        return tuple(turn for trace in self.traces for turn in trace.turns)
+        """Return the extrema of all curves, and the points of rest."""
+        return (*(turn for trace in self.traces for turn in trace.turns), *self.rests)
 
     def texts(self) -> Iterator[str]:
         yield from (text for _, text in (*self.across, *self.up))
         yield from (name for _, _, names in self.turns for name in names)
         yield from (name for name, _ in self.branches)
+        yield from self.levels
         yield from (change.name for change in self.changes)
         yield from (name for _, name in self.points)
         yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
@@ -126,7 +134,6 @@ def panel_of(
     own: Sequence[Curve],
     curves: Curves,
     notation: Notation,
-    words: Phrases,
     letter: str = "",
     height: float = HEIGHT,
 ) -> Panel:
@@ -137,7 +144,7 @@ def panel_of(
         return portrait_panel(plot, own[0], own[0].portrait, curves, notation, letter)
     if own[0].diagram:
         return diagram_panel(plot, own[0], own[0].diagram, curves, notation, letter)
-    return curve_panel(plot, own, curves, notation, words, letter, height)
+    return curve_panel(plot, own, curves, notation, letter, height)
 
 
 def curve_panel(
@@ -145,11 +152,14 @@ def curve_panel(
     own: Sequence[Curve],
     curves: Curves,
     notation: Notation,
-    words: Phrases,
     letter: str,
     height: float,
 ) -> Panel:
-    """Return the panel of curves; the axes leave room for the words below a minimum and above a maximum."""
+    """Return the panel of curves; the axes leave room for the names below a minimum and above a maximum."""
+    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.upper)]
+    start, end = min(ends), max(ends)
+    power = _power(start, end, curves.variable)
+    across = _scaled_ticks(power, start, end, MOST_ACROSS, curves.variable.in_degrees)
     traces = tuple(
         Trace(
             _scaled(curve.spots, curves.variable, curves.up),
@@ -157,7 +167,7 @@ def curve_panel(
                 (
                     (each.at * curves.variable.per_unit, each.value * curves.up.per_unit),
                     each.kind == MINIMUM,
-                    _names_of(words.drawings[each.kind], _mathtext_of_value(told_value(curves.up, each))),
+                    _name_of_place(each, curves.variable, across, notation),
                 )
                 for each in curve.marked
             ),
@@ -166,25 +176,36 @@ def curve_panel(
         for curve in own
     )
     _, low, _, high = _box(traces)
-    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.upper)]
-    start, end = min(ends), max(ends)
+    low = 0.0 if 0 < low < NEAR_ZERO * (high - low) else low
+    if curves.ends_up:
+        low, high = (each * curves.up.per_unit for each in curves.ends_up)
+        traces = tuple(
+            replace(each, turns=tuple(turn for turn in each.turns if low < turn[0][1] < high)) for each in traces
+        )
     tall = (high - low) or abs(high) or 1.0
-    lowest = {is_lowest for trace in traces for _, is_lowest, _ in trace.turns}
+    lowest = {is_lowest for trace in traces for _, is_lowest, names in trace.turns if names}
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
-    powers = _power(start, end, curves.variable), _power(low, high, curves.up)
+    below, above = (0.0, 0.0) if curves.ends_up else (below, above)
+    power_up = _power(low, high, curves.up)
     return Panel(
         traces=traces,
         values=(start, low - below, end, high + above),
-        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees),
-        up=_scaled_ticks(powers[1], low, high, MOST_UP, curves.up.in_degrees, (below, above)),
+        across=across,
+        up=_scaled_ticks(power_up, low, high, MOST_UP, curves.up.in_degrees, (below, above)),
         names=(
-            _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
-            _axis_name(_labels(own), curves.up.unit, notation, powers[1]),
+            _axis_name((plot.variable,), curves.variable.unit, notation, power),
+            _axis_name(_labels(own), curves.up.unit, notation, power_up),
         ),
         numbers=_title(letter, own, curves, notation),
-        points=tuple(_point(*each, curves) for each in curves.points(own)),
+        points=tuple(_point(*each, curves) for each in curves.points(own) if not _is_tick_at_end(each, across, curves)),
         is_signed=low < -BARELY * tall and high > BARELY * tall,
     )
+
+
+def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Curves) -> bool:
+    """Whether a point is at the end of all curves, where a tick already shows its place."""
+    x, last = point[0] * curves.variable.per_unit, max(curve.upper for curve in curves.curves)
+    return point[0] == last and _has_tick(x, across)
 
 
 def _point(at: float, value: float, is_zero: bool, curves: Curves) -> tuple[Spot, str]:
@@ -249,10 +270,12 @@ def portrait_panel(
     """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
     powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
+    across = _scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees)
+    assert plot.levels is not None
     return Panel(
         traces=(),
         values=(start, portrait.low, end, portrait.high),
-        across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees),
+        across=across,
         up=_scaled_ticks(powers[1], portrait.low, portrait.high, MOST_UP),
         names=(
             _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
@@ -261,7 +284,23 @@ def portrait_panel(
         numbers=_title(letter, [curve], curves, notation),
         shape=PORTRAIT,
         lines=tuple(replace(line, points=_scaled(line.points, curves.variable, curves.up)) for line in portrait.lines),
+        levels=tuple(
+            f"${_mathtext(notation.layout(value)) if value.free_symbols else _with_unit(number, plot.levels.unit)}$"
+            for (value, _), (number, _) in zip(plot.levels.values, portrait.values, strict=True)
+        ),
+        rests=tuple(_rest(centre, curve, curves, across, notation) for centre in portrait.centres),
     )
+
+
+def _rest(centre: Spot, curve: Curve, curves: Curves, across: Ticks, notation: Notation) -> Turn:
+    """Return a point of stable rest, with the name of its place on the horizontal axis."""
+    found = with_names([Extremum(*centre, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))[0]
+    (spot,) = _scaled([centre], curves.variable, curves.up)
+    return spot, True, _name_of_place(found, curves.variable, across, notation)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return _mathtext_of_value(to_three_figures(value, unit))
 
 
 def diagram_panel(
@@ -363,9 +402,13 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[flo
         if in_degrees and span >= 20
         else [tens * k for k in (0.1, 0.2, 0.5, 1, 2, 5)]
     )
-    step = next((step for step in steps if span / step <= most), steps[-1])
-    first = max(floor(low / step + 1e-9), ceil((low - room[0]) / step - 1e-9))
-    last = min(ceil(high / step - 1e-9), floor((high + room[1]) / step + 1e-9))
+    every = [step for step in steps if span / step <= most] or [steps[-1]]
+    smaller = [step for step in steps if step < every[0]]
+    for step in (every[0], *smaller[:-3:-1]):
+        first = max(floor(low / step + 1e-9), ceil((low - room[0]) / step - 1e-9))
+        last = min(ceil(high / step - 1e-9), floor((high + room[1]) / step + 1e-9))
+        if last - first + 1 >= FEWEST:
+            break
     decimals = max(0, -floor(log10(step) + 1e-9))
     return tuple((step * k, f"${step * k:.{decimals}f}$") for k in range(first, last + 1))
 
@@ -373,9 +416,20 @@ def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[flo
 # --- names -----------------------------------------------------------------------------------------------------------
 
 
-def _names_of(kind: str, value: str) -> tuple[str, str]:
-    """Return the names of an extremum, with and without its kind."""
-    return rf"$\mathrm{{{kind}}}\;\;{value}$", f"${value}$"
+def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> tuple[str, ...]:
+    """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`. A place at a tick
+    needs no number."""
+    x = extremum.at * axis.per_unit
+    value = [] if _has_tick(x, ticks) else [_with_unit(x, axis.unit)]
+    symbol = [_mathtext(notation.layout(extremum.name))] if extremum.name is not None else []
+    forms = dict.fromkeys((" = ".join([*symbol, *value]), *symbol))
+    return tuple(f"${form}$" for form in forms if form)
+
+
+def _has_tick(x: float, ticks: Ticks) -> bool:
+    """Whether a tick shows this place."""
+    places = [at for at, _ in ticks]
+    return any(abs(x - at) <= AT_TICK * (max(places) - min(places)) for at in places)
 
 
 def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> tuple[str, ...]:
@@ -390,7 +444,9 @@ def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation
 
 def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
     """Return the name of one of several curves in a panel."""
-    return "$" + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
+    letter = curve_letters(curves)[curves.curves.index(curve)] if curves.is_lettered else ""
+    first = rf"({{\mathrm{{{letter}}}}})\;\;" if letter else ""
+    return "$" + first + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
 
 
 def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:

@@ -6,8 +6,8 @@ path have the same unit, both axes have the same scale.
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
 names are in a legend in a corner of the panel or, if no corner is free, above the panel.
 
-Numbers and names have the font of the page. The name of a maximum is above the curve, and the name of a minimum is
-below the curve.
+Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis; its name is
+the place there, above a maximum and below a minimum if there is room.
 """
 
 from __future__ import annotations
@@ -15,17 +15,24 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, combinations, pairwise
+from itertools import accumulate, groupby, pairwise
 from math import dist
-from typing import TypeAlias
 
 from derive.figures.marks import Plot
 from derive.figures.pieces import Bullet, Piece, Stroke
 from derive.figures.space import Spot
 from derive.page.plots import Curves, panel_letters
-from derive.page.wording import Phrases
 from derive.render.drawing.canvas import LINE, QUIET, shapes_of
-from derive.render.drawing.curve_names import beside_curves, corner_for, dots_of, is_clear, is_inside, rows_of
+from derive.render.drawing.curve_names import (
+    beside_curves,
+    corner_for,
+    dots_of,
+    is_clear,
+    is_inside,
+    is_within,
+    on_curve,
+    rows_of,
+)
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
 from derive.render.drawing.panels import Mark, Panel, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
@@ -46,9 +53,6 @@ ROW = 17.0  # in points: the height of one row of numbers above a panel, and of 
 SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
 PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
-
-
-Named: TypeAlias = tuple[float, float, str, bool]  # a name: x of its middle, y of its edge, text, whether it is below
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,6 @@ def plot_sheet(
     plot: Plot,
     curves: Curves,
     notation: Notation,
-    words: Phrases,
     width: float | None,
     alt: str,
     letters: Letters = letters_of,
@@ -113,7 +116,7 @@ def plot_sheet(
     wide = (width or min(PANEL, WIDEST / len(curves.panels))) * CM
     height = wide * TALL / PANEL - AROUND
     panels = [
-        panel_of(plot, own, curves, notation, words, letter, height)
+        panel_of(plot, own, curves, notation, letter, height)
         for letter, own in zip(panel_letters(curves), curves.panels, strict=True)
     ]
     writing = Writing(letters({text for panel in panels for text in panel.texts()}))
@@ -169,10 +172,9 @@ def _width_of_row(widths: Sequence[float]) -> float:
 def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot) -> Iterator[Shape]:
     """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
-    yield from shapes_of(list(_pieces(panel, frame)))
-    yield from shapes_of([piece for turn in names.marked for piece in _dot(turn, frame)])
-    for middle, y, name, is_lowest in names.turns:
-        yield writing.at((middle, y), name, SMALLEST, (0.5, float(is_lowest)))
+    yield from shapes_of(list(_pieces(panel, frame, names.gaps)))
+    yield from shapes_of([piece for turn in panel.turns for piece in _dot(turn, frame)])
+    yield from names.turns
     yield from names.curves
     for place, _ in panel.points:
         yield from shapes_of([Bullet(frame.spot(place), DOT, "ink")])
@@ -202,28 +204,30 @@ class Names:
     """The names of the curves of a panel and of their extrema.
 
     curves   the names of several curves, as shapes
-    marked   the extrema that have dots
     turns    the names of extrema
     above    the height up to which a legend above the panel reaches
     points   the values at zeros and at points at which two curves meet
+    gaps     the gaps for names in the curves of a phase portrait: the index of the curve, and the box
     """
 
     curves: tuple[Shape, ...]
-    marked: tuple[Turn, ...]
-    turns: tuple[Named, ...]
+    turns: tuple[Shape, ...] = ()
     above: float = 0.0
     points: tuple[Shape, ...] = ()
+    gaps: tuple[tuple[int, Extent], ...] = ()
 
 
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
-    """Return the names in a panel. If there are several curves, extrema are marked only where their values have room.
-    The names of the curves are next to the curves, else in a legend in the panel, else in a legend above the panel."""
+    """Return the names in a panel. The names of several curves are next to the curves, else in a legend in the panel,
+    else in a legend above the panel."""
     if panel.branches:
         return _names_of_branches(panel, frame, writing)
+    if panel.lines:
+        return _names_of_levels(panel, frame, writing)
     if not panel.has_several:
-        found = [_beside_dot(*turn[:2], turn[2][0], frame, writing)[1] for turn in panel.turns]
-        points = tuple(shape for shape, _ in _names_of_points(panel, frame, writing, found))
-        return Names((), panel.turns, tuple(_names_with_room(panel, frame, writing)), points=points)
+        turns = _names_of_turns(panel, frame, writing, ())
+        points = _names_of_points(panel, frame, writing, [box for _, box in turns])
+        return Names((), tuple(shape for shape, _ in turns), points=tuple(shape for shape, _ in points))
     known = list(_names_of_points(panel, frame, writing, ()))
     named = _names_of_curves(panel, frame, writing, [box for _, box in known])
     return replace(named, points=tuple(shape for shape, _ in known))
@@ -236,8 +240,7 @@ def _names_of_points(
     left, below, right, above = frame.paper
     inner = left + TICK, below + TICK + PAD, right, above
     dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
-    if panel.is_signed:
-        dots += dots_of([(left, frame.spot((0.0, 0.0))[1]), (right, frame.spot((0.0, 0.0))[1])])
+    dots += _dots_of_thin_lines(panel, frame)
     used = list(taken)
     for place, name in panel.points:
         wide, high = writing.size(name, SMALLEST)
@@ -256,29 +259,32 @@ def _names_of_curves(panel: Panel, frame: Frame, writing: Writing, points: Seque
     sizes = [writing.size(trace.name, SMALLEST) for trace in panel.traces]
     left, below, right, above = frame.paper
     inner = left + TICK + PAD, below + TICK + PAD, right, above
-    outlines = [dot for line in panel.outlines for dot in dots_of(frame.spots(line))]
-    turns = _clear_of_curves(panel, frame, writing, lines, points)
-    boxes = beside_curves(lines, sizes, inner, [*(box for _, _, box in turns), *points], outlines)
-    if boxes is None and (boxes := beside_curves(lines, sizes, inner, points, outlines)):
-        turns = _clear_of_curves(panel, frame, writing, lines, [*boxes, *points])
-    marked, named = tuple(turn for turn, _, _ in turns), tuple(name for _, name, _ in turns)
+    others = [dot for line in panel.outlines for dot in dots_of(frame.spots(line))]
+    others += _dots_of_thin_lines(panel, frame)
+    turns = _names_of_turns(panel, frame, writing, points)
+    boxes = beside_curves(lines, sizes, inner, [*(box for _, box in turns), *points], others)
+    if boxes is None and (boxes := beside_curves(lines, sizes, inner, points, others)):
+        turns = _names_of_turns(panel, frame, writing, [*boxes, *points])
+    named = tuple(shape for shape, _ in turns)
     if boxes:
         every = zip(panel.traces, boxes, strict=True)
         shapes = [writing.at(box[:2], trace.name, SMALLEST, (0.0, 0.0)) for trace, box in every]
-        return Names(tuple(shapes), marked, named)
+        return Names(tuple(shapes), named)
     size = _size_of_legend(sizes)
-    box = corner_for(
-        size,
-        [dot for line in (*lines, outlines) for dot in line],
-        [*(box for _, _, box in turns), *points],
-        frame.paper,
-    )
+    dots = [dot for line in (*lines, others) for dot in line]
+    box = corner_for(size, dots, [*(box for _, box in turns), *points], frame.paper)
     if box:
-        legend = _legend(panel, writing, sizes, [[i] for i in range(len(sizes))], (box[0], box[3]))
-        return Names(tuple(legend), marked, named)
+        legend = _legend(panel, writing, sizes, [[i] for i in _from_the_top(panel)], (box[0], box[3]))
+        return Names(tuple(legend), named)
     rows = rows_of([SAMPLE + PAD + wide + BETWEEN for wide, _ in sizes], right - left)
     top = above + PAD + size[1] / len(sizes) * len(rows)
-    return Names(tuple(_legend(panel, writing, sizes, rows, (left, top))), marked, named, top)
+    return Names(tuple(_legend(panel, writing, sizes, rows, (left, top))), named, top)
+
+
+def _from_the_top(panel: Panel) -> list[int]:
+    """Return the indices of the curves in the order in which they are above each other, on average."""
+    heights = [sum(y for _, y in trace.points) / len(trace.points) for trace in panel.traces]
+    return sorted(range(len(heights)), key=lambda i: -heights[i])
 
 
 def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
@@ -306,7 +312,32 @@ def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
         if found is not None:
             taken.append(found[0])
             shapes.append(writing.at(found[0][:2], name, SMALLEST, (0.0, 0.0)))
-    return Names(tuple(shapes), (), ())
+    return Names(tuple(shapes))
+
+
+def _names_of_levels(panel: Panel, frame: Frame, writing: Writing) -> Names:
+    """Return the values on the curves of a phase portrait, each in a gap of the longest curve of this value, and the
+    names of the points of rest. A value without a clear place is left out; the alternative text has all values."""
+    turns = _names_of_turns(panel, frame, writing, ())
+    taken = [box for _, box in turns]
+    lines = [dots_of(frame.spots(line.points)) for line in panel.lines]
+    left, below, right, above = frame.paper
+    inner = left + TICK + PAD, below + TICK + PAD, right, above
+    shapes: list[Shape] = []
+    gaps: list[tuple[int, Extent]] = []
+    for i, name in enumerate(panel.levels):
+        own = [k for k, line in enumerate(panel.lines) if line.of == i]
+        if own:
+            longest = max(own, key=lambda k: len(lines[k]))
+            others = [dot for k, line in enumerate(lines) if k != longest for dot in line]
+            others += _dots_of_thin_lines(panel, frame)
+            others += [frame.spots(panel.lines[longest].points)[at] for at in panel.lines[longest].heads]
+            box = on_curve(lines[longest], writing.size(name, SMALLEST), inner, taken, others)
+            if box is not None:
+                taken.append(box)
+                gaps.append((longest, box))
+                shapes.append(writing.at(box[:2], name, SMALLEST, (0.0, 0.0)))
+    return Names(tuple(shapes), tuple(shape for shape, _ in turns), gaps=tuple(gaps))
 
 
 def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
@@ -357,72 +388,73 @@ def _dot(turn: Turn, frame: Frame) -> Iterator[Piece]:
         yield Bullet(frame.spot(place), 0.64 * DOT, "blank")
 
 
-def _clear_of_curves(
-    panel: Panel, frame: Frame, writing: Writing, lines: Sequence[Sequence[Spot]], taken: Sequence[Extent]
-) -> list[tuple[Turn, Named, Extent]]:
-    """Return the extrema of each curve on which all values have room between the curves, with the positions and the
-    boxes of the values.
+def _names_of_turns(
+    panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
+) -> list[tuple[Shape, Extent]]:
+    """Return the names of the extrema with their boxes. If the names on a curve have no room, they have their shortest
+    form; if these have no room, the curve has no names.
 
-    lines   the points of each curve
     taken   boxes of other names
     """
-    found: list[tuple[Turn, Named, Extent]] = []
-    for i, trace in enumerate(panel.traces):
-        used = [*taken, *(box for _, _, box in found)]
-        named = [_beside_dot(*turn[:2], turn[2][1], frame, writing) for turn in trace.turns]
-        boxes = [box for _, box in named]
-        links = [_between(frame.spot(turn[0]), box) for turn, box in zip(trace.turns, boxes, strict=True)]
-        others = [dot for k, dots in enumerate(lines) if k != i for dot in dots]
-        if (
-            all(is_inside(box, frame.paper) and is_clear(box, [*others, *lines[i]], used) for box in boxes)
-            and all(is_clear(link, others, used) for link in links)
-            and not any(_overlap(*pair) for pair in combinations(boxes, 2))
-        ):
-            found += [(turn, name, box) for turn, (name, box) in zip(trace.turns, named, strict=True)]
+    left, below, right, above = frame.paper
+    inner = left + TICK + PAD, below + TICK + PAD, right, above + PAD
+    curves = (*(trace.points for trace in panel.traces), *(line.points for line in panel.lines))
+    dots = [dot for points in curves for dot in dots_of(frame.spots(points))]
+    dots += _dots_of_thin_lines(panel, frame)
+    found: list[tuple[Shape, Extent]] = []
+    for turns in (*(trace.turns for trace in panel.traces), *((rest,) for rest in panel.rests)):
+        for form in (0, -1):
+            own: list[tuple[Shape, Extent]] = []
+            named = [(place, is_lowest, names[form]) for place, is_lowest, names in turns if names]
+            for place, is_lowest, name in named:
+                used = [*taken, *(box for _, box in (*found, *own))]
+                tried = _beside_turn(frame.spot(place), is_lowest, writing.size(name, SMALLEST), frame.paper)
+                box = next((box for box in tried if is_inside(box, inner) and is_clear(box, dots, used)), None)
+                own += [(writing.at(box[:2], name, SMALLEST, (0.0, 0.0)), box)] if box else []
+            if len(own) == len(named):
+                found += own
+                break
     return found
 
 
-def _between(spot: Spot, box: Extent) -> Extent:
-    """Return the space between an extremum and its name."""
-    return spot[0], min(spot[1], box[3]), spot[0], max(spot[1], box[1])
+def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: Extent) -> Iterator[Extent]:
+    """Yield boxes of the name of an extremum: above a maximum or below a minimum, next to the line that leads to the
+    axis, then next to this line close to the axis, then on the other side of the curve."""
+    (x, y), (wide, high) = spot, size
+    above, below = y + PAD + DOT, y - PAD - DOT - high
+    middle = max(paper[0] + TICK + PAD, min(x - wide / 2, paper[2] - wide))
+    beside = (x + PAD, x - PAD - wide)
+    at_axis = paper[1] + TICK + PAD
+    if not is_lowest:
+        yield middle, above, middle + wide, above + high
+    for bottom in (below, at_axis):
+        for left in beside:
+            yield left, bottom, left + wide, bottom + high
+    if is_lowest:
+        yield middle, above, middle + wide, above + high
 
 
-def _names_with_room(panel: Panel, frame: Frame, writing: Writing) -> list[Named]:
-    """Return the name of each extremum with its position in the panel: x of its middle, and y of its edge next to the
-    dot. Also return whether the extremum is a minimum.
-
-    If a name would cover another, the names are only the values, without the words "minimum" and "maximum". If this
-    does not help, there are no names; the alternative text has the values of all extrema.
-    """
-    for k in (0, 1):
-        found = [_beside_dot(*turn[:2], turn[2][k], frame, writing) for turn in panel.turns]
-        if not any(_overlap(one, other) for (_, one), (_, other) in combinations(found, 2)):
-            return [each for each, _ in found]
-    return []
+def _dots_of_thin_lines(panel: Panel, frame: Frame) -> list[Spot]:
+    """Return points of the line at zero and of the lines from the extrema to the horizontal axis."""
+    lines = [frame.spots(_line_to_axis(turn, frame)) for turn in panel.turns]
+    if panel.is_signed:
+        zero = frame.spot((0.0, 0.0))[1]
+        lines.append(((frame.paper[0], zero), (frame.paper[2], zero)))
+    return [dot for line in lines for dot in dots_of(line)]
 
 
-def _beside_dot(place: Spot, is_lowest: bool, name: str, frame: Frame, writing: Writing) -> tuple[Named, Extent]:
-    """Return the name of an extremum with its position, clear of the ticks of the axis on the left, and its box."""
-    left, _, right, _ = frame.paper
-    x, y = frame.spot(place)
-    wide, high = writing.size(name, SMALLEST)
-    middle = max(left + TICK + PAD + wide / 2, min(x, right - PAD - wide / 2))
-    edge = y - PAD - DOT if is_lowest else y + PAD + DOT
-    box = middle - wide / 2, edge - high * is_lowest, middle + wide / 2, edge + high * (not is_lowest)
-    return (middle, edge, name, is_lowest), box
+def _line_to_axis(turn: Turn, frame: Frame) -> tuple[Spot, Spot]:
+    return turn[0], (turn[0][0], frame.values[1])
 
 
-def _overlap(one: Extent, other: Extent) -> bool:
-    return all(one[k] < other[k + 2] + PAD and other[k] < one[k + 2] + PAD for k in (0, 1))
-
-
-def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
+def line_of(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]] = ()) -> Iterator[Piece]:
     """Yield the lines of a panel except its axes: curves, surfaces, branches, and bifurcations with their dots. A path
     has an arrowhead, and dots at its start and at its end."""
-    for line in panel.lines:
+    for i, line in enumerate(panel.lines):
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
-        yield Stroke(spots, pen)
-        yield Stroke(spots[line.head - 1 : line.head + 1], pen, head=True)
+        yield from (Stroke(part, pen) for part in _parts(spots, [box for k, box in gaps if k == i]))
+        for at in line.heads:
+            yield Stroke(spots[at - 1 : at + 1], pen, head=True)
     for outline in panel.outlines:
         yield Stroke(frame.spots(outline), "edge")
     for change in panel.changes:
@@ -435,12 +467,33 @@ def line_of(panel: Panel, frame: Frame) -> Iterator[Piece]:
             yield Bullet(frame.spot(place), DOT, "ink")
     for i, trace in enumerate(panel.traces):
         spots, pen = frame.spots(trace.points), PENS_OF_CURVES[i % len(PENS_OF_CURVES)]
-        yield Stroke(spots, pen)
+        yield from (Stroke(part, pen) for part in _between(spots, frame.paper[1], frame.paper[3]))
         if panel.is_path:
             at = _index_of(HEAD, spots)
             yield Stroke(spots[at - 1 : at + 1], pen, head=True)
             yield Bullet(spots[0], DOT, "ink")
             yield Bullet(spots[-1], DOT, "ink")
+
+
+def _between(spots: Sequence[Spot], low: float, high: float) -> Iterator[tuple[Spot, ...]]:
+    """Yield the parts of a line between two heights."""
+    cut: list[Spot] = [spots[0]]
+    for (x, y), (u, v) in pairwise(spots):
+        crossed = sorted((at for at in (low, high) if min(y, v) < at < max(y, v)), reverse=v < y)
+        cut += [(x + (u - x) * (at - y) / (v - y), at) for at in crossed]
+        cut.append((u, v))
+    for is_drawn, part in groupby(cut, key=lambda spot: low <= spot[1] <= high):
+        points = tuple(part)
+        if is_drawn and len(points) > 1:
+            yield points
+
+
+def _parts(spots: Sequence[Spot], gaps: Sequence[Extent]) -> Iterator[tuple[Spot, ...]]:
+    """Yield the parts of a line outside of these boxes."""
+    for is_covered, part in groupby(spots, key=lambda spot: any(is_within(spot, box) for box in gaps)):
+        points = tuple(part)
+        if not is_covered and len(points) > 1:
+            yield points
 
 
 def _index_of(part: float, spots: Sequence[Spot]) -> int:
@@ -449,12 +502,14 @@ def _index_of(part: float, spots: Sequence[Spot]) -> int:
     return max(1, bisect_left(lengths, lengths[-1] * part))
 
 
-def _pieces(panel: Panel, frame: Frame) -> Iterator[Piece]:
+def _pieces(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]]) -> Iterator[Piece]:
     left, below, right, above = frame.paper
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         yield Stroke(((left, zero), (right, zero)), "thin")
-    yield from line_of(panel, frame)
+    for turn in panel.turns:
+        yield Stroke(frame.spots(_line_to_axis(turn, frame)), "hidden")
+    yield from line_of(panel, frame, gaps)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:
         at = frame.spot((x, 0.0))[0]

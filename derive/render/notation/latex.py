@@ -85,7 +85,7 @@ BETWEEN_TERMS = {
 }
 STROKE, COMMA = Operator("stroke"), Operator("comma")
 # Extra height for columns of fractions: the first string is added to a row, the second between two rows.
-SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-.95em]{0pt}{2.45em}", "[3pt]"
+SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-1em]{0pt}{2.6em}", "[4pt]"
 
 
 def latex(layout: Layout, *, inline: bool = False) -> str:
@@ -157,6 +157,8 @@ def _with_stroke(item: Layout) -> Layout:
             return RootSign(_with_strokes(inside), degree)
         case Lowered(base, word):
             return Lowered(_with_strokes(base), word)
+        case Applied(name, Fenced() as argument, power):
+            return Applied(name, _with_strokes(argument), power)
         case Fraction(above, below) if _fits_in_line(above) and _fits_in_line(below):
             is_product = isinstance(below, Row) and not is_differential(first_of(below))
             begins = Fenced(above) if _has_function(above) or _is_sum(above) else above
@@ -251,7 +253,7 @@ class _Printer:
                 if lower is None and upper is None:
                     return r"\int "
                 limits = [f"{sign}{{{self.show(limit)}}}" for sign, limit in (("_", lower), ("^", upper)) if limit]
-                return rf"\int{''.join(limits)}\! "
+                return rf"\int{''.join(limits)} "
             case Applied(name, argument, power):
                 raised = f"^{{{self.show(power)}}}" if power else ""
                 command = rf"\{name}" if name in TEX_FUNCTIONS else rf"\operatorname{{{name}}}"

@@ -75,11 +75,13 @@ from derive.render.notation.layout import (
 )
 from derive.render.notation.order import holds_rates, ordered_factors, ordered_terms
 from derive.render.notation.products import (
+    Place,
     between_factors,
     decimal,
     gathered,
     number_and_letters,
     present,
+    rank_of_dimension,
     root_cancelled,
     rounded_number,
     side_by_side,
@@ -192,10 +194,14 @@ class Notation:
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
         """Return whether the factors are one letter without dots, with or without functions. Divided by 2, such factors
-        are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
+        are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot. Before functions, a letter that is not a
+        length is a factor of its own: 1/2 g sin x, to match 2/3 g sin x."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
-        return isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
+        dimension = self.known_dimensions.get(letters[0])
+        is_length = dimension is None or rank_of_dimension(dimension) is Place.LENGTH
+        fits = isinstance(first, Name) and first.style == "scalar" and not first.dots and is_function
+        return fits and (is_length or not others)
 
     def _factors_behind(self, first: Layout, others: list[Expr]) -> Layout:
         return side_by_side([first, *(self._as_factor(other) for other in others)]) if others else first

@@ -303,11 +303,11 @@ class Place(IntEnum):
     MASS = auto()  # also a moment of inertia, a spring constant, a charge
     SUM_OF_MASSES = auto()
     COUPLING = auto()  # an energy, an angular momentum, a constant of a force law
-    # also a speed; also an electric or magnetic field, so that it is printed after the charge: q E
-    ACCELERATION = auto()
+    ACCELERATION = auto()  # also an electric or magnetic field, so that it is printed after the charge: q E
     LENGTH = auto()
+    SPEED = auto()  # b v_0^2
     SUM = auto()
-    OTHER = auto()  # numbers, densities, momenta
+    OTHER = auto()  # numbers, momenta
     FORCE = auto()  # after a coefficient of friction: mu N
     RATE = auto()
     ROOT = auto()
@@ -322,12 +322,12 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
         return Place.ACCELERATION if dimension.mass else Place.MASS
     if dimension.mass < 0:
         return Place.PER_MASS
-    if dimension.mass and dimension.length >= 0 and not (dimension.length and dimension.time):
-        return Place.MASS
+    if dimension.mass and not (dimension.length and dimension.time):
+        return Place.MASS  # also a density: sigma a^2
     if dimension.mass:
         return Place.FORCE if dimension == FORCE else Place.COUPLING if dimension.length >= 2 else Place.OTHER
     if dimension.length and dimension.time:
-        return Place.ACCELERATION
+        return Place.SPEED if dimension.length == -dimension.time else Place.ACCELERATION
     return Place.LENGTH if dimension.length else Place.RATE
 
 

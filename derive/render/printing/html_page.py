@@ -38,7 +38,7 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
-from derive.render.printing.figure_numbers import figure_number
+from derive.render.printing.figure_numbers import OF_PROBLEM, figure_number
 from derive.render.printing.lines import PAGE_WIDTH, Printed, answers_together, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import inline_text
@@ -102,7 +102,7 @@ class HtmlPage:
         return self.inline(self.document.title)
 
     def worth(self, part: PartPage) -> str:
-        return self.words.worth(part.points, part.extra)
+        return self.words.worth(self.document.points_of(part), part.extra)
 
     def credits(self, part: PartPage) -> Sequence[Credit]:
         return self.rubric.get(part.label, ())
@@ -123,8 +123,8 @@ class HtmlPage:
     def task_of(self, credit: Credit) -> Html:
         return Html(escape(credit.task))
 
-    def number_of(self, credit: Credit) -> str:
-        return f"({credit.equations.number})"
+    def number_of(self, credit: Credit) -> Html:
+        return self._number(credit.equations.number)
 
     def sections(self) -> Sequence[PartPage]:
         """Return the parts, followed by the limiting cases."""
@@ -169,7 +169,8 @@ class HtmlPage:
                 return of_latex(unit_latex(text), inline=True)
             case Ref(key):
                 number = self.document.numbers[key]
-                return f'<a href="#{self._anchor(number)}">({number})</a>' if number in self._shown else f"({number})"
+                shown = self._number(number)
+                return f'<a href="#{self._anchor(number)}">{shown}</a>' if number in self._shown else shown
             case ProblemRef(of, text):
                 name = escape(of.rpartition("/")[2])
                 return f'<a href="{f"{name}.html" if self.standalone else f"#{name}"}">{escape(text)}</a>'
@@ -180,6 +181,11 @@ class HtmlPage:
             case ToldIn(problem):
                 return told_in(problem)
         raise TypeError(f"nothing prints {type(node).__name__}")
+
+    def _number(self, number: Number) -> Html:
+        """Return the number of an equation in parentheses; on a page of several problems, the number of the problem is
+        later put before it."""
+        return Html(f"({'' if self.standalone else OF_PROBLEM}{number})")
 
     def _anchor(self, number: Number) -> str:
         """Return the anchor of an equation, which is unique on a page of several problems."""
@@ -211,10 +217,10 @@ class HtmlPage:
                 found.append(Html("\n".join(rows)))
         return found
 
-    def numbers(self, folded: Folded) -> str:
+    def numbers(self, folded: Folded) -> Html:
         """Return the numbers of the folded equations."""
         groups = [group for block in folded.blocks if isinstance(block, Display) for group in block.groups]
-        return ", ".join(f"({number})" for number in dict.fromkeys(group.number for group in groups))
+        return Html(", ".join(map(self._number, dict.fromkeys(group.number for group in groups))))
 
     def tex(self, display: Display) -> str:
         """Return the display as LaTeX that the reader can copy."""
@@ -231,7 +237,7 @@ class HtmlPage:
             cells = ['<span class="answer">', *cells, "</span>"]
         is_new = line.number is not None and self._is_first(line.number)
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
-        number = f'<span class="number">({line.number})</span>' if is_new else ""
+        number = f'<span class="number">{self._number(line.number)}</span>' if line.number and is_new else ""
         beside = f'<span class="beside">{why}{number}</span>' if why or number else ""
         anchor = f' id="{self._anchor(line.number)}"' if line.number is not None and is_new else ""
         joined = "".join([" follows" * follows, " leads" * leads])

@@ -6,13 +6,14 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from derive.course.names import EvidenceShown
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
-from derive.page.folding import sentences
+from derive.page.folding import groups_in, sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.tree import Block, Display, Document, Illustration, PartPage
@@ -34,6 +35,7 @@ from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped
 from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import equation_latex
+from derive.render.printing.figure_numbers import equation_number
 from derive.render.printing.lines import Printed, answers_together, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
@@ -117,7 +119,7 @@ class LatexPage:
         return self.inline(self.document.statement)
 
     def worth(self, part: PartPage) -> Tex:
-        return Tex(escaped(self.words.worth(part.points, part.extra)))
+        return Tex(escaped(self.words.worth(self.document.points_of(part), part.extra)))
 
     def credits(self, part: PartPage) -> Sequence[Credit]:
         """Return the points of the steps of a part; empty in documents that do not show points."""
@@ -133,8 +135,8 @@ class LatexPage:
     def task_of(self, credit: Credit) -> Tex:
         return Tex(escaped(credit.task))
 
-    def number_of(self, credit: Credit) -> str:
-        return f"({credit.equations.number})"
+    def number_of(self, credit: Credit) -> Tex:
+        return Tex(equation_number(credit.equations.number))
 
     def sentences(self, blocks: Blocks) -> Sequence[Blocks]:
         return sentences(blocks)
@@ -150,6 +152,18 @@ class LatexPage:
         """Return whether the block is directly before the closing sentences about the checks, with no note between."""
         last = self.sections()[-1].blocks[-1:] if self.document.closing else ()
         return any(block is each for each in last) and not self.document.note
+
+    def has_answer(self, blocks: Blocks) -> bool:
+        """Return whether a sentence shows an answer in a frame."""
+        return any(group.framed for group in groups_in(blocks))
+
+    def is_before_answer(self, block: Block) -> bool:
+        """Return whether the sentence after this block, if any, shows an answer in a frame."""
+        told = [
+            sentences([each for each in part.blocks if not isinstance(each, Illustration)]) for part in self.sections()
+        ]
+        pairs = (pair for sentences_of_part in told for pair in pairwise(sentences_of_part))
+        return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
@@ -186,7 +200,7 @@ class LatexPage:
 
     def _reference(self, key: str) -> str:
         number = self.document.numbers[key]
-        return rf"\hyperlink{{{_anchor(self.document.id, number)}}}{{({number})}}"
+        return rf"\hyperlink{{{_anchor(self.document.id, number)}}}{{{equation_number(number)}}}"
 
     def anchor(self) -> Tex:
         return Tex(dotted(self.document.id))
@@ -258,7 +272,7 @@ class LatexPage:
         """Return the number of an equation, which a page shows once, even if later hints show further lines of the
         equation."""
         self._placed.add(number)
-        return rf"\anchor{{{_anchor(self.document.id, number)}}}\eqnumber{{{number}}}"
+        return rf"\anchor{{{_anchor(self.document.id, number)}}}{equation_number(number)}"
 
     def in_statement(self) -> Sequence[Illustration]:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]

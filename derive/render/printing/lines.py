@@ -82,7 +82,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
-    packed = _with_bare_value_framed(packed, begun) if equations.frames_bare_value else packed
+    bare = equations.frames_bare_value and (packed[-1].left is None or packed[-1].width > limit)
+    packed = _with_bare_value_framed(packed, begun) if bare else packed
+    packed = _with_bound_framed(packed, equations)
     if _frames_left_side(packed[-1], equations):
         packed[-1] = replace(packed[-1], framed=len(packed[-1].sides))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
@@ -125,14 +127,30 @@ def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
 
 
+def _with_bound_framed(packed: list[Printed], equations: Equations) -> list[Printed]:
+    """Repeat the left side and the sign of an inequality before the numerical bound, so that the frame has the
+    complete inequality: S >= 28 rad/s."""
+    *others, last = packed
+    is_bound = last.left is not None and last.sides[0][0] in INEQUALITIES and equations.lines[-1].numeric
+    if not is_bound or not 0 < last.framed < len(last.sides):
+        return packed
+    (_, value), *values = last.sides[-last.framed :]
+    chain = replace(last, sides=last.sides[: -last.framed], reason=(), framed=0)
+    bound = Printed(last.left, ((last.sides[0][0], value), *values), last.reason, framed=last.framed)
+    return [*others, chain, bound]
+
+
 def _frames_left_side(line: Printed, equations: Equations) -> bool:
     """Return whether the frame includes the left side of the last line.
 
     Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
-    only its result in the frame. An inequality is framed as a whole, unless a formula with numbers precedes its result.
+    only its result in the frame, unless this is a bare number or letter, which means nothing alone. An inequality is
+    framed as a whole, unless a formula with numbers precedes its result.
     """
     if line.left is None or not equations.framed:
         return False
+    if equations.frames_bare_value:
+        return True
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
         return not (numeric and len(line.sides) > line.framed)

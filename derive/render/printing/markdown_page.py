@@ -51,7 +51,9 @@ class MarkdownPage:
     def section(self, part: PartPage) -> Iterator[str | Illustration]:
         """Yield the pieces of a part or of the limiting cases."""
         label = f"({part.label}) " if part.label else ""
-        yield self._heading("##", label + self.inline(part.ask), self.words.worth(part.points, part.extra))
+        yield self._heading(
+            "##", label + self.inline(part.ask), self.words.worth(self.document.points_of(part), part.extra)
+        )
         yield from self._blocks(part.blocks)
 
     def end(self) -> Iterator[str | Illustration]:

@@ -15,6 +15,7 @@ from derive.page.tree import Document
 from derive.page.wording import Phrases
 from derive.render.notation.latex import escaped, latex
 from derive.render.notation.notation import Notation
+from derive.render.printing.figure_numbers import equation_number
 from derive.render.rendered import Tex
 
 LONG = 60  # a formula with more characters is on a separate line
@@ -56,13 +57,13 @@ class ReportPage:
     def _made_from(self, row: Row) -> list[str]:
         numbers = sorted(self.document.numbers[key] for key in row.made_from if key in self.document.numbers)
         symbols = [name for key in row.made_from if (name := self._step(key))]
-        found = [f"({number})" for number in dict.fromkeys(numbers)] or symbols
+        found = [equation_number(number) for number in dict.fromkeys(numbers)] or symbols
         return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
         """Return the symbol, the number or both of a step, or "" if the step has neither."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
-        numbered = f"({number})" if number is not None else ""
+        numbered = equation_number(number) if number is not None else ""
         if symbol is None:
             return numbered
         formula = rf"\fitto{{\linewidth}}{{{latex(self.notation.layout(symbol), inline=True)}}}"

@@ -85,7 +85,9 @@ class _Page:
 
     def _part(self, part: PartPage) -> str:
         label = f"({part.label}) " if part.label else ""
-        heading = self._with_worth(f"{label}{self._inline(part.ask)}", self.words.worth(part.points, part.extra))
+        heading = self._with_worth(
+            f"{label}{self._inline(part.ask)}", self.words.worth(self.document.points_of(part), part.extra)
+        )
         blocks = [heading, "-" * min(columns(heading), PAGE_COLUMNS)]
         return "\n".join([*blocks, *self._blocks(part.blocks)])
 

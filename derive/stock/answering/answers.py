@@ -16,14 +16,18 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, ClassVar, Generic, TypeVar
 
+from sympy import ImmutableDenseMatrix, MatrixBase
+
 from derive.course.placement import Placement
-from derive.course.stock import Described
-from derive.course.yaml_tree import Word
-from derive.errors import DeriveError
+from derive.course.stock import Described, InLetters, each
+from derive.course.yaml_tree import Sequence as SequenceNode
+from derive.course.yaml_tree import Tree, Word
+from derive.errors import DeriveError, rejected
 from derive.mechanics import Coordinate
 from derive.steps.derivation import returned_quantities
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
+from derive.stock.answering.marked import Marked
 from derive.stock.answering.plots import Plotted
 
 T = TypeVar("T")
@@ -137,6 +141,18 @@ class StockAnswers(Answers[W]):
             elif drawing.is_of_engine and drawing.against and drawing.range:
                 plotted.draw(drawing.against, drawing.range)
         return found
+
+    def mark(self, drawings: Sequence[Placement]) -> None:
+        """Add the marks of the problem to the drawings, and make the further drawings that are like another one."""
+        for drawing in drawings:
+            if drawing.marks or drawing.like:
+                Marked(drawing, self.place_of_mark).add()
+
+    def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
+        """Return the place of a mark, whose components are written in the file."""
+        if not isinstance(node, SequenceNode):
+            rejected("wrong-type", f"`{name}` must be a list of components, such as `[a, 0, 0]`", node.place)
+        return ImmutableDenseMatrix(each([partial(letters.of_kind, item, name, "length") for item in node.items]))
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
         """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""

@@ -334,6 +334,12 @@ class StringKeys(Record):
     tension: Word | None = key(
         "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
     )
+    drawn_tension: Word | None = key(
+        "the symbol of the tension in force diagrams, if the coordinates keep the length of the string constant, so "
+        "that no equation contains the tension; with `mass_of`, of the tension at the bends. The forces on the "
+        "particles at the ends, on the movable pulleys and, with `mass_of`, on the pieces of the rope are then drawn",
+        TEXT,
+    )
     mass_of: Word | None = key(
         "for a uniform rope with mass: the particle that has this mass. Describe this particle at a constant height "
         "and with the speed of the rope, because `gravity` acts on the pieces of the rope",
@@ -350,11 +356,13 @@ class StringKeys(Record):
             rejected("missing-key", "a string needs `to`, or `wound_on`", self.places[""])
         over = tuple(_over(each, known) for each in self.over)
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
-        mass = {"mass_of": material(self.mass_of, known)} if self.mass_of else {}
-        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over, **mass)
+        more: dict[str, Any] = {"mass_of": material(self.mass_of, known)} if self.mass_of else {}
+        if self.drawn_tension is not None:
+            more["drawn_tension"] = force_letter(self.drawn_tension, known.letters)
+        return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over, **more)
 
     def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
-        for name in ("to", "over", "length", "mass_of"):
+        for name in ("to", "over", "length", "mass_of", "drawn_tension"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string with `wound_on`"
                 rejected("unused-key", message, self.places[name], "leave one of them out")

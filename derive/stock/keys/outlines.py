@@ -2,37 +2,122 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from sympy import Expr, Rational, cos
+from sympy import Expr, Rational, cos, sin
 
 from derive.algebra.expressions import column, explicit, vector
 from derive.algebra.tidy import tidied
 from derive.course.placement import POLHODES
-from derive.figures import arc, arrow, axis_of_rotation, drawing, outline, principal_outline, vectors_in
-from derive.figures.bodies import is_in_plane, seen_outline, widest_of
+from derive.figures import (
+    arc,
+    arrow,
+    axis_of_rotation,
+    centre_mark,
+    drawing,
+    outline,
+    point_mark,
+    principal_outline,
+    vectors_in,
+)
+from derive.figures.annotations import Projection
+from derive.figures.bodies import ORIGIN, is_in_plane, seen_outline, torus_section, widest_of
 from derive.figures.marks import PLANE, SPACE, Drawing, Mark, ShownPolhodes, noted
 from derive.figures.polhodes import example_values, polhode_marks, ratios_of
+from derive.figures.scenes import LONG
 from derive.figures.surroundings import FixedEnd
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.boundary import Faces, Hollowed, Round, Toroidal
+from derive.mechanics.bodies.regions import Point
 from derive.steps.step import Quantity, is_zero
 
 
-def drawn(body: Body, about: str = "", is_named: bool = False) -> None:
-    """Draw the outline of a body, under the name of the body; a flat body is drawn in its plane.
+def name_of_drawing(body: Body) -> str:
+    """Return the name of the drawing of a body."""
+    return body.called.replace(" ", "_") or "body"
+
+
+def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
+    """Draw the outline of a body, by default under the name of the body; a flat body is drawn in its plane.
 
     about      the name of a point; the axes begin at this point only if it is the centre of mass, and the position of
                the centre is known by symmetry
     is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
+    shown      the words of SHOWS for what is drawn in addition to the outline
     """
-    if marks := seen_outline(body, "centre" if about == "centre" and _has_known_centre(body) else None):
-        key, view = body.called.replace(" ", "_") or "body", PLANE if is_in_plane(body) else SPACE
-        if is_named and view == PLANE:
-            at = body.point(body.reference).seen(body.point(about).position)
-            marks.append(FixedEnd(at, column(0, 0, 0), True))
-        drawing(key, marks, view=view, values=_proportions(body))
+    body = answers.body
+    origin = "centre" if about == "centre" and _has_known_centre(body) else body.reference
+    marks = _with_element(body, origin) if "element" in shown else seen_outline(body, origin)
+    if not marks:
+        return
+    view = PLANE if is_in_plane(body) else SPACE
+    if is_named and view == PLANE:
+        at = body.point(origin).seen(body.point(about).position)
+        marks.append(FixedEnd(at, column(0, 0, 0), True))
+    more = [_SHOWS[name](answers, body.point(origin)) for name in shown if name in _SHOWS]
+    drawing(key or name_of_drawing(body), marks, more, view=view, values=_proportions(body))
+
+
+# --- what a problem names --------------------------------------------------------------------------------------
+
+
+def _masses(answers: Any, origin: Point) -> list[Mark]:
+    """Return the centres of the parts of a body, with their masses; parts that are cut out are left out."""
+    parts = [part for part in getattr(answers.body, "parts", ()) if part.sign > 0]
+    return [point_mark(origin.seen(part.centre), part.body.mass) for part in parts]
+
+
+def _centre(answers: Any, origin: Point) -> list[Mark]:
+    """Return the mark of the centre of mass."""
+    return [centre_mark(answers.body, origin.name)]
+
+
+def _principal(answers: Any, origin: Point) -> list[Mark]:
+    """Return arrows along the principal axes, from the point of the inertia tensor."""
+    at = origin.seen(answers.body.point(answers.about).position)
+    return [arrow(axis, at, SHORT) for axis in answers.principal_axes]
+
+
+def _direction(answers: Any, origin: Point) -> list[Mark]:
+    """Return the axis of `moment_about` through the point of the inertia tensor, with the angles in its components."""
+    body, along = answers.body, answers.described.direction
+    if along is None:
+        return []
+    at = origin.seen(body.point(answers.about).position)
+    if along.is_name:
+        return [axis_of_rotation(body.direction(along.named), at)]
+    components = along.components
+    return [arrow(column(*components), at, label=vector("n")), *_inclination(components), *_azimuth(components)]
+
+
+def _azimuth(components: Sequence[Expr]) -> list[Mark]:
+    """Return the projection of a direction on the plane of x and y, and the arc from the x axis to it, if the angle is
+    a symbol."""
+    x, y, _ = components
+    angles = [f.args[0] for f in x.atoms(cos) if f.args[0].is_Symbol and is_zero(y * f - x * sin(f.args[0]))]
+    if not angles:
+        return []
+    flat = column(cos(angles[0]), sin(angles[0]), 0)
+    return [Projection(ORIGIN, column(*components), LONG), arc(column(1, 0, 0), flat, label=angles[0])]
+
+
+def _with_element(body: Body, origin: str) -> list[Mark]:
+    """Return the outline of a body with the element of its integrals: a slice of a round solid, or a point of the
+    cross-section of a torus, whose section by the plane of y and z is drawn."""
+    if isinstance(body.boundary, Toroidal):
+        return torus_section(body)
+    return outline(body, origin, sliced=True)
+
+
+_SHOWS: dict[str, Callable[[Any, Point], list[Mark]]] = {
+    "masses": _masses,
+    "centre_of_mass": _centre,
+    "principal_axes": _principal,
+    "direction": _direction,
+}
+SHOWS = (*_SHOWS, "element")
+SHORT = Rational(4, 5)  # the length of the arrows of principal axes, relative to the body
 
 
 def _has_known_centre(body: Body) -> bool:

@@ -177,6 +177,7 @@ class DescribedSystem(Described):
     particles, bodies   the particles and the bodies by name, in the order of the file
     acting        all other parts of the system, grouped by kind
     surfaces      the surfaces by name
+    pulleys       the massless pulleys by name
     gravity       the acceleration of free fall; None if nothing has weight
     conserved     each cyclic coordinate whose constant momentum has a symbol, with this symbol
     kept          each cyclic coordinate whose constant momentum has a given value, with this value
@@ -184,6 +185,7 @@ class DescribedSystem(Described):
     impact        impulses and collisions at one instant
     brought       the symbols of constraint forces and of constant momenta, with their positions in the file
     named         the places that have names
+    places        the reader of places, by their names or components
     given         a Lagrangian that replaces all bodies, and its kind
     """
 
@@ -193,6 +195,7 @@ class DescribedSystem(Described):
     bodies: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     acting: tuple[Deferred[Any], ...] = ()
     surfaces: Mapping[str, Deferred[Any]] = field(default_factory=dict)
+    pulleys: Mapping[str, Deferred[Any]] = field(default_factory=dict)
     gravity: Expr | None = None
     conserved: tuple[tuple[str, Symbol], ...] = ()
     kept: tuple[tuple[str, Expr], ...] = ()
@@ -202,6 +205,7 @@ class DescribedSystem(Described):
     brought: Mapping[str, Place] = field(default_factory=dict, repr=False, compare=False)
     place: Place | None = field(default=None, repr=False, compare=False)
     named: tuple[Location | Material, ...] = ()
+    places: Places | None = field(default=None, repr=False, compare=False)
     given: tuple[Expr, str | None] | None = None
 
 
@@ -258,6 +262,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
         brought={str(name): name.place for name in brought},
         place=written.places[""],
         named=tuple(named.values()),
+        places=places,
         given=given,
     )
 
@@ -293,7 +298,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     acting += [Deferred(landing_surface, (one,)) for name, one in surfaces.items() if name in _landed_on(written)]
     with_friction = known.also(_multipliers(acting))  # friction is proportional to a constraint force
     acting += of_each([*written.forces, *written.damping], places, with_friction, names)
-    own = {"particles": particles, "bodies": bodies, "surfaces": surfaces}
+    own = {"particles": particles, "bodies": bodies, "surfaces": surfaces, "pulleys": pulleys}
     return {**own, "acting": tuple(acting)}
 
 

@@ -49,7 +49,8 @@ def test_an_unknown_set_is_exit_code_2(course: Course, capfd: pytest.CaptureFixt
 
 
 @pytest.mark.parametrize(
-    ("signum", "code", "said"), [(signal.SIGINT, 130, b"interrupted\n"), (signal.SIGTERM, 143, b"")]
+    ("signum", "code", "said"),
+    [(signal.SIGINT, 130, b"interrupted\n"), pytest.param(signal.SIGTERM, 143, b"", marks=pytest.mark.long)],
 )
 def test_an_interrupted_build_says_one_line_and_can_be_resumed(
     course: Course, signum: signal.Signals, code: int, said: bytes
@@ -100,7 +101,7 @@ def test_with_v_a_terminal_lists_each_problem_with_its_time_as_it_ends(course: C
     assert not re.search(r"\x1b\[[\d;]*m", plain)
 
 
-@pytest.mark.parametrize("verb", ["build", "check"])
+@pytest.mark.parametrize("verb", ["build", pytest.param("check", marks=pytest.mark.long)])
 def test_with_q_a_terminal_sees_complaints_and_nothing_else(course: Course, verb: str) -> None:
     assert on_a_terminal(course, {}, verb, "-q").replace("\r\x1b[K", "") == ""
     course.problem("one", "refuse")

@@ -1,4 +1,4 @@
-"""The LaTeX reader is loaded only by what reads LaTeX."""
+"""The LaTeX reader is loaded only by what reads LaTeX, and the code that draws only by what draws."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ root = Path(sys.argv[1])
 for kept, reference in ((Cache(root / "kept"), True), (NO_CACHE, False), (NO_CACHE, True)):
     text = (root / "reference.yaml").read_text()
     (root / "problems/hw9/reference.yaml").write_text(text if reference else "[]")
-    assert rendered(root, "hw9/body", None, kept).agreed
+    found = rendered(root, "hw9/body", None, kept)
+    assert found.agreed and not found.files
+    assert "matplotlib" not in sys.modules and "numpy" not in sys.modules
     print(any(name.startswith("derive.course.latex") for name in sys.modules))
 """
 

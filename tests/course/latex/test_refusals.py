@@ -174,7 +174,7 @@ PIECES = st.sampled_from(
 
 
 @given(st.lists(PIECES, max_size=25).map("".join))
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_any_text_is_read_or_told_in_one_place_each(text: str) -> None:
     try:
         found = read(text)
@@ -188,7 +188,7 @@ def test_any_text_is_read_or_told_in_one_place_each(text: str) -> None:
 
 
 @given(st.text(max_size=60))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_text_that_was_never_mathematics_is_no_danger(text: str) -> None:
     with suppress(Rejected):
         read(text)

@@ -1,0 +1,230 @@
+"""`marks` and `like` under `drawings:`: points, lines, lengths, arrows, angles and turns that a problem adds."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import Any
+
+from sympy import Expr, ImmutableDenseMatrix, MatrixBase, Rational, cos, pi, sin, sqrt
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import AXES, explicit, scalar
+from derive.course.expression import read_expression
+from derive.course.placement import Placement
+from derive.course.stock import InLetters, each, told_at
+from derive.course.written import MarkKeys
+from derive.course.yaml_tree import Formula as Written
+from derive.course.yaml_tree import Scalar, Tree, Word
+from derive.course.yaml_tree import Sequence as SequenceNode
+from derive.errors import did_you_mean, rejected
+from derive.figures.annotations import AngleMark, Arrow, HollowPoint, Line, Turn
+from derive.figures.marks import PLANE, Drawing, Mark, noted
+from derive.figures.positions import towards, value_and_keys
+from derive.figures.surroundings import AngleBetween, DistanceMark, WayMark
+from derive.steps.record import current_run
+from derive.steps.step import Quantity
+from derive.stock.keys.formulas import Formula
+
+_LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
+PENS = {"line": "edge", "dashed": "trace"}
+NEEDED = {
+    "point": ("at",),
+    "line": ("start", "end"),
+    "dashed": ("start", "end"),
+    "length": ("start", "end"),
+    "arrow": ("at", "along"),
+    "angle": ("at", "start", "end"),
+    "turn": ("at",),
+    "circle": ("at", "end"),
+}
+ALSO = {
+    "length": ("side",),
+    "arrow": ("size",),
+    "angle": ("size",),
+    "turn": ("along", "size"),
+    "circle": ("along",),
+}
+CALLED = {"start": "from", "end": "to"}
+LONG, ROUND = {True: Rational(2, 5), False: Rational(5, 4)}, Rational(1, 5)
+ANGLE = scalar("u")
+COUNTERCLOCKWISE = ImmutableDenseMatrix([0, 0, 1])
+
+
+@dataclass(frozen=True)
+class Marked:
+    """The marks of one drawing.
+
+    drawing   the entry of `drawings:`
+    place_of  a function that returns the place that is written in a node
+    """
+
+    drawing: Placement
+    place_of: Callable[[Tree, str, InLetters], MatrixBase]
+
+    def add(self) -> None:
+        """Add the marks to the recorded drawing, or record a further drawing that is like another one."""
+        run = current_run.get()
+        drawings = run.drawings if run is not None else []
+        shown = {each.key: each for each in drawings if isinstance(each, Drawing)}
+        name = self.drawing.like or Word.at(self.drawing.key, self.drawing.place)
+        if name not in shown:
+            known = did_you_mean(name, shown) or f"the drawings are {', '.join(f'`{known}`' for known in shown)}"
+            rejected("unknown-drawing", f"the engine draws nothing called `{name}`", name.place, known)
+        found = shown[name]
+        added = each([partial(self._mark, keys, found) for keys in self.drawing.marks])
+        marks = (*found.marks, *added)
+        named = {letter for mark in added for letter in getattr(mark.label, "free_symbols", ())}
+        undrawn = tuple((sort, value) for sort, value in found.undrawn if value not in named)
+        own = replace(found, marks=marks, undrawn=undrawn)
+        if self.drawing.like:
+            with told_at(self.drawing.place):
+                noted(replace(own, key=self.drawing.key, forces_on=None, mode=None, leads_to=()))
+            drawings.insert(drawings.index(found) + 1, drawings.pop())  # figures have numbers in this order
+        else:
+            drawings[drawings.index(found)] = own
+
+    @cached_property
+    def _letters(self) -> InLetters:
+        return InLetters(self.drawing.letters)
+
+    def _mark(self, keys: MarkKeys, drawing: Drawing) -> Mark:
+        kind = str(keys.mark)
+        is_plane = drawing.view == PLANE
+        for name in NEEDED[kind]:
+            if getattr(keys, name) is None and not (name == "at" and not is_plane):
+                message = f"the mark `{kind}` needs `{CALLED.get(name, name)}`"
+                rejected("missing-key", message, keys.places[""])
+        for name in ("at", "start", "end", "along", "side", "size"):
+            if getattr(keys, name) is not None and name not in (*NEEDED[kind], *ALSO.get(kind, ())):
+                written = CALLED.get(name, name)
+                rejected("unused-key", f"`{written}` has no effect on the mark `{kind}`", keys.places[written])
+        with told_at(keys.places[""]):
+            mark = self._made(kind, keys, is_plane)
+            return replace(mark, keys=tuple(dict.fromkeys(mark.keys)))
+
+    def _made(self, kind: str, keys: MarkKeys, is_plane: bool) -> Mark:
+        label, used = self._label(keys.label)
+        rows = 2 if is_plane else 3
+        if kind == "point":
+            return HollowPoint(self._place(keys.at, "at", rows), label=label, keys=used)
+        if kind in PENS:
+            return Line(*self._ends(keys, rows), PENS[kind], label=label, keys=used)
+        if kind == "length":
+            aside = towards(keys.side, rows) if keys.side else None
+            return DistanceMark(*self._ends(keys, rows), aside, label=label, keys=used)
+        at = self._place(keys.at, "at", rows)
+        size = self._size(keys.size)
+        if kind == "angle":
+            (a, first, is_place), (b, second, both) = (
+                self._way(node, name, rows, at) for node, name in ((keys.start, "from"), (keys.end, "to"))
+            )
+            own = {"label": label, "keys": (*used, *first, *second)}
+            if is_place and both and size is None:
+                return AngleBetween(at, a, b, **own)
+            return AngleMark(at, a, b, None, size, **own)
+        if kind in ("turn", "circle"):
+            around, own_keys = self._axis(keys.along)
+            if kind == "circle":
+                return WayMark(_circle(at, self._place(keys.end, "to", rows), around), ANGLE, -pi, pi, label=label)
+            return Turn(at, around, size or ROUND, label=label, keys=(*used, *own_keys))
+        along, own_keys, _ = self._way(keys.along, "along", rows)
+        return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
+
+    def _axis(self, node: Tree | None) -> tuple[MatrixBase, tuple[str, ...]]:
+        """Return the axis of a turn or a circle, and the keys of its steps."""
+        return (COUNTERCLOCKWISE, ()) if node is None else self._way(node, "along", 3)[:2]
+
+    def _ends(self, keys: MarkKeys, rows: int) -> tuple[MatrixBase, MatrixBase]:
+        return self._place(keys.start, "from", rows), self._place(keys.end, "to", rows)
+
+    def _place(self, node: Tree | None, name: str, rows: int) -> MatrixBase:
+        """Return a place of the drawing; the origin if none is written."""
+        if node is None:
+            return ImmutableDenseMatrix([0] * rows)
+        place = self.place_of(node, name, self._letters)
+        if place.rows != rows:
+            message = f"`{name}` has {place.rows} components, but the drawing needs {rows}"
+            rejected("wrong-length", message, node.place)
+        return place
+
+    def _way(
+        self, node: Tree | None, name: str, rows: int, start: MatrixBase | None = None
+    ) -> tuple[MatrixBase, tuple[str, ...], bool]:
+        """Return a direction, the keys of its steps, and whether it leads from `start` to a place.
+
+        The direction is written as components, as an axis, as the name of an answer or, with `start`, as a place.
+        """
+        if isinstance(node, SequenceNode):
+            return self._components(node, name, rows), (), False
+        if not isinstance(node, Scalar):
+            return self._place(node, name, rows) - start, (), start is not None
+        axis = node.text.removeprefix("-")
+        if axis in AXES[:rows]:
+            sign = -1 if node.text.startswith("-") else 1
+            return ImmutableDenseMatrix([sign * int(axis == own) for own in AXES[:rows]]), (), False
+        if start is None or node.text in self._steps:
+            value, keys = value_and_keys(self._step(node.word))
+            if not isinstance(explicit(value), MatrixBase) or explicit(value).shape != (rows, 1):
+                rejected("wrong-argument", f"`{node.text}` is not a vector of {rows} components", node.place)
+            return explicit(value), keys, False
+        return self._place(node, name, rows) - start, (), True
+
+    @property
+    def _steps(self) -> dict[str, Quantity]:
+        """Return the steps derived so far, by key."""
+        run = current_run.get()
+        return {quantity.key: quantity for quantity in run.established} if run is not None else {}
+
+    def _step(self, name: Word) -> Quantity:
+        if name not in self._steps:
+            message = f"no step of the solution is called `{name}`"
+            rejected("no-such-answer", message, name.place, did_you_mean(name, self._steps))
+        return self._steps[name]
+
+    def _components(self, node: SequenceNode, name: str, rows: int) -> MatrixBase:
+        found: list[tuple[Expr, Dimension]] = each([partial(self._component, item, name) for item in node.items])
+        if len(found) != rows:
+            rejected("wrong-length", f"`{name}` needs {rows} components", node.place)
+        if len({dimension for value, dimension in found if not value.is_zero}) != 1:
+            rejected("dimension", f"the components of `{name}` have different dimensions, or all are zero", node.place)
+        return ImmutableDenseMatrix([value for value, _ in found])
+
+    def _component(self, node: Tree, name: str) -> tuple[Expr, Dimension]:
+        if not isinstance(node, Scalar) or node.empty:
+            rejected("wrong-type", f"a component of `{name}` must be an expression", node.place)
+        return read_expression(node, self._letters.letters)
+
+    def _size(self, written: Written | None) -> Expr | None:
+        """Return the size of an arrow or a turn relative to the drawing, a positive number."""
+        if written is None:
+            return None
+        size, _ = read_expression(written.scalar, {})
+        if not size.is_number or not size.is_positive:
+            rejected("not-positive", f"`size` must be a positive number, but `{written}` is not", written.place)
+        return size
+
+    def _label(self, written: Written | None) -> tuple[Any, tuple[str, ...]]:
+        """Return the label and the keys of the answers whose letters it contains. A name that is neither declared nor
+        an answer is a letter of the drawing."""
+        if written is None:
+            return None, ()
+        if str(written) in self._steps:
+            step = self._steps[str(written)]
+            return step.symbol, value_and_keys(step)[1]
+        letters = self._letters.letters
+        if _LETTER.fullmatch(written) and written not in letters:
+            return scalar(str(written)), ()
+        expression, found = Formula(written.scalar, letters).with_answers(self._step)
+        label = expression.xreplace({mark: one.symbol for mark, one in found.items()})
+        return label, tuple(key for one in found.values() for key in value_and_keys(one)[1])
+
+
+def _circle(centre: MatrixBase, through: MatrixBase, around: MatrixBase) -> MatrixBase:
+    """Return the places of a circle through a place as a function of ANGLE."""
+    arm = through - centre
+    x, y = (arm[0], arm[1])
+    across = ImmutableDenseMatrix([-y, x]) if arm.rows == 2 else around.cross(arm) / sqrt(around.dot(around))
+    return centre + arm * cos(ANGLE) + across * sin(ANGLE)

@@ -1,0 +1,41 @@
+"""The sentences that refer to the figures of a part."""
+
+from __future__ import annotations
+
+from sympy import Symbol
+
+from derive.figures.marks import Drawing, Plot
+from derive.page.figures_named import figures_mentioned
+from derive.page.tree import Block, Illustration, Paragraph
+from derive.page.wording import Text, phrases
+from derive.render.notation.notation import Notation
+from derive.render.printing.text_page import inline_text
+from tests.courses import ROOT
+
+WORDS = phrases(ROOT / "templates")
+FORCES = {key: Drawing(key, (), forces_on=Symbol("m")) for key in ("left", "right")}
+CURVE = Plot("curve", Symbol("U"), Symbol("x") ** 2, Symbol("x"), 0, 1, "energy", "length")
+KNOWN = {**FORCES, "curve": CURVE}
+
+
+def figure(key: str, number: int | None) -> Illustration:
+    return Illustration(key, key, (), number, (), "a")
+
+
+def told(*blocks: Block, mentioned: tuple[str, ...] = ()) -> list[str]:
+    found = figures_mentioned(blocks, KNOWN, mentioned, WORDS)
+    return [inline_text(each.nodes, Notation()) if isinstance(each, Paragraph) else "*" for each in found]
+
+
+def test_figures_of_one_sort_share_a_sentence_before_them() -> None:
+    assert told(figure("left", 2), figure("right", 3)) == ["Figure 2 and Figure 3 show the forces.", "*", "*"]
+
+
+def test_the_sentence_follows_a_sentence_that_is_complete() -> None:
+    (said, _) = told(Paragraph((Text("It falls."),)), figure("curve", 2))
+    assert said == "It falls. Figure 2 shows U as a function of x."
+
+
+def test_a_figure_without_a_number_and_one_that_is_mentioned_have_no_sentence() -> None:
+    assert told(figure("left", None)) == ["*"]
+    assert told(figure("curve", 2), mentioned=("curve",)) == ["*"]
