@@ -1,0 +1,168 @@
+"""The audit finds slips at their rows, follows what is right, and accuses nothing that it does not know."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.audit.claims import Claim
+from derive.audit.report import as_html, as_json, as_text, exit_code
+from derive.cli.options import main
+from tests.documents.reading import audit, outcomes
+
+RIGHT = r"""# Problem 1
+
+A rod of mass $M$ and length $l$ turns about one end. Its density is $\lambda = M/l$.
+
+$$
+\begin{aligned}
+I &= \int_0^l \lambda x^2 \, dx \\
+  &= \lambda\left[\frac{x^3}{3}\right]_0^l \\
+  &= \frac{1}{3} \lambda l^3 \\
+  &= \frac{1}{3} M l^2
+\end{aligned}
+$$
+
+The height of its centre is $y = -\frac{l}{2}\cos\theta$, so
+
+$$ U = M g y = -\frac{1}{2} M g l \cos\theta $$
+
+and with $T = \frac{1}{2} I \dot\theta^2$ and $L = T - U$ we find
+
+$$
+\begin{aligned}
+\frac{\partial L}{\partial \dot\theta} &= I \dot\theta = \frac{1}{3} M l^2 \dot\theta \\
+\frac{\partial L}{\partial \theta} &= -\frac{1}{2} M g l \sin\theta
+\end{aligned}
+$$
+
+so that
+
+$$ \frac{1}{3} M l^2 \ddot\theta = -\frac{1}{2} M g l \sin\theta $$
+
+For small angles, $\sin\theta \approx \theta$, hence
+
+$$ \ddot\theta = -\frac{3 g}{2 l} \theta $$
+"""
+
+SLIPS = {  # what is changed in the text -> what is proposed
+    "a number": (r"\frac{x^3}{3}", r"\frac{x^3}{2}", "3 instead of 2"),
+    "an exponent": (r"&= \frac{1}{3} \lambda l^3", r"&= \frac{1}{3} \lambda l^2", "3 instead of 2"),
+    "a sign": (r"M g y = -\frac{1}{2} M g l \cos\theta", r"M g y = \frac{1}{2} M g l \cos\theta", None),
+    "a function": (r"-\frac{1}{2} M g l \sin\theta\n\\end", r"-\frac{1}{2} M g l \cos\theta\n\\end", None),
+    "a factor": (
+        r"&= I \dot\theta = \frac{1}{3} M l^2 \dot\theta",
+        r"&= I \dot\theta = \frac{1}{3} M l \dot\theta",
+        "l^2",
+    ),
+    "an index": (r"&= \frac{1}{3} M l^2\n", r"&= \frac{1}{3} M l^2 \cdot 2\n", None),
+}
+
+
+def wrong(text: str) -> list[Claim]:
+    return [each for each in audit(text).claims if each.verdict is not None and str(each.verdict.outcome) == "differs"]
+
+
+def test_nothing_is_wrong_in_a_right_document() -> None:
+    assert wrong(RIGHT) == []
+    assert "unreadable" not in outcomes(RIGHT)
+
+
+def test_most_claims_of_a_right_document_are_decided() -> None:
+    found = outcomes(RIGHT)
+    assert found.count("undecided") <= 1
+
+
+@pytest.mark.parametrize(("right", "slip", "proposal"), list(SLIPS.values()), ids=list(SLIPS))
+def test_a_slip_is_found_at_its_row(right: str, slip: str, proposal: str | None) -> None:
+    right, slip = (
+        right.replace(r"\n", "\n").replace(r"\\end", r"\end"),
+        slip.replace(r"\n", "\n").replace(r"\\end", r"\end"),
+    )
+    text = RIGHT.replace(right, slip, 1)
+    assert text != RIGHT
+    line = text[: text.index(slip)].count("\n") + 1
+    found = wrong(text)
+    assert line in [claim.row.line for claim in found] or line + 1 in [claim.row.line for claim in found]
+    assert all(claim.row.line >= line - 1 for claim in found)
+    if proposal:
+        assert any(claim.verdict is not None and proposal in claim.verdict.suggestion for claim in found)
+
+
+def test_the_row_after_a_slip_is_not_blamed_for_it() -> None:
+    text = (
+        "$$\n\\begin{aligned}\nE &= (a + b)^2 \\\\\n&= a^2 + 3 a b + b^2 \\\\\n&= b^2 + 2 a b + a^2\n\\end{aligned}\n$$"
+    )
+    assert [claim.row.line for claim in wrong(text)] == [4]
+
+
+def test_a_row_that_follows_from_a_wrong_row_carries_its_slip_on() -> None:
+    text = "Let $x = a t^2$ change with time $t$. Then $\\dot x = 3 a t$. Hence $\\ddot x = 3 a$."
+    claims = audit(text).claims
+    assert [str(each.verdict.outcome) for each in claims if each.verdict] == ["defines", "differs", "holds"]
+    assert claims[2].verdict is not None and claims[2].verdict.inherits == 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "To first order, $\\sin\\theta = \\theta$.",
+        "$\\sqrt{a^2} = a$ for a length $a$.",
+        "For $\\theta = 0$ the force $F = m g \\cos\\theta$ becomes $F = m g$.",
+        "$x = 0.92951$ and $y = \\frac{7}{12}\\sqrt{\\frac{1008}{397}} = 0.92951$",
+        "$\\cos n\\pi = (-1)^n$",
+        "$E = \\frac{1}{2} m v^2 + U = \\text{const}$",
+        "$S^2 \\geq 4 a \\geq 3 a$",
+        "$\\dot\\phi = 49.98 \\pm 48.40$ or $\\dot\\phi = 98.38$ or $1.58$",
+        "$\\int_V \\rho \\, dV = M = \\rho V$",
+        "$f(x) = x^2$, so $f(a+h) = a^2 + 2 a h + h^2$",
+    ],
+)
+def test_what_is_not_known_is_not_accused(text: str) -> None:
+    assert wrong(text) == []
+
+
+def test_a_number_set_equal_to_a_list_is_a_slip() -> None:
+    (claim,) = wrong("Let $\\vec L = (a, b, d)$. Then $\\vec L^2 = \\vec L \\cdot \\vec L = (a^2, b^2, d^2)$.")
+    assert claim.verdict is not None and "number" in claim.verdict.because
+
+
+def test_a_lost_differential_is_found() -> None:
+    (claim,) = wrong(
+        "$$\n\\begin{aligned}\nI &= \\int_0^a dx \\int_0^b y \\, dy \\\\\n&= \\int_0^a x \\int_0^b y \\, dy\n\\end{aligned}\n$$"
+    )
+    assert claim.verdict is not None and claim.verdict.suggestion == "d x instead of x"
+
+
+def test_the_command_prints_the_slip_with_its_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "worked.md"
+    file.write_text(RIGHT.replace(r"\frac{x^3}{3}", r"\frac{x^3}{2}", 1), encoding="utf-8")
+    assert main(["audit", str(file)]) == 1
+    told = capsys.readouterr().out
+    assert ":8:30: differs: the two sides are not equal" in told and "probably 3 instead of 2" in told
+    file.write_text(RIGHT, encoding="utf-8")
+    assert main(["audit", str(file)]) == 0
+
+
+def test_json_has_each_row_with_its_verdict() -> None:
+    data = json.loads(as_json(audit(RIGHT)))
+    assert set(data) == {"file", "rows", "summary"} and sum(data["summary"].values()) == len(data["rows"])
+    assert {
+        "line",
+        "latex",
+        "reading",
+        "verdict",
+        "because",
+        "given",
+        "counterexample",
+        "suggestion",
+        "inherits",
+    } == set(data["rows"][0])
+
+
+def test_the_page_escapes_what_the_document_says() -> None:
+    page = as_html(audit("$a <b = c$ and $<script> = 1$"))
+    assert "<script>" not in page.partition("<body>")[2]
+    assert exit_code(audit(RIGHT)) == 0 and "claims" in as_text(audit(RIGHT), every=True)

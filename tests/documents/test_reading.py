@@ -1,0 +1,75 @@
+"""Formulas as expressions: what is written is read, and what has several readings is chosen by the whole document."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.documents.reading import audit, values
+
+READ = {
+    "the rate of a letter with a subscript": ("\\dot{x}_1^2 = \\dot{x_1}{}^2", "x_1.**2", "x_1.**2"),
+    "a fraction of single digits": ("\\frac12 m v^2 = T", "m*v**2/2", "T"),
+    "degrees": ("\\sin 30^\\circ = \\frac{1}{2}", "1/2", "1/2"),
+    "a mixed argument of a sine": ("y = A\\sin 2\\theta \\cos\\theta", "y", "A*sin(2*theta)*cos(theta)"),
+    "an angle before other letters": ("V = m g \\cos\\theta l", "V", "g*l*m*cos(theta)"),
+    "a power of a function": ("\\sin^2 x = s", "sin(x)**2", "s"),
+    "an inverse function": ("\\theta = \\tan^{-1} x", "theta", "atan(x)"),
+    "a double integral": ("I = \\int_0^a dx \\int_0^b dy\\, y^2", "I", "a*b**3/3"),
+    "an integral with its differential at the end": (
+        "I = \\int_0^{2\\pi}\\int_0^R r^2\\, r\\, dr\\, d\\theta",
+        "I",
+        "pi*R**4/2",
+    ),
+    "an integral of a sum without brackets": ("I = \\int_0^a 1 + x \\, dx", "I", "a**2/2 + a"),
+    "a differential in a numerator": ("I = \\int_1^a \\frac{dx}{x}", "I", "log(a)"),
+    "a bracket with limits": ("I = \\left[\\frac{x^2}{2}\\right]_0^a", "I", "a**2/2"),
+    "a triple and a scalar product": ("s = (1, 2, 3) \\cdot (a, b, d)", "s", "a + 2*b + 3*d"),
+    "a determinant": ("\\begin{vmatrix} a & b \\\\ d & e \\end{vmatrix} = D", "a*e - b*d", "D"),
+    "a sum over an index": ("s = \\sum_{i=1}^{3} m_i", "s", "m_1 + m_2 + m_3"),
+    "a Unicode formula": ("T = ½ ω²".replace("½", "\\frac12"), "T", "omega**2/2"),
+    "two signs": ("x = a \\pm b", "x", "a + b*±"),
+    "a label in words": ("T_{\\text{max}} = T_{m a x}", "T_max", "T_max"),
+    "an old fraction": ("{a \\over 2} = h", "a/2", "h"),
+    "the package physics": ("\\dv{x}{t} = \\abs{v}", "dx/dt", "Abs(v)"),
+    "a fraction with a slash": ("k = 1/2 m", "k", "m/2"),
+    "a unit": ("v = 3\\,\\mathrm{km}", "v", "3000"),
+}
+
+
+@pytest.mark.parametrize(("latex", "left", "right"), list(READ.values()), ids=list(READ))
+def test_a_formula_is_read(latex: str, left: str, right: str) -> None:
+    ((found_left, found_right),) = values(f"$$ {latex} $$")
+    assert found_left == left
+    assert found_right.replace("**1.0", "") == right or sorted(found_right.split(" + ")) == sorted(right.split(" + "))
+
+
+def test_a_function_of_time_is_not_a_product() -> None:
+    text = "Let $x(t)$ be the position, with $x(0) = a$. Then $v(t) = \\frac{d x(t)}{dt}$, $a(t) = \\frac{v(t) - v(t-h)}{h}$."
+    found = dict(values(text))
+    assert found["x(0)"] == "a" and found["a"] == "(v - v(-h + t))/h"
+
+
+def test_a_letter_before_a_bracket_is_a_factor_if_it_is_never_a_function() -> None:
+    assert values("$p = m(v + u)$, $m = 2$") == [("p", "m*(u + v)"), ("m", "2")]
+
+
+def test_the_rate_of_a_product_follows_the_chain_rule() -> None:
+    assert values("$\\frac{d}{dt}(m r^2\\dot\\phi) = 0$ and $\\dot r = 0$")[0][0] == "2*m*phi.*r*r. + m*phi..*r**2"
+
+
+def test_a_vector_differs_from_its_magnitude() -> None:
+    (claim,) = audit("$\\vec a - a = 0$").claims
+    assert claim.verdict is not None and str(claim.verdict.outcome) == "undecided"
+
+
+def test_a_letter_with_its_own_list_is_a_vector_and_a_length() -> None:
+    (claim,) = audit("The centre is at $a = \\{\\frac12 a, a, 2 a\\}$.").claims
+    assert claim.values is not None and str(claim.values[0]) == "Matrix([[a_1], [a_2], [a_3]])"
+
+
+@pytest.mark.parametrize(
+    "text", ["(" * 5000 + "x" + ")" * 5000, "\\frac{" * 3000, "x^" * 4000, "\\left(" * 2000 + "y", "9" * 9999]
+)
+def test_hostile_formulas_are_unreadable_and_not_fatal(text: str) -> None:
+    for claim in audit(f"$$ {text} = 1 $$").claims:
+        assert claim.verdict is not None and str(claim.verdict.outcome) in ("unreadable", "undecided", "defines")
