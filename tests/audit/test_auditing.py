@@ -131,7 +131,7 @@ def test_a_number_set_equal_to_a_list_is_a_slip() -> None:
 
 def test_a_lost_differential_is_found() -> None:
     (claim,) = wrong(
-        "$$\n\\begin{aligned}\nI &= \\int_0^a dx \\int_0^b y \\, dy \\\\\n&= \\int_0^a x \\int_0^b y \\, dy\n\\end{aligned}\n$$"
+        "\\begin{align*}\nI &= \\int_0^a dx \\int_0^b y \\, dy \\\\\n&= \\int_0^a x \\int_0^b y \\, dy\n\\end{align*}"
     )
     assert claim.verdict is not None and claim.verdict.suggestion == "d x instead of x"
 

@@ -44,7 +44,7 @@ def test_a_formula_is_read(latex: str, left: str, right: str) -> None:
 
 
 def test_a_function_of_time_is_not_a_product() -> None:
-    text = "Let $x(t)$ be the position, with $x(0) = a$. Then $v(t) = \\frac{d x(t)}{dt}$, $a(t) = \\frac{v(t) - v(t-h)}{h}$."
+    text = "Let $x(t)$ be the position, with $x(0) = a$. Then $v(t) = \\dot x(t)$, $a(t) = \\frac{v(t) - v(t-h)}{h}$."
     found = dict(values(text))
     assert found["x(0)"] == "a" and found["a"] == "(v - v(-h + t))/h"
 
