@@ -23,7 +23,7 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.syntax import Int, Letter, Node
 
-SECONDS = 8.0  # of processor time for one claim
+SECONDS = 3.0  # of processor time for one claim
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
@@ -181,6 +181,7 @@ class _Auditor:
                     derivatives=self.meaning.derivatives,
                     symbols=self.meaning.symbols,
                     parents=self.meaning.parents,
+                    defined=self.value_of,
                     scope=self.meaning.scope,
                     plain=plain,
                 )
@@ -233,7 +234,9 @@ class _Auditor:
             for plain in PLAIN[:2]:
                 meaning = Meaning(
                     self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
-                    parents=self.meaning.parents, scope=self.meaning.scope, plain=plain,
+                    parents=self.meaning.parents,
+                    defined=self.value_of,
+                    scope=self.meaning.scope, plain=plain,
                 )  # fmt: skip
                 try:
                     value = meaning.of(node)
@@ -312,14 +315,21 @@ class _Auditor:
             return again
         return verdict
 
+    def value_of(self, symbol: Symbol) -> Value | None:
+        found = self.known.definitions.get(symbol)
+        return found[-1].value if found else None
+
     def last_good_side(self, claim: Claim) -> Node | None:
         """Return the left side, or the side before it in its chain if the left side is not read or has no value."""
+        asked = claim
         while claim.before is not None and (
             claim.left is None or claim.before.right is None or claim.before.values is None
         ):
             if claim.before.left is None and claim.before.before is None:
                 return None
-            claim = claim.before
+            earlier = claim.before
+            asked.from_head = earlier.before is None
+            claim = earlier
         return claim.left
 
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:

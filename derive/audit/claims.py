@@ -54,9 +54,10 @@ class Claim:
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
     difference: Value | None = None
+    from_head: bool = False  # compared with the first side of its chain, because the sides between have no value
     tags: tuple[str, ...] = field(default_factory=tuple)
 
     @property
     def is_step(self) -> bool:
         """Whether the left side is the result of a calculation: the right side of the claim before it."""
-        return self.before is not None
+        return self.before is not None and not self.from_head

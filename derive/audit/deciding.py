@@ -23,7 +23,7 @@ from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.known import Known
 from derive.documents.facts import ANGLES
 from derive.documents.layout import Cue
-from derive.documents.meaning import Meaning, Value
+from derive.documents.meaning import Meaning, Meaningless, Value
 
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
@@ -96,14 +96,15 @@ class Decision:
         matrix, number = (left, right) if isinstance(left, MatrixBase) else (right, left)
         if isinstance(number, Symbol):
             return Verdict(Outcome.DEFINES, "a list or matrix gets a name")
-        if matrix.shape[1] == 1 and self.claim.is_step | self.is_written_out(number):
+        sure = self.meaning.plain in ("", "unmarked") and (self.claim.is_step or self.is_written_out(number))
+        if matrix.shape[1] == 1 and sure:
             total = sympy.Add(*matrix)
             suggestion = "the sum of the entries" if same(number, total) else ""
             return Verdict(
                 Outcome.DIFFERS, "one side is a number and the other side is a list of numbers", suggestion=suggestion,
                 why_plausible="a scalar product is the sum of the products of the components" if suggestion else "",
             )  # fmt: skip
-        return Verdict(Outcome.UNDECIDED, "one side is a number and the other side is a vector or matrix")
+        raise Meaningless("one side is a number and the other side is a vector or matrix", self.claim.right_span)
 
     def is_written_out(self, number: Expr) -> bool:
         return len(number.free_symbols) > 1
@@ -282,6 +283,8 @@ class Decision:
         except (NotImplementedError, TypeError, ValueError):
             return None
         if len(found) != 1 or not found[0].free_symbols <= gone | left.free_symbols or sympy.count_ops(found[0]) > 12:
+            return None
+        if any(each.exp.is_Rational and not each.exp.is_Integer for each in found[0].atoms(sympy.Pow)):
             return None
         value = sympy.factor(found[0])
         self.known.define(new[0], value, self.claim.number, implied=True)

@@ -286,7 +286,7 @@ class _Reading:
     def read_rows(self, block: Block, inner: Span) -> None:
         """Read the rows of a formula and the statements in them."""
         try:
-            tokens = expanded(tokens_of(self.text, inner.start, inner.end), self.macros)
+            tokens = _unboxed(expanded(tokens_of(self.text, inner.start, inner.end), self.macros))
         except TooLarge as error:
             row = self.row(block, inner)
             row.fault = (str(error), error.span)
@@ -326,15 +326,30 @@ class _Reading:
         open_end = bool(last.tokens) and (
             last.tokens[-1].is_mark("+", "-", "*", "/") or last.tokens[-1].is_command("cdot", "times", "pm", "mp")
         )
+        open_end = open_end or _is_open(last.tokens)
         begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
         if not open_end and not (begins and len(cells) > 1 and not without_spaces(cells[0])):
             return None
-        if any(each.is_mark(*RELATIONS) or each.is_command(*RELATIONS) for each in _outside_brackets(tokens)):
+        if not _is_open(last.tokens) and any(map(_is_relation, _outside_brackets(tokens))):
             return None
         joined = Side((*last.tokens, *tokens), Span(last.span.start, tokens[-1].span.end))
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return block.rows[-1]
+
+
+def _unboxed(tokens: list[Token]) -> list[Token]:
+    """Leave out the frames around equations."""
+    found: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        if tokens[at].is_command("boxed", "fbox", "tightboxed"):
+            inner, at = argument_at(tokens, at + 1)
+            found += _unboxed(inner)
+            continue
+        found.append(tokens[at])
+        at += 1
+    return found
 
 
 def _depth_change(token: Token) -> int:
@@ -356,6 +371,11 @@ def _depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
         yield token, depth
         depth += max(0, change)
         before = token
+
+
+def _is_open(tokens: Sequence[Token]) -> bool:
+    """Whether a bracket is not closed, so that the next row goes on inside of it."""
+    return sum(each.is_mark("(", "[") - each.is_mark(")", "]") for each in tokens) > 0
 
 
 def _outside_brackets(tokens: Sequence[Token]) -> list[Token]:

@@ -101,6 +101,7 @@ class Meaning:
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
     parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # a derivative of a derivative
+    defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
     two_signs: bool = False
 
     def of(self, node: Node) -> Value:
@@ -133,8 +134,6 @@ class Meaning:
             return pi
         if node.base == "infty":
             return sympy.oo
-        if node.base == "e" and not node.sub and not node.dots and self.facts.alone[node.identity] == 0:
-            return sympy.E
         if "hat" in node.marks or "bb" in node.marks:
             return self.unit_vector(node)
         if "vec" in node.marks and node.base in "ijk" and not node.sub and self.facts.has_axes:
@@ -258,6 +257,9 @@ class Meaning:
 
     def of_pow(self, node: Pow) -> Any:
         base, exponent = self._of(node.base), self._of(node.exponent)
+        if isinstance(node.base, Letter) and node.base.base == "e" and not node.base.sub and not node.base.dots:
+            if self.facts.alone[node.base.identity] == 0:  # a letter e that never stands alone is Euler's number
+                base = sympy.E
         if isinstance(exponent, MatrixBase):
             raise Meaningless("a vector stands in an exponent", node.exponent.span)
         if isinstance(base, MatrixBase):
@@ -509,15 +511,26 @@ class Meaning:
             derivatives=self.derivatives,
             symbols=self.symbols,
             parents=self.parents,
+            defined=self.defined,
         )
         factors = [inner._of(each) for each in nodes]
         self.decimals += inner.decimals
+        factors = [self.along_variables(each, set(pairs.values())) for each in factors]
         value: Any = Integer(1)
         for each in factors:
             value = self.times(value, each, "", node.span) if isinstance(value, MatrixBase) else value * each
         for index, sign in reversed(signs):
             value = self.integrated(value, pairs[index], sign)
         return value
+
+    def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
+        """Put in the letters that earlier rows define by the variables, such as r = R z/h in an integral over z."""
+        found = {}
+        for symbol in value.free_symbols - variables:
+            definition = self.defined(symbol)
+            if definition is not None and definition.free_symbols & variables:
+                found[symbol] = definition
+        return value.xreplace(found) if found else value
 
     def integrated(self, value: Any, x: Symbol, sign: Sign) -> Any:
         if isinstance(value, MatrixBase):
@@ -541,9 +554,9 @@ class Meaning:
         return symbol
 
     def of_evalbar(self, node: EvalBar) -> Any:
-        if isinstance(node.lower, Text):
-            raise Meaningless(f"`{node.lower.text}` is a label", node.span)
         inner = self._of(node.inner)
+        if isinstance(node.lower, Text):
+            return self.with_label(inner, node.lower.text)
         if isinstance(inner, MatrixBase):
             raise Meaningless("limits stand at a matrix", node.span)
         if node.upper is None and isinstance(node.lower, Condition):
@@ -556,6 +569,13 @@ class Meaning:
         variable = self.variable_of(inner, node)
         ends = [self.scalar(each.right if isinstance(each, Condition) else each) for each in (node.upper, node.lower)]
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
+
+    def with_label(self, value: Any, label: str) -> Any:
+        """Return a value with a label, of which nothing else is known: the rate of L in the body."""
+        if isinstance(value, MatrixBase):
+            return value.applyfunc(lambda each: self.with_label(each, label))
+        symbol = Symbol(f"({value})_{label}", real=True)
+        return symbol
 
     def variable_of(self, inner: Expr, node: EvalBar) -> Symbol:
         if isinstance(node.lower, Condition) and (letter := _inner_letter(node.lower.left)) is not None:

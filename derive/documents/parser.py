@@ -1049,7 +1049,7 @@ class _Reader:
             if (
                 token.kind is Kind.OPEN
                 or token.is_mark("(", "[")
-                or token.is_command("{", "langle", "lbrace", "left")
+                or token.is_command("{", "langle", "lbrace", "left", "lvert", "lVert")
                 or token.is_mark("<")
                 and opener.is_mark("<")
             ):
@@ -1058,7 +1058,7 @@ class _Reader:
                 (
                     token.kind is Kind.CLOSE
                     or token.is_mark(")", "]")
-                    or token.is_command("}", "rangle", "rbrace", "right")
+                    or token.is_command("}", "rangle", "rbrace", "right", "rvert", "rVert")
                 )
                 or token.is_mark(">")
                 and opener.is_mark("<")
