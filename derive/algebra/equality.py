@@ -397,7 +397,7 @@ def _counterexample(left: Expr, right: Expr) -> Verdict | None:
 def _short(value: Any) -> str:
     try:
         text = str(value)
-    except ValueError:  # a whole number of thousands of digits
+    except ValueError:  # Python refuses to write out an integer with thousands of digits
         return type(value).__name__
     return text if len(text) <= 80 else text[:80] + " ..."
 

@@ -1,7 +1,8 @@
 """An expression written with named quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
 
 A named quantity eliminates one symbol of its formula. Among all choices of quantities and symbols, the shortest form is
-kept. A form with fewer symbols counts as shorter: each symbol counts as much as two signs.
+kept. The length of a form is its number of operations (`length`), plus two for each of its symbols. So a form with
+fewer symbols but more operations may be the shorter one.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ from derive.algebra.relation import TURNED
 from derive.algebra.tidy import common_factor, tidied
 
 MOST_TOGETHER = 3  # greatest number of quantities that one form may use
-SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of signs
+SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of operations
 HALF = Rational(1, 2)
 LONGEST = 120  # an expression that is longer than this (`length`) is not rewritten
 INVERSES = {acos: cos, asin: sin, atan: tan}
@@ -319,7 +320,7 @@ def _under_one_root(value: Expr) -> Expr:
 
 
 def _cost(value: Any) -> tuple[int, int]:
-    """The length including the symbols, and the number of symbols. If two forms have the same length, the form with
+    """The length with the symbols counted, and the number of symbols. If two forms have the same length, the form with
     fewer symbols is preferred."""
     symbols = len(value.free_symbols)
     return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

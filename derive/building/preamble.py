@@ -35,8 +35,8 @@ Environment = Mapping[str, str]
 
 
 def beginning(templates: Path, detail: str | None) -> str:
-    """Return the preamble of documents at that level of detail, before any document exists. The result is empty if the
-    template has no mark or cannot be read, or if the preamble needs data other than the level."""
+    """Return the preamble that all documents at the level `detail` share; no document is needed for this. The result is
+    empty if the template has no mark or cannot be read, or if the preamble needs data other than the level."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 

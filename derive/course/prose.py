@@ -2,8 +2,8 @@ r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
 `<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`,
 `<<figure axes>>` for the number of the drawing `axes`, and `<<problem top>>` for the number of another problem of the
-set. `$y = x^2/(2b)$` is a formula in LaTeX; it is read in the letters of the problem when the page is made
-(`derive.page.formulas`). `\$` is a dollar sign.
+set. `$y = x^2/(2b)$` is a formula in LaTeX. It is parsed when the page is made (`derive.page.formulas`), and its
+letters are the letters of the problem. `\$` is a dollar sign.
 
 Prose has no template commands; it is escaped when it is printed.
 """

@@ -120,7 +120,8 @@ class ShownMode:
     moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at
                 rest; and the sense of its rotation, which is an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
-    siblings    the keys of all modes that are found together; the drawings of these modes are placed after them
+    siblings    the keys of the steps of all modes that are found together; the drawings of these modes are placed after
+                the last of these steps
     like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
     """
 

@@ -132,7 +132,7 @@ class PolhodesMark(Surface):
     def pieces(self, paper: Paper) -> list[Piece]:
         moments = [paper.numbers.of(moment) for moment in self.moments]
         order = order_of(moments)
-        assert order is not None, "such a drawing is not made"
+        assert order is not None, "no drawing is made if two moments are equal"
         outline = paper.spots(*rim(NOUGHT, 1.0, paper.stance.eye))
         pieces: list[Piece] = [Patch(outline, "solid")]
         border = separatrix(moments, order)

@@ -133,8 +133,11 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 
 
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
-    """Yield the dimensions of a symmetric body with Euler angles, and its centre of mass. The dimensions are the
-    distances of the ends of its round parts from the fixed point, and the radii that are measures of these parts."""
+    """Yield the dimensions of a symmetric body with Euler angles, and its centre of mass.
+
+    The dimensions are the distances from the fixed point to the ends of the round parts of the body, and the greatest
+    radius of each part. A radius is left out if it is not one of the named lengths of its part.
+    """
     if not follows_nodes(placed):
         return
     _, across, along = following_axes(placed)

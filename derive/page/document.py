@@ -228,8 +228,8 @@ class _Writer:
         return defined, set(filter(could_stand, numbers))
 
     def _can_be_defined(self, key: str) -> bool:
-        """Return whether a clause may define the symbol of a step that the author hides: no text of the author contains
-        the symbol."""
+        """Return whether a clause may define the symbol of this step: the author hides the step, the symbol can be
+        defined in a clause, and no text of the author contains the symbol or mentions the step."""
         step = self.derivation.step(key)
         if self.problem.show.get(key) != HIDDEN_STEP or not self.clauses.can_define(step):
             return False

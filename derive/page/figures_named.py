@@ -49,7 +49,8 @@ def _add(blocks: list[Block], sentence: tuple[Inline, ...]) -> None:
 
 
 def _sort(drawing: m.Recorded) -> tuple[str, str]:
-    """Return the phrase for a drawing; drawings whose pairs are equal can share a sentence."""
+    """Return the name of the phrase for a drawing, and the key of the drawing if it needs a sentence of its own, else
+    "". Drawings with the same result can share a sentence."""
     if isinstance(drawing, m.Drawing):
         if drawing.forces_on is not None:
             return "shows_forces", ""

@@ -125,8 +125,8 @@ class Curves:
         """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
         is a zero.
 
-        They are the points at which the curves of two quantities meet. Otherwise they are the zeros at which a
-        quantity vanishes. The zero of an energy is arbitrary, so it is not marked.
+        If the curves of two quantities meet, the marked points are the points where they meet. Otherwise they are the
+        zeros of the quantities. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
         if self.labels_differ and len(own) > 2:
@@ -203,7 +203,7 @@ def plots_with_cases(plot: Plot, placement: Placement | None) -> list[tuple[Plot
 def _own(
     problem: Problem, first: tuple[Measured, ...], case: tuple[Measured, ...], changed: Iterable[Symbol]
 ) -> tuple[Measured, ...]:
-    """Return the number of a case for each symbol whose number differs between the cases."""
+    """Return, for each symbol whose number differs between the cases, the number that this case uses."""
     known = {number.symbol: number for number in (*first, *case)}
     missing = [symbol for symbol in changed if symbol not in known]
     known |= {number.symbol: number for number in (problem.measured if missing else ()) if number.symbol in missing}

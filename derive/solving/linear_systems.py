@@ -255,9 +255,9 @@ def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> No
 class Conservative(LinearSystem):
     """The matrix K - lambda M with symmetric K and M.
 
-    Common factors are taken out of the matrices first, so that mostly numbers are left. The entries of a column are
-    polynomials in lambda, modulo the irreducible factor of which lambda is a root. So the code decides exactly whether
-    a pivot vanishes.
+    Common factors are taken out of the matrices first, so that mostly numbers are left. The entries of a mode shape,
+    which is a column of the null space, are polynomials in lambda, modulo the irreducible factor of which lambda is a
+    root. So the code decides exactly whether a pivot vanishes.
 
     name   the name of the numbered roots of a factor without root formulas; by default such a factor is rejected
     """

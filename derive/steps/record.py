@@ -35,7 +35,7 @@ class Call:
     """A call of a verb while it runs.
 
     before   the number of quantities that were established before the call
-    asked    the questions of the call to the record, each with its arguments and its answer
+    asked    the questions that the call put to the record, each with its arguments and its answer
     """
 
     before: int

@@ -309,10 +309,11 @@ class BodyAnswers(Answers[Asked]):
         return moment_about(tensor, along, **named)
 
     def under_key(self, name: Word, own: str, key: str, letter: dict[str, str], tensor: Mapping[str, str]) -> Quantity:
-        """Return an answer whose key is the name of a result.
+        """Return an answer that an entry of `results:` asks for.
 
         name     the name of the answer, as it is written in the file
         own      the name of the answer without the name of the body
+        key      the name of the entry, which becomes the key of the answer
         letter   the symbol of the result, if the author chose one
         tensor   the symbol and the key of the tensor, if the tensor is about another point or is the answer
         """

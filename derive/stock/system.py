@@ -560,8 +560,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _assume_momenta(self) -> None:
         """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero.
 
-        The second assumption is left out if there are other coordinates, and if the force of the effective potential on
-        them does not depend on this momentum.
+        The second assumption is left out for a momentum if some coordinates are not cyclic, and if the forces of the
+        effective potential on these coordinates do not depend on this momentum.
         """
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):

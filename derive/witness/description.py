@@ -105,7 +105,7 @@ class Description:
     """A mechanical system as it is described, or a given Lagrangian in place of masses and forces.
 
     coordinates   each coordinate with its kind, such as "angle" or "length"
-    gravity       the acceleration of free fall against the last axis, m/s^2
+    gravity       the acceleration of free fall, in the negative direction of the last axis, m/s^2
     energies      potential energies in the coordinates, J
     lagrangian    the Lagrangian in J, if it is given
     """

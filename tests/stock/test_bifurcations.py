@@ -143,7 +143,7 @@ def test_equilibria_outside_the_range_of_the_coordinate_are_not_missed(tmp_path:
     ("edits", "line", "said", "helped"),
     [
         ([("omega/omega_c", "phi")], 19, "`phi`", ""),
-        ([("omega/omega_c", "m")], 19, "neither the equilibria nor their stability depend on `m`", ""),
+        ([("omega/omega_c", "m")], 19, "neither the equilibria nor their stability depends on `m`", ""),
         ([("omega/omega_c", "(omega + omega_c)/omega")], 19, "is not proportional", "such as `omega` or "),
         ([("omega/omega_c", "omega/R")], 19, "`omega/R` is in ", "a letter or a pure number"),
         ([("    against: omega/omega_c\n", "")], 17, "needs `against` with a letter, and `range`", ""),

@@ -91,8 +91,8 @@ Steps = Table[str, Quantity]
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
     """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
 
-    If a group has another input than the problem's file, the steps for the input of the group are derived. Results of
-    calls that are stored in `memory` are reused.
+    If the input of a group of entries differs from the input in the problem's file, the steps for the input of the
+    group are derived. Results of calls that are stored in `memory` are reused.
     """
     with within(problem.ranges):
         return _comparisons(problem, known, memory)

@@ -160,7 +160,7 @@ class Body(Placeable, OfParticles):
         return _letters_of([getattr(own, each.name) for each in fields(own) if each.name != "mass"])
 
     def radii(self, point: Point, region: Region) -> list[Quantity]:
-        """The steps that derive a radius in the limits of a region; empty by default."""
+        """The steps for the radii that appear in the limits of integration over a region; empty by default."""
         return []
 
     @cached_property

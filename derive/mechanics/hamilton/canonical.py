@@ -123,7 +123,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     f = 0.
 
     of   the Hamiltonian, J
-    Keys: canonical_ and the name of the coordinate, or of the momentum.
+    Keys: canonical_x for the coordinate x, and canonical_p_x for its momentum p_x.
     Second route: with the momenta as functions of the rates, the second equation is d'Alembert's principle, sum of
     (m a - F) . dr/dq = 0.
     Check: with the momenta as functions of the rates, the first equation is q_dot = q_dot.

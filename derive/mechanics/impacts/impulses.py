@@ -166,7 +166,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     impact       the system, its state and the impulses
     jumps        the results of `momentum_jump`, one for each coordinate
     conditions   the results of `meeting_condition`, one for each unknown impulse
-    Keys: q_dot_after, and the symbol of each impulse.
+    Keys: x_dot_after for the coordinate x, and the symbol of each impulse.
     Check: as `solved_for`.
     Errors: a jump or a condition is missing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2.

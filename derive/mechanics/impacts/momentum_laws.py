@@ -89,7 +89,8 @@ class Balance:
              an angular velocity
     before   the momentum just before the impact
     gained   the impulses, or their torques
-    changes  the changes of the coordinates by which Lagrange's equations are multiplied to give this law
+    changes  coordinate -> its change in a virtual displacement. Lagrange's equations, each multiplied by the change of
+             its coordinate, add up to this law
     """
 
     after: Sequence[tuple[Any, Expr] | Expr]
@@ -225,8 +226,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
 
 def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Symbol, Expr]]:
-    """Return the bodies in the law, the point of the law, and the changes of the coordinates if these bodies rotate
-    about this point by a unit angle, counterclockwise."""
+    """Return the bodies in the law, the point of the law, and the changes of the coordinates, per angle of rotation,
+    when these bodies rotate counterclockwise about this point."""
     choices: list[tuple[list[Alone], Vector]] = [([body], body.centre)]
     if body.axis is not None:
         choices = [(bodies_alone(impact.system), body.axis), ([body], body.axis), *choices]

@@ -150,7 +150,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     """Accelerations q_ddot, from the equations of motion, and from the constraints if there are any.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
-    Keys: acceleration_ and the name of the coordinate.
+    Keys: acceleration_x for the coordinate x.
     Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
     eliminated (from these equations, after other unknowns are eliminated), zero.
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0

@@ -271,7 +271,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
     of            the Lagrangian, J
     derivatives   whether steps derive dL/dq, dL/dq_dot and the rate of dL/dq_dot
-    Keys: motion_ and the name of the coordinate.
+    Keys: motion_x for the coordinate x.
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

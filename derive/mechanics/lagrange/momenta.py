@@ -102,7 +102,7 @@ def momenta(of: Quantity) -> tuple[Quantity, ...]:
     """Momenta of all coordinates, p_q = dL/dq_dot.
 
     of   the Lagrangian, J
-    Keys: p_ and the name of the coordinate.
+    Keys: p_x for the coordinate x.
     Second route: as `conjugate_momentum`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """

@@ -233,7 +233,10 @@ def central(energy: Expr, distance: Symbol, start: Location, end: Location, mass
     """
     if depends_on_time(energy):
         raise Rejected(
-            Complaint("changes", "`central` needs an energy of the distance only, but it depends on the time t")
+            Complaint(
+                "changes",
+                "`central` needs an energy that depends only on the distance, but this energy depends on the time t",
+            )
         )
     return Central(start, end, distance, energy, diff(energy, distance), massless)
 

@@ -75,7 +75,9 @@ def arrivals(
     of, others   the result, and other results that are substituted in it
     places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the
                  place
-    limit        a function that returns the limit of f at the place, as for `condition_to_reach`
+    limit        a function that maps the squared rate f(q) to the limit of f at the place; by default f is evaluated at
+                 the place
+
     If one of the other results was derived from this motion, such as the place of a first slip, its step already states
     the condition; the `Arrival` then has none.
     Errors: the motion does not reach the place; or the result contains a rate with its sign at the start, and this sign

@@ -1,7 +1,7 @@
 """Euler's equations for a body whose principal moments of inertia are known, free or with a torque.
 
-Components are along the principal axes of the body, which rotate with it. Second routes use the accelerations of the
-particles of the body instead of its tensor.
+Components are along the principal axes of the body, which rotate with it. The rate of L in space and Euler's equations
+have a second route that uses the accelerations of the particles of the body instead of its tensor.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ DAMPED_CHARACTERISTIC = Rule(
 def _characteristic(equations: DampedModes) -> Quantity:
     """Characteristic equation, det(M s^2 + C s + K) = 0.
 
-    Outcomes: several, one.
+    Outcomes: several (for several coordinates), one (for one coordinate).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     linear, letter = equations.linear, equations.letter

@@ -522,8 +522,8 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Divide the value by the left minus the right side of a condition, both as polynomials in a symbol, and return the
-    remainder."""
+    """Return the remainder after division of the value by the residual of a condition, which is its left side minus its
+    right side. Only the numerators of the value and of the residual are divided, as polynomials in one symbol."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

@@ -6,8 +6,8 @@ path have the same unit, both axes have the same scale.
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
 names are in a legend in a corner of the panel or, if no corner is free, above the panel.
 
-Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis; its name is
-the place there, above a maximum and below a minimum if there is room.
+Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis. The name of
+the place on this axis is above a maximum and below a minimum if there is room.
 """
 
 from __future__ import annotations
@@ -44,10 +44,10 @@ TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the 
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
-PAD = 4.0  # in points: the distance of the name of an axis from its numbers, and of a name from its dot
+PAD = 4.0  # in points: from the name of an axis to its numbers, and from the name of an extremum to its dot
 EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # part of the length of a path before its arrowhead; not 0.5, where a path may be back at its start
-DOT = 2.2  # in points: the radius of the dot at an extremum
+DOT = 2.2  # in points: the radius of a dot, for example at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
 ROW = 17.0  # in points: the height of one row of numbers above a panel, and of the margin; more rows make a plot higher
 SPACE = 7.0  # in points: the distance between two numbers above a panel

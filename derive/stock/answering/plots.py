@@ -198,7 +198,7 @@ class Plotted:
             parameter = ratio(shown.label, shown.expr, letters, against, shown.keys)
         replaced = parameter.letter[0] if parameter.letter else parameter.symbol
         if replaced not in known.values():
-            message = f"neither the equilibria nor their stability depend on `{replaced.name}`, so there is no diagram"
+            message = f"neither the equilibria nor their stability depends on `{replaced.name}`, so there is no diagram"
             rejected("wrong-argument", message, against.place, did_you_mean(against, known))
         return parameter
 
