@@ -30,7 +30,7 @@ class Known:
 
     meaning: Meaning
     definitions: dict[Symbol, list[Definition]] = field(default_factory=dict)
-    numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values for an example or at one moment
+    numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values for an example or at an instant
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
 
@@ -50,7 +50,7 @@ class Known:
                 self.equations.append((each, claim))
 
     def with_slips(self) -> Known | None:
-        """Return the knowledge of a reader who believes the wrong rows, or None if there are none."""
+        """Return the knowledge of a reader who believes the wrong rows, or None if no row is wrong."""
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}

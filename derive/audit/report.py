@@ -52,8 +52,8 @@ def _told(audit: Audit, claim: Claim) -> str:
     if verdict.inherits is not None:
         notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
-    complaint = Complaint("row", verdict.because, _place(audit, claim), tuple(notes), suggestion, str(verdict.outcome))
-    return complaint.shown().replace("[row]", "", 1)
+    code = str(verdict.outcome)
+    return Complaint(code, verdict.because, _place(audit, claim), tuple(notes), suggestion, "row").shown()
 
 
 def _place(audit: Audit, claim: Claim) -> Place:

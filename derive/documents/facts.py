@@ -37,7 +37,7 @@ ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
 @dataclass
 class Facts:
     functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
-    products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is no argument
+    products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is a factor
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
     marked: set[Identity] = field(default_factory=set)  # vectors by an arrow or bold type
     shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # in the scopes of the document

@@ -36,6 +36,7 @@ from sympy import (
 )
 
 from derive.algebra.integrals import definite
+from derive.course.units import read_unit
 from derive.documents.facts import ANGLES, Facts
 from derive.documents.source import Span
 from derive.documents.syntax import (
@@ -63,6 +64,7 @@ from derive.documents.syntax import (
     Text,
     Vec,
 )
+from derive.errors import DeriveError
 
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
@@ -182,15 +184,14 @@ class Meaning:
         raise Meaningless(reason, node.span)
 
     def unit(self, node: Text) -> Expr:
-        from derive.course.units import _UNITS
-
+        """Return the size of a unit in the SI."""
         name = node.text.removeprefix("unit ").strip()
-        known = _UNITS.get({"sec": "s", "rev": "rev"}.get(name, name))
-        if known is None:
-            raise Meaningless(f"`{name}` is not a unit that derive knows", node.span)
+        try:
+            unit = read_unit({"sec": "s"}.get(name, name))
+        except DeriveError:
+            raise Meaningless(f"`{name}` is not a unit that derive knows", node.span) from None
         self.units = True
-        factor, power, _, _ = known
-        return Rational(factor.numerator, factor.denominator) * pi**power
+        return unit.factor
 
     def of_add(self, node: Add) -> Any:
         terms = []
@@ -250,7 +251,7 @@ class Meaning:
     def of_frac(self, node: Frac) -> Any:
         top, bottom = self._of(node.top), self._of(node.bottom)
         if isinstance(bottom, MatrixBase):
-            raise Meaningless("a vector stands in a denominator", node.bottom.span)
+            raise Meaningless("a denominator is a vector", node.bottom.span)
         if bottom == 0:
             raise Meaningless("a denominator is zero", node.bottom.span)
         return top / bottom
@@ -258,10 +259,10 @@ class Meaning:
     def of_pow(self, node: Pow) -> Any:
         base, exponent = self._of(node.base), self._of(node.exponent)
         if isinstance(node.base, Letter) and node.base.base == "e" and not node.base.sub and not node.base.dots:
-            if self.facts.alone[node.base.identity] == 0:  # a letter e that never stands alone is Euler's number
+            if self.facts.alone[node.base.identity] == 0:  # a letter e that is never alone is Euler's number
                 base = sympy.E
         if isinstance(exponent, MatrixBase):
-            raise Meaningless("a vector stands in an exponent", node.exponent.span)
+            raise Meaningless("an exponent is a vector", node.exponent.span)
         if isinstance(base, MatrixBase):
             if exponent == 2 and base.shape[1] == 1:
                 return base.dot(base)
@@ -367,7 +368,7 @@ class Meaning:
         ):
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
-            raise Meaningless("a vector at one moment has no value here", node.span)
+            raise Meaningless("the value of a vector at an instant is not read", node.span)
         text = ",".join(str(self._of(value)) for _, value in values)
         del bare
         symbol = Symbol(f"{head.named()}{'.' * head.dots}({text})", real=True)
@@ -394,7 +395,7 @@ class Meaning:
 
     def of_der(self, node: Der) -> Any:
         if node.of is None:
-            raise Meaningless("this derivative stands alone", node.span)
+            raise Meaningless("this derivative has no operand", node.span)
         by: list[tuple[Symbol, int]] = []
         for letter, order in node.by:
             if not isinstance(letter, Letter):
@@ -558,7 +559,7 @@ class Meaning:
         if isinstance(node.lower, Text):
             return self.with_label(inner, node.lower.text)
         if isinstance(inner, MatrixBase):
-            raise Meaningless("limits stand at a matrix", node.span)
+            raise Meaningless("a matrix has limits", node.span)
         if node.upper is None and isinstance(node.lower, Condition):
             left = _inner_letter(node.lower.left)
             if left is None:

@@ -127,7 +127,7 @@ class _Reader:
         return value
 
     def inside(self, tokens: list[Token], span: Span) -> Node:
-        """Return the node of tokens that stand in an argument or in brackets."""
+        """Return the node of tokens of an argument or of a bracket."""
         if not tokens:
             raise Unreadable("something is missing here", span)
         reader = _Reader(tokens, self.depth + 1)

@@ -77,7 +77,7 @@ class Source:
         return [0, *(found.end() for found in re.finditer(r"\n", self.written))]
 
     def line_of(self, position: int) -> int:
-        """Return the line of the file, counted from 1, for a position in the tidied text."""
+        """Return the line of the file, from 1, for a position in the tidied text."""
         return bisect_right(self.line_starts, self._origin(position))
 
     def place(self, span: Span) -> Place:
@@ -126,7 +126,7 @@ def read_source(path: Path, shown: str | None = None) -> Source:
             raise Rejected(Complaint("too-large", f"`{name}` is larger than {LARGEST // 1_000_000} million characters"))
         text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
-        raise Misused(Complaint("no-such-file", f"`{name}` cannot be read: {error.strerror}")) from error
+        raise Misused(Complaint("unreadable", f"`{name}` cannot be read: {error.strerror}")) from error
     except UnicodeDecodeError as error:
         message = f"`{name}` is not in UTF-8; the first other byte is at position {error.start}"
         raise Rejected(Complaint("encoding", message)) from error

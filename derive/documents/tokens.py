@@ -1,7 +1,7 @@
 r"""The tokens of a formula and their places.
 
-A token from a macro has the place of the call in the text, and `origin` names the chain of calls. The lexer knows no
-commands: `\frac` and `\foo` are both tokens of kind command.
+A token from a macro has the place of the call in the text, and `origin` names the chain of calls. The lexer treats all
+commands alike: `\frac` and `\foo` are both tokens of kind command.
 """
 
 from __future__ import annotations

@@ -141,7 +141,7 @@ def test_the_command_prints_the_slip_with_its_place(tmp_path: Path, capsys: pyte
     file.write_text(RIGHT.replace(r"\frac{x^3}{3}", r"\frac{x^3}{2}", 1), encoding="utf-8")
     assert main(["audit", str(file)]) == 1
     told = capsys.readouterr().out
-    assert ":8:30: differs: the two sides are not equal" in told and "probably 3 instead of 2" in told
+    assert ":8:30: row[differs]: the two sides are not equal" in told and "probably 3 instead of 2" in told
     file.write_text(RIGHT, encoding="utf-8")
     assert main(["audit", str(file)]) == 0
 

@@ -30,7 +30,7 @@ READ = {
     "two signs": ("x = a \\pm b", "x", "a + b*±"),
     "a label in words": ("T_{\\text{max}} = T_{m a x}", "T_max", "T_max"),
     "an old fraction": ("{a \\over 2} = h", "a/2", "h"),
-    "the package physics": ("\\dv{x}{t} = \\abs{v}", "x.", "Abs(v)"),
+    "the package physics": ("\\dv{x}{t} = \\abs{y}", "x.", "Abs(y)"),
     "a fraction with a slash": ("k = 1/2 m", "k", "m/2"),
     "a unit": ("v = 3\\,\\mathrm{km}", "v", "3000"),
 }
