@@ -182,6 +182,7 @@ class _Auditor:
                     symbols=self.meaning.symbols,
                     parents=self.meaning.parents,
                     defined=self.value_of,
+                    evaluations=self.meaning.evaluations,
                     scope=self.meaning.scope,
                     plain=plain,
                 )
@@ -236,6 +237,7 @@ class _Auditor:
                     self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
                     parents=self.meaning.parents,
                     defined=self.value_of,
+                    evaluations=self.meaning.evaluations,
                     scope=self.meaning.scope, plain=plain,
                 )  # fmt: skip
                 try:
@@ -352,7 +354,15 @@ class _Auditor:
 
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""
-        if claim.values is None or claim.verdict is None or claim.relation not in ("=", ":="):
+        if claim.values is None or claim.verdict is None:
+            return
+        if claim.relation not in ("=", ":="):
+            start = claim
+            while start.before is not None:
+                start = start.before
+            head, bound = start.values[0] if start.values is not None else None, claim.values[1]
+            if isinstance(head, Symbol) and bound.is_number:
+                self.known.bounds.append((head, claim.relation, bound, claim.number))
             return
         left, right = claim.values
         number = claim.number

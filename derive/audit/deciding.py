@@ -28,6 +28,7 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 MOST_COMBINED = 6
+CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
@@ -219,7 +220,29 @@ class Decision:
             )
             if holds is not None:
                 return Verdict(Outcome.HOLDS if bool(holds) else Outcome.DIFFERS, "a comparison of two numbers")
-        return Verdict(Outcome.DEFINES, "a condition")
+        return self.bound_in_other_units() or Verdict(Outcome.DEFINES, "a condition")
+
+    def bound_in_other_units(self) -> Verdict | None:
+        """Compare a bound with the same bound that an earlier row gives in other units."""
+        if self.claim.is_step or not isinstance(self.left, Symbol) or not self.right.is_number:
+            return None
+        for left, relation, bound, number in reversed(self.known.bounds[-3:]):
+            if left != self.left or relation != self.claim.relation:
+                continue
+            error = _relative_error(bound, self.right)
+            if error is None or error > CONVERTED:
+                return None
+            if error <= self.tolerance or not self.meaning.decimals:
+                return Verdict(Outcome.APPROXIMATES, "the same bound, to the printed digits", (number,))
+            if error > 2 * self.tolerance and self.meaning.units:
+                because = f"the earlier bound is {_number(sympy.N(self.right * bound / self.right, 8))} in the SI"
+                written = max((value for value, _ in self.meaning.decimals), key=Abs)
+                meant = sympy.N(written * bound / self.right, 7)
+                return Verdict(
+                    Outcome.DIFFERS, because, (number,), suggestion=f"{float(meant):g} instead of {float(written):g}",
+                    why_plausible="a number was converted or rounded wrongly",
+                )  # fmt: skip
+        return None
 
     @property
     def difference(self) -> Value:

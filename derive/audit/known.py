@@ -32,6 +32,7 @@ class Known:
     definitions: dict[Symbol, list[Definition]] = field(default_factory=dict)
     numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values for an example or at an instant
     equations: list[tuple[Expr, int]] = field(default_factory=list)
+    bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
 
     def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:
@@ -65,6 +66,12 @@ class Known:
 
     def computed(self, symbol: Symbol) -> Definition | None:
         """Return the value of a rate or of a derivative whose letter is defined."""
+        if symbol in self.meaning.evaluations:
+            function, variable, at = self.meaning.evaluations[symbol]
+            inner = self.latest(function)
+            if inner is None or variable not in inner.value.free_symbols:
+                return None
+            return Definition(symbol, inner.value.subs(variable, at), inner.claim)
         letter = self.meaning.symbols.get(symbol)
         if letter is not None and letter.dots:
             undotted = replace(letter, dots=letter.dots - 1)

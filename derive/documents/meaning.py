@@ -104,6 +104,7 @@ class Meaning:
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
     parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # a derivative of a derivative
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
+    evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
     two_signs: bool = False
 
     def of(self, node: Node) -> Value:
@@ -187,7 +188,7 @@ class Meaning:
         """Return the size of a unit in the SI."""
         name = node.text.removeprefix("unit ").strip()
         try:
-            unit = read_unit({"sec": "s"}.get(name, name))
+            unit = read_unit({"sec": "s", "RPM": "rpm"}.get(name, name))
         except DeriveError:
             raise Meaningless(f"`{name}` is not a unit that derive knows", node.span) from None
         self.units = True
@@ -354,8 +355,8 @@ class Meaning:
     # Functions with arguments
 
     def of_apply(self, node: Apply) -> Any:
-        head, own = node.head, self.facts.variables_of(node.head)
-        bare = _replaced(head, primes=0)
+        head = node.head
+        own = self.facts.variables_of(_replaced(head, dots=0))
         values: list[tuple[Node | None, Node]] = []
         for argument in node.arguments:
             if isinstance(argument, Condition):
@@ -369,11 +370,22 @@ class Meaning:
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
             raise Meaningless("the value of a vector at an instant is not read", node.span)
-        text = ",".join(str(self._of(value)) for _, value in values)
-        del bare
-        symbol = Symbol(f"{head.named()}{'.' * head.dots}({text})", real=True)
-        self.symbols.setdefault(symbol, head)
+        numbers = [self.scalar(value) for _, value in values]
+        symbol = Symbol(f"{head.named()}{'.' * head.dots}({','.join(map(str, numbers))})", real=True)
+        variable = self.variable_of_call(values[0][0], own) if len(values) == 1 else None
+        if variable is not None and isinstance(function := self.function_letter(head), Symbol):
+            self.evaluations[symbol] = (function, variable, numbers[0])
         return symbol
+
+    def variable_of_call(self, named: Node | None, own: Any) -> Symbol | None:
+        """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0)."""
+        if named is not None:
+            letter = _letter_in(named)
+            return self.symbol(letter) if letter is not None else None
+        if len(own) != 1:
+            return None
+        ((base, sub, marks, primes, label),) = own
+        return self.symbol(Letter(Span(0, 0), base, sub, marks, 0, primes, label))
 
     def function_letter(self, head: Letter) -> Any:
         if not head.primes:
@@ -513,6 +525,7 @@ class Meaning:
             symbols=self.symbols,
             parents=self.parents,
             defined=self.defined,
+            evaluations=self.evaluations,
         )
         factors = [inner._of(each) for each in nodes]
         self.decimals += inner.decimals

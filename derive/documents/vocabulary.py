@@ -55,4 +55,4 @@ CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": 
 INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
 MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
 ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
-UNIT_WORDS = _words("sec min rad rpm rev deg kg cm mm km ms Hz kHz hr yr mol Pa")
+UNIT_WORDS = _words("sec min rad rpm RPM rev deg kg cm mm km ms Hz kHz hr yr mol Pa")
