@@ -21,7 +21,8 @@ from derive.documents.facts import Facts, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
-from derive.documents.syntax import Int, Letter, Node
+from derive.documents.source import Span
+from derive.documents.syntax import Int, Letter, Mat, Node
 
 SECONDS = 3.0  # of processor time for one claim
 MOST_READINGS = 8
@@ -161,7 +162,43 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
+        if claim.verdict is not None:
+            self.remark(claim, claim.verdict)
         self.remember(claim)
+
+    def remark(self, claim: Claim, verdict: Verdict) -> None:
+        """Point to what is hardly meant: a letter equal to itself, or one entry that breaks a symmetry."""
+        if (
+            isinstance(claim.left, Letter)
+            and isinstance(claim.right, Letter)
+            and claim.left.identity == claim.right.identity
+        ):
+            if not claim.is_step and claim.left.dots == claim.right.dots:
+                verdict.because = "both sides are the same letter, so this says nothing"
+                if len(claim.right.sub) == 2 and claim.right.sub[0] != claim.right.sub[1]:
+                    turned = claim.right.base + "_" + claim.right.sub[::-1]
+                    verdict.suggestion, verdict.why_plausible = f"{turned} on one side", WHY["index"]
+        for matrix in claim.right.walk() if claim.right is not None and not verdict.suggestion else ():
+            if isinstance(matrix, Mat) and (odd := self.odd_entry(matrix)) is not None:
+                row, column, span = odd
+                verdict.suggestion = f"the entry of row {column} and column {row} also in row {row} and column {column}"
+                verdict.why_plausible, verdict.span = "the matrix is symmetric except for this pair", span
+
+    def odd_entry(self, matrix: Mat) -> tuple[int, int, Span] | None:
+        """Return the row, the column and the place of an entry below the diagonal of an otherwise symmetric matrix."""
+        if len(matrix.rows) != 3 or any(len(row) != 3 for row in matrix.rows) or matrix.determinant:
+            return None
+        try:
+            entries = [[self.meaning.entry(each) for each in row] for row in matrix.rows]
+        except (Meaningless, *FAULTS):
+            return None
+        pairs = [(i, j) for i in range(3) for j in range(i)]
+        odd = [(i, j) for i, j in pairs if not same(entries[i][j], entries[j][i])]
+        plain = [(i, j) for i, j in pairs if (i, j) not in odd and entries[i][j] != 0]
+        if len(odd) != 1 or len(plain) < 2:
+            return None
+        ((i, j),) = odd
+        return i + 1, j + 1, matrix.rows[i][j].span
 
     def best(self, claim: Claim) -> Verdict:
         """Return the verdict for the reading that makes the claim hold, or for the likeliest reading."""

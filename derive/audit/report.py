@@ -35,11 +35,15 @@ def summary(audit: Audit) -> dict[str, int]:
 
 def as_text(audit: Audit, every: bool) -> str:
     """Return the rows that differ, each with its place and its probable reading; with `every`, all rows."""
-    shown = [_told(audit, claim) for claim in audit.claims if every or _verdict(claim).outcome is Outcome.DIFFERS]
+    shown = [_told(audit, claim) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
     total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
     return "\n\n".join([*shown, total])
+
+
+def _is_noteworthy(verdict: Verdict) -> bool:
+    return verdict.outcome is Outcome.DIFFERS or bool(verdict.suggestion)
 
 
 def _told(audit: Audit, claim: Claim) -> str:
