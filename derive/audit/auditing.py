@@ -247,7 +247,15 @@ class _Auditor:
             )
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
+            if not first.suggestion and self.loses_letters(claim):
+                return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
+
+    def loses_letters(self, claim: Claim) -> bool:
+        """Whether letters of the left side are missing on the right."""
+        assert claim.values is not None
+        left, right = (self.expanded(each) for each in claim.values)
+        return bool(left.free_symbols - right.free_symbols)
 
     def suggest(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
         """Find the nearest change of the right side that makes the claim hold."""

@@ -318,13 +318,15 @@ class Decision:
     def otherwise(self) -> Verdict:
         """Accuse only a step whose sides are known completely; every other claim stays undecided."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
-        computed = isinstance(self.left, Symbol) and self.known.computed(self.left) is not None
+        computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
         if not self.claim.is_step and not computed:
             if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
                 return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
             return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
+        if self.holds_in_motion_only(left, right):
+            return Verdict(Outcome.UNDECIDED, "this may hold for the motion only, by the equations of motion")
         if opaque := self.opaque(left) | self.opaque(right):
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
@@ -337,10 +339,25 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
         if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
-        return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=counterexample(left, right))
+        example = counterexample(left, right)
+        if not example:
+            return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
+        return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def holds_in_motion_only(self, left: Value, right: Value) -> bool:
+        """Whether one side only contains second rates, or a rate of a momentum, which equations of motion determine."""
+        letters = self.meaning.symbols
+        for each in left.free_symbols ^ right.free_symbols:
+            letter = letters.get(each)
+            if letter is not None and (letter.dots >= 2 or (letter.dots and letter.base in ("p", "L", "l", "J", "S"))):
+                return True
+        return False
 
     def special_case(self, left: Value, right: Value) -> bool:
         """Whether letters of the left side may have got values in words."""
+        if any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
+               for each in left.free_symbols - right.free_symbols):  # fmt: skip
+            return True  # at rest
         lost = (left.free_symbols - right.free_symbols) & (self.left.free_symbols - self.right.free_symbols)
         return bool(lost) and bool(self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE})
 

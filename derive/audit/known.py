@@ -38,6 +38,16 @@ class Known:
     def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:
         if symbol in value.free_symbols or value.has(Integral):
             return
+        if any(
+            symbol in each.value.free_symbols
+            for other in value.free_symbols
+            for each in self.definitions.get(other, [])
+        ):
+            return  # the inverse of an earlier definition: x' = p/m after p = m x'
+        if (own := self.computed(symbol)) is not None and symbol in self.meaning.derivatives:
+            variables = {each for each, _ in self.meaning.derivatives[symbol][1]}
+            if variables & own.value.free_symbols and not variables & value.free_symbols:
+                return  # the value of a derivative at one place
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
@@ -102,6 +112,17 @@ class Known:
                     value = sympy.diff(value, each) if partial else self.meaning.differentiated(value, each, partial)
             return Definition(symbol, value, inner.claim)
         return None
+
+    def is_kinematic(self, symbol: Symbol) -> bool:
+        """Whether a rate or derivative follows from a definition without rates, whatever the motion is."""
+        if self.computed(symbol) is None:
+            return False
+        letter = self.meaning.symbols.get(symbol)
+        if letter is None or not letter.dots:
+            return True
+        inner = self.latest(self.meaning.symbol(replace(letter, dots=0)))
+        rates = inner.value.free_symbols if inner is not None else set()
+        return not any((found := self.meaning.symbols.get(each)) is not None and found.dots for each in rates)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
         """Put in the definitions of letters that depend on the variables of a derivative."""
