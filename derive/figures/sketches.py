@@ -435,7 +435,7 @@ class _Scene:
         length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None
         if length is not None:
             ways = [tidied(c) for c in (start - ends[0]).components]
-            if sorted(abs(c) for c in ways if c != 0) == [length] and isinstance(mark, DistanceMark):
+            if [abs(c) for c in ways if c != 0] == [length] and isinstance(mark, DistanceMark):
                 mark = replace(mark, off=mark.off + OVER_LABEL)
                 yield replace(mark, start=column_of(ends[0]), end=column_of(start), label=length)
             elif not any(ways) and isinstance(mark, LengthMark) and isinstance(mark.aside, MatrixBase):

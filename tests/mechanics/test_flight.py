@@ -114,6 +114,7 @@ def test_without_a_symbol_the_bob_returns_to_its_lowest_point_for_seven_halves(t
         ("    start: {put_in: flight_start, results: angle}\n", ""),
         ("    needed: {roots: start, for: v_0, symbol: v_p}\n", ""),
         ("answer: [pivot, angle, needed]", "answer: taut_speed"),
+        ("    box: needed\n", ""),
         ("    pivot: {passes: flight, through: [0, 0]}\n", ""),
     )
     steps = solved(tmp_path, text)

@@ -59,7 +59,7 @@ FOUND = [  # problem, part, rule, outcome
     ("library/hooke_3d", 1, "one_frequency", "generic"),
     ("library/double_pendulum", 3, "modes", "irrational"),
     ("library/hinge_force", 2, "zero_of", "changes_at_angle"),
-    ("library/atwood", 1, "zero_of", "changes"),
+    ("library/atwood", 1, "zero_of", "equal_masses"),
     ("library/plate_on_diagonal", 2, "zero_of", "touches"),
     ("library/triangular_plate", 2, "flat", "generic"),
 ]

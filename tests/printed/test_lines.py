@@ -43,7 +43,7 @@ MENDED = [
     (ex.applied(tensor, ex.scaled(-omega, v)), "I⃡ (-ω (1, 2, 3))"),
     (ex.Factors(M, -omega, a), "M (-ω) a"),
     # a sign behind a sign
-    (ex.Terms(a, ex.Factors(-omega, b)), "a - ω·b"),
+    (ex.Terms(a, ex.Factors(-omega, b)), "a - ω b"),
     (ex.Terms(a, rounded_form(Rational(-3, 2), 2)), "a - 1.5"),
     (ex.Terms(a, ex.Amount(Integer(-2), "cm", Rational(1, 100))), "a - 2 cm"),
     (MatAdd(w, ex.scaled(ex.Factors(Integer(-1), omega), L)), "ω⃗ - ω L⃗"),

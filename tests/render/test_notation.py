@@ -133,8 +133,8 @@ PINNED = [
     (ex.Terms(8 * a, 18 * a), "8a+18a", "8a + 18a"),
     (ex.Ratio(M, ex.Factors(a, 2 * a, 3 * a)), r"\frac{M}{a\cdot 2a\cdot 3a}", "M/(a·2a·3a)"),
     (ex.Factors(Rational(13, 3), ex.Group(6 * a**3), a**2), r"\frac{13}{3}\,(6a^{3})\,a^{2}", "13/3 (6a³) a²"),
-    (Integral(x**2, (x, 0, a)), r"\int_{0}^{a}\! x^{2}\,dx", "∫(0..a) x² dx"),
-    (Integral(x**2, (x, 0, y), (y, 0, a)), r"\int_{0}^{a}\! \int_{0}^{y}\! x^{2}\,dx\,dy", "∫(0..a) ∫(0..y) x² dx dy"),
+    (Integral(x**2, (x, 0, a)), r"\int_{0}^{a} x^{2}\,dx", "∫(0..a) x² dx"),
+    (Integral(x**2, (x, 0, y), (y, 0, a)), r"\int_{0}^{a} \int_{0}^{y} x^{2}\,dx\,dy", "∫(0..a) ∫(0..y) x² dx dy"),
     # numbers
     (rounded_form(acos(7 * sqrt(2779) / 397) * 180 / pi, 4), "21.64", "21.64"),
     (rounded_form(Rational(65, 100000), 3), r"6.50\times 10^{-4}", "6.50×10⁻⁴"),
