@@ -102,7 +102,7 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
-        if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum(last.right)):
+        if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum_or_root(last.right)):
             lines[result] = replace(last, presented=True)  # with its common factor in front, and with tangents
         return tuple(lines)
 
@@ -203,11 +203,12 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
     return found
 
 
-def _share_a_sum(vector: MatrixBase) -> bool:
-    """Return whether a sum, such as a^2 - c^2, is a factor or a denominator of every entry that does not vanish. In
-    front of the vector this sum is printed once."""
+def _share_a_sum_or_root(vector: MatrixBase) -> bool:
+    """Return whether a sum, such as a^2 - c^2, or the root of a number is a factor or a denominator of every entry that
+    does not vanish. In front of the vector this sum or root is printed once."""
     present = [entry for entry in vector if entry != 0]
-    return len(present) > 1 and any(base.as_base_exp()[0].is_Add for base in Mul.make_args(common_factor(present)))
+    factors = Mul.make_args(common_factor(present))
+    return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)
 
 
 def _is_bare(value: Any) -> bool:

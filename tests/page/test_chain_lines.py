@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from sympy import Symbol
+from sympy import Matrix, Symbol, sqrt
 
-from derive.page.chain_lines import ChainLine, ChainWriter, Equations
+from derive.page.chain_lines import ChainLine, ChainWriter, Equations, _share_a_sum_or_root
 from derive.page.repeats import results
 from derive.page.wording import Ref, phrases
 from derive.steps.step import Level, Step
@@ -85,3 +85,9 @@ def test_a_sum_that_all_components_share_is_in_front_of_the_vector() -> None:
     """The special case of a vector has only one line, and its left side is on this line."""
     page = rendered_once(ROOT, "hw9/block", only={"text"}).texts["text"]
     assert "= M a c (a² - c²) ω²/(12(2a² + c²)) (1, -1, 0)" in page
+
+
+def test_a_root_that_all_components_share_is_printed_in_front_of_the_vector() -> None:
+    assert _share_a_sum_or_root(Matrix([-1 / sqrt(2), 1 / sqrt(2), 0]))
+    assert not _share_a_sum_or_root(Matrix([x / 2, y / 2, 0]))
+    assert not _share_a_sum_or_root(Matrix([0, sqrt(2), 0]))

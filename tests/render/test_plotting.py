@@ -19,6 +19,7 @@ from derive.figures.pieces import Bullet, Stroke
 from derive.page.plots import Curves, curves_of
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
+from derive.render.drawing.curve_names import STUB, on_curve
 from derive.render.drawing.lettering import letters_of
 from derive.render.drawing.panels import Panel, panel_of
 from derive.render.drawing.plotting import (
@@ -510,3 +511,11 @@ def test_a_curve_is_cut_at_the_ends_of_the_vertical_axis_that_the_problem_states
     drawn = [each.spots for each in line_of(panel, Frame(panel.values, panel.values)) if isinstance(each, Stroke)]
     assert len(drawn) == 2 and {round(y, 9) for part in drawn for _, y in (part[0], part[-1])} == {-0.5, 1.0}
     assert drawn[0][0][0] == pytest.approx(-(2**0.5), abs=1e-3)
+
+
+def test_a_name_in_a_gap_leaves_no_short_end_of_an_open_curve() -> None:
+    line = [(2.0 * i, 0.0) for i in range(101)]
+    near_the_end = [(x, 30.0) for x in range(0, 160)]  # another curve, from which the last part of the line is farthest
+    box = on_curve(line, (20.0, 8.0), (-50.0, -50.0, 250.0, 50.0), [], near_the_end)
+    assert box is not None
+    assert box[2] <= line[-1][0] - STUB and box[0] >= line[0][0] + STUB

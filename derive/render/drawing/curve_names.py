@@ -18,6 +18,7 @@ STEP = 2.0  # in points: the distance between the points that represent a curve
 TRIED = 48  # the number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
 LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
+STUB = 15.0  # in points: the least piece of an open curve between a gap with its name and an end of the curve
 ENDS = 0.04  # part of a curve at either end that has no name
 
 
@@ -84,12 +85,15 @@ def on_curve(
     wide, high = size
     every = [own[i] for i in range(0, len(own), max(1, len(own) // TRIED))]
     boxes = [(x - wide / 2, y - high / 2, x + wide / 2, y + high / 2) for x, y in every]
+    # A short piece between the gap and an end of an open curve looks like a curve of its own.
+    ends = [] if dist(own[0], own[-1]) <= 2 * STEP else [own[0], own[-1]]
     tried = [
         (min(ENOUGH, _distance(box, lines)), box)
         for box in boxes
         if is_inside(box, panel)
         and is_clear(box, lines, taken)
         and sum(is_within(x, box) for x in own) < LONGEST * len(own)
+        and _distance(box, ends) >= STUB
     ]
     return max(tried, key=lambda each: each[0], default=(0.0, None))[1]
 
