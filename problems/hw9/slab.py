@@ -68,5 +68,6 @@ def solve(
     contact, sizes = radius * across, [2 * force / (5 * mass * gravity) for force in (N.value, F.value)]
     push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
     pushes = arrow(across, contact, push, label=N), arrow(-along, contact, friction, label=F)
-    sketch("forces", system, O, C, pushes, weights=True)
+    arm = length_mark(top - radius * theta * along, top, radius * theta)
+    sketch("forces", system, O, C, arm, pushes, weights=True)
     return L, motion, swings, stable, level, minimum, again, N, F, *needed
