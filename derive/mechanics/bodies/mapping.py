@@ -33,7 +33,7 @@ def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent =
 
     taken   symbols that are not available for the variables
     """
-    variables = coordinates(("z", "phi", "r"), taken)
+    variables = coordinates(("z", "theta", "r"), taken)
     if r == 0:
         theta = Integer(0)
     (height, angle, across), limits = _varied(variables, (z, theta, r))
