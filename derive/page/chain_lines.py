@@ -150,7 +150,10 @@ class ChainWriter:
         }
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
-        if self._are_just_before(step, [key for name in names_asked(template) & found.keys() for key in found[name]]):
+        is_plain = template in self.words.reasons["general"].values()
+        if is_plain and self._are_just_before(
+            step, [key for name in names_asked(template) & found.keys() for key in found[name]]
+        ):
             return ()
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
