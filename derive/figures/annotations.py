@@ -131,7 +131,7 @@ class AxisOfRotation(Mark):
         if not size_of(along):
             return []
         places = [dot(plus(place, through, -1.0), along) for place in (*paper.fixed, through)]
-        start = plus(through, along, min(places) - PAST * paper.reach)
+        start = self._start(paper, plus(through, along, min(places)), along)
         far = max(places) + (PAST if self.rate is None else 1.9 * PAST) * paper.reach
         if self.rate is None:
             spots = paper.spots(start, plus(through, along, far))
@@ -142,6 +142,16 @@ class AxisOfRotation(Mark):
         line = Stroke(paper.spots(start, plus(through, along, far + off)), "construction")
         ring = plus(round_end, along, off)
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
+
+    def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
+        """Return the start of the line: a little before the body, but at its end `near` if the piece between them is
+        behind the body, where it would seem to leave the body through a front edge."""
+        start = plus(near, along, -PAST * paper.reach)
+        (x, y), (u, v) = paper.spots(near, start)
+        is_behind = dot(along, paper.stance.eye) > 0 and is_within(
+            ((x + u) / 2, (y + v) / 2), hull(paper.spots(*paper.fixed))
+        )
+        return near if is_behind else start
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
         """Return how far the rotation arrow must move along the axis to be outside the outline of the bodies; 0 if none

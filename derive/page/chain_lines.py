@@ -150,6 +150,11 @@ class ChainWriter:
         }
         if any(not found[name] for name in names_asked(template) & found.keys()):
             return ()
+        is_plain = template in self.words.reasons["general"].values()
+        if is_plain and self._are_just_before(
+            step, [key for name in names_asked(template) & found.keys() for key in found[name]]
+        ):
+            return ()
         own = {role: Math(symbol) for role, symbol in step.roles if symbol is not None}
         inner = [whole.variables[0] for whole in form.expr.atoms(Integral) if not whole.function.has(Integral)]
         own |= {"variable": Math(inner[0])} if inner else {}
@@ -158,6 +163,14 @@ class ChainWriter:
             name: joined([Ref(key) for key in keys], self.words.labels["and"]) for name, keys in found.items()
         }
         return filled(template, {**self.names, **own, **references})
+
+    def _are_just_before(self, step: Step, keys: Collection[str]) -> bool:
+        """Return whether the keys are those of the last one or two equations before the step. The reader has just read
+        these equations, so a note that names only them has nothing new."""
+        if not keys or step.key not in self.numbers:
+            return False
+        earlier = sorted({each for each in self.numbers.values() if each < self.numbers[step.key]})
+        return {self.numbers[key] for key in keys} <= set(earlier[-2:])
 
     def _numbered(self, keys: Collection[str]) -> list[str]:
         """Return the keys of the numbered equations, ordered by number."""

@@ -46,14 +46,14 @@ def solve(
     forces = multipliers(*equations, keeping=[theta])
     again = put_in(equations[0], *forces, again=motion, key="multipliers_eliminated")
     N = constraint_force(forces, {x: sin(theta), y: cos(theta)}, "N", "normal_force")
-    F = constraint_force(forces, {x: cos(theta), y: -sin(theta)}, "F", "tangent_force")
+    F = constraint_force(forces, {x: -cos(theta), y: sin(theta)}, "F", "tangent_force")
 
     needed = []
     if amplitude is not None:  # small oscillations need the greatest friction at a turning point
         turning = solved_for(small, theta.acceleration, keys=["turning"])
         at_rest = put_in(F, turning, {theta.rate: 0, theta: amplitude}, key="turning_force")
         greatest = limiting_case(at_rest, amplitude, key="friction_needed", symbol="F_max")
-        least = let("least_friction", lambda F: -F / (mass * gravity), greatest, symbol="mu_min", kind="number")
+        least = let("least_friction", lambda F: F / (mass * gravity), greatest, symbol="mu_min", kind="number")
         needed = [greatest, least]
 
     top, C, O = (radius + thickness) * across, point_mark(point(*centre), "C"), point_mark(point(0, 0), "O")
@@ -62,11 +62,12 @@ def solve(
         "slab", system, axes(point(0, 0), (7 * radius / 5, 9 * radius / 4)), O, C, way, dashed_at(system, {theta: 0})
     )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
-    # The forces are those on the slab when it is released from rest. For each angle below pi/2 the friction points
-    # uphill then, so F is negative. Their lengths are relative to that of the weight, which is 2/5.
+    # The forces are those on the slab when it is released from rest. Their lengths are relative to that of the weight,
+    # which is 2/5. The friction F is positive uphill.
     (start,) = solve_linear(motion.value.left.subs(theta.rate, 0), theta.acceleration)
-    contact, sizes = radius * across, [2 * force / (5 * mass * gravity) for force in (N.value, -F.value)]
+    contact, sizes = radius * across, [2 * force / (5 * mass * gravity) for force in (N.value, F.value)]
     push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
-    pushes = arrow(across, contact, push, label=N), arrow(along, contact, friction, label=F, is_reversed=True)
-    sketch("forces", system, O, C, pushes, weights=True)
+    pushes = arrow(across, contact, push, label=N), arrow(-along, contact, friction, label=F)
+    arm = length_mark(top - radius * theta * along, top, radius * theta)
+    sketch("forces", system, O, C, arm, pushes, weights=True)
     return L, motion, swings, stable, level, minimum, again, N, F, *needed

@@ -213,7 +213,7 @@ def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_pa
     process.until("derived 1 of 1")
     page = root / "build" / "hw9" / "euler.tex"
     edits = (
-        ("phrases/en/page.yaml", "extra\n  solutions: Solutions", "extra\n  solutions: Worked out"),
+        ("phrases/en/page.yaml", "points\n  solutions: Solutions", "points\n  solutions: Worked out"),
         ("latex/document.tex.j2", r"{\headheight}{14pt}", r"{\headheight}{15pt}"),
     )
     for file, old, new in edits:

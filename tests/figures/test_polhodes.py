@@ -127,7 +127,11 @@ def test_a_drawing_that_is_named_after_a_build_is_made(tmp_path: Path) -> None:
 def test_the_caption_names_the_axes(tmp_path: Path) -> None:
     text = " ".join(rendered(course_with(tmp_path, FREE), "trial/one", only=("text",)).texts["text"].split())
     assert "loops around the axes of the greatest (z) and of the least moment (x)" in text
-    assert "the thick separatrix through the intermediate axis (y). The moments about x, y and z are" in text
+    assert (
+        "the thick separatrix through the intermediate axis (y), dashed where it is hidden. "
+        "The moments about x, y and z are"
+        in text
+    )
 
 
 def test_the_caption_has_the_ratio_and_says_that_it_is_an_example(tmp_path: Path) -> None:

@@ -71,7 +71,7 @@ def test_points_are_told_only_where_there_are_any(points: Fraction | None) -> No
 def test_a_part_beyond_the_homework_is_marked_where_points_stand() -> None:
     extra = replace(page(), parts=(replace(page().parts[0], points=None, extra=True),))
     heading = next(line for line in shown(extra) if line.startswith("(a)"))
-    assert heading.endswith("[extra]") and columns(heading) == PAGE_COLUMNS
+    assert heading.endswith("[extra, no points]") and columns(heading) == PAGE_COLUMNS
 
 
 def test_a_part_that_waits_for_more_detail_is_not_on_the_page() -> None:

@@ -204,9 +204,14 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
     if excluded is not None:
         return [Form(result, "solved", nonzero=(*divided, *Mul.make_args(excluded.left)))]
     squares = Relation(alone**2, result.operator, tidied(solved**2))
-    if divided or not (alone.is_positive and solved.is_positive):
-        return [Form(result, "solved", nonzero=divided)]
-    return [Form(squares, "solved", nonzero=divided_out(difference, *squares.sides)), Form(result, "solved")]
+    are_positive = bool(alone.is_positive and solved.is_positive)
+    if divided or not are_positive:
+        has_letters = any(factor.free_symbols for factor in divided)
+        because = "divided" if has_letters else "solved"
+        if are_positive and tidied(difference).diff(alone).has(alone):
+            because = "root"
+        return [Form(result, because, nonzero=divided)]
+    return [Form(squares, "solved", nonzero=divided_out(difference, *squares.sides)), Form(result, "root")]
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:

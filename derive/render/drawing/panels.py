@@ -17,6 +17,7 @@ from derive.figures.space import Spot
 from derive.page.plots import DEGREES, NEAR, Axis, Curve, Curves, curve_letters, to_three_figures, with_names, with_unit
 from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
+from derive.render.notation.breaking import terms_of
 from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
@@ -463,12 +464,15 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0, inline: bool = False) -> str:
     """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
     `v / (m/s)`, `U / (10^33 J)`."""
-    name = r",\,".join(_mathtext(notation.layout(symbol), inline) for symbol in symbols)
+    layouts = [notation.layout(symbol) for symbol in symbols]
+    name = r",\,".join(_mathtext(layout, inline) for layout in layouts)
     parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
     is_product = len(parts) > 1 or any(sign in unit for sign in " /")
     divisor = r"\,".join(parts)
     divisor = f"({divisor})" if is_product else divisor
     over = rf"\,/\,{divisor}" if divisor else ""
+    if over and any(len(terms_of(layout)) > 1 for layout in layouts):
+        name = f"({name})"
     return f"${name}{over}$"
 
 

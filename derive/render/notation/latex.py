@@ -309,13 +309,16 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """Return whether two factors need a thin space between them: after a fraction, a root or a vector, and before a
-    bracket or a vector."""
+    """Return whether two factors need a thin space between them: after a fraction, a root, a vector or a bracket, and
+    before a vector, a bracket or a power of a bracket."""
     apart = Operator | Sign
     if isinstance(item, apart) or isinstance(before, apart | IntegralSign) or begins_with_number(item):
         return False
+    bracket = item.base if isinstance(item, Raised) else item
     return (
-        isinstance(before, Fraction | Array | RootSign) or isinstance(item, Array | Fenced) and before != Upright("d")
+        isinstance(before, Fraction | Array | RootSign | Fenced)
+        or isinstance(bracket, Array | Fenced)
+        and before != Upright("d")
     )
 
 

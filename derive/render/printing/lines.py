@@ -22,6 +22,7 @@ LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 FRAMED_WIDTH = 36.0  # greatest width of a line that is framed with its left side; an inequality may be wider
+SHORT_CHAIN_WIDTH = 60.0  # the same for a line with at most two right sides
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
 
@@ -154,7 +155,7 @@ def _frames_left_side(line: Printed, equations: Equations) -> bool:
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
         return not (numeric and len(line.sides) > line.framed)
-    return line.width <= FRAMED_WIDTH and not numeric
+    return line.width <= (SHORT_CHAIN_WIDTH if len(line.sides) <= 2 else FRAMED_WIDTH) and not numeric
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
