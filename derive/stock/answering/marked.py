@@ -76,7 +76,9 @@ class Marked:
             rejected("unknown-drawing", f"the engine draws nothing called `{name}`", name.place, known)
         found = shown[name]
         added = each([partial(self._mark, keys, found) for keys in self.drawing.marks])
-        marks = (*found.marks, *added)
+        measured = {mark.label for mark in added if isinstance(mark, DistanceMark)} - {None}
+        own_marks = (replace(mark, label=None) if mark.label in measured else mark for mark in found.marks)
+        marks = (*own_marks, *added)  # a length with its own dimension line is not named twice
         named = {letter for mark in added for letter in getattr(mark.label, "free_symbols", ())}
         undrawn = tuple((sort, value) for sort, value in found.undrawn if value not in named)
         own = replace(found, marks=marks, undrawn=undrawn)
