@@ -177,9 +177,9 @@ def isochronous(wanted: bool) -> Predicate:
         letters = letters_of(value) - {q, amplitude}
         for point in islice(points(letters, seed_of(value)), 40):
             swings = value.xreplace(dict(point))
-            times = [half_swing(swings.subs(amplitude, size), q, size, 15) for size in TWO_AMPLITUDES]
-            if None not in times:
-                return bool(abs(times[0] / times[1] - 1) < Rational(1, 10**9)) == wanted
+            large, small = (half_swing(swings.subs(amplitude, size), q, size, 15) for size in TWO_AMPLITUDES)
+            if large is not None and small is not None:
+                return bool(abs(large / small - 1) < Rational(1, 10**9)) == wanted
         return False
 
     return is_so
