@@ -103,6 +103,20 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
     return None
 
 
+def is_isochronous(f: Expr, q: Symbol, amplitude: Symbol, squared_frequency: Expr) -> bool:
+    """Whether the swing with q_dot^2 = f takes the same time for every amplitude A.
+
+    This is shown for f = w(q) (D(A) - D(q)), the form that conservation of energy gives. The coordinate S = sqrt(D(q))
+    then satisfies S_dot^2 = w D'^2 (S(A)^2 - S^2)/(4 D), which is a simple harmonic oscillation if w D'^2/(4 D) is the
+    constant omega^2.
+    """
+    height = tidied(f.subs(q, 0))  # D(A), if w(0) = 1
+    here = height.subs(amplitude, q)
+    weight = -f.subs(amplitude, 0) / here
+    separable = f - weight * (height - here)
+    return bool(tidied(separable) == 0 and tidied(weight * here.diff(q) ** 2 - 4 * squared_frequency * here) == 0)
+
+
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
     """The terms of the integral of dq/sqrt(f) from 0 to A, up to this power of the amplitude A. Raises `NoExpansion` if
     they are not found."""

@@ -47,7 +47,7 @@ POSITIVE = "positive"  # the word that may be before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
-MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle")
+MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle", "curve")
 SIDES = ("left", "right", "up", "down")
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
@@ -207,15 +207,16 @@ class MarkKeys(Record):
 
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
-        "vector, the arc of an `angle`, the curved arrow of a `turn`, or a dashed `circle`",
+        "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, or "
+        "a solid `curve`",
         one_of(MARKS),
         required=True,
     )
     label: Formula | None = key("the letter, the formula or the answer that names it; by default no label", FORMULA)
     at: Tree | None = key(
-        "the place of a point, the start of an arrow, the vertex of an angle or the centre of a turn or a circle; in "
-        "the drawing of a body, by default the origin; if the body is given by its moments, the components are numbers "
-        "relative to the semi-axes of the drawn ellipsoid",
+        "the place of a point, the start of an arrow, the vertex of an angle, the centre of a turn or a circle, or the "
+        "moving point of a curve; in the drawing of a body, by default the origin; if the body is given by its "
+        "moments, the components are numbers relative to the semi-axes of the drawn ellipsoid",
         as_written(_PLACE, _A_PLACE),
     )
     start: Tree | None = key(
@@ -239,10 +240,19 @@ class MarkKeys(Record):
         "the length of an arrow, or the radius of a turn or of the arc of an angle, relative to the drawing", FORMULA
     )
 
+    against: Formula | None = key("for a curve: the letter that varies along it", FORMULA)
+    between: tuple[Formula, ...] = key(
+        "for a curve: the two ends of this letter, such as `[-pi, pi]`", ENDS, called="range"
+    )
+
+    def has(self, name: str) -> bool:
+        """Return whether the file has this key of the mark."""
+        return getattr(self, name) not in (None, ())
+
     @property
     def written(self) -> tuple[str, ...]:
         """Return all that the file says about the mark, as texts without places."""
-        named = (self.mark, self.label, self.side, self.size)
+        named = (self.mark, self.label, self.side, self.size, self.against, self.between)
         return *map(str, named), *map(as_text, (self.at, self.start, self.end, self.along))
 
 

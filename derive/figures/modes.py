@@ -69,7 +69,7 @@ class DisplacementArrow(Mark):
              mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
-    room     the least distance between two masses; None for a single mass
+    room     the least distance between two masses, which limits all arrows if one is next to its mass; otherwise None
     exact    whether the lengths of all arrows are in the ratio of the displacements; otherwise a short arrow is longer
     """
 
@@ -104,7 +104,7 @@ class DisplacementArrow(Mark):
     def _longest(self, paper: Paper, least: float) -> float:
         """Return the length of the longest arrow; `least` is the ratio of the least to the greatest displacement."""
         longest = min(max(LONGEST[0], SHORTEST / least), LONGEST[1])
-        if self.side is None or self.room is None:
+        if self.room is None:
             return longest
         return min(longest, FREE * paper.numbers.of(self.room) * paper.scale)
 
@@ -318,14 +318,16 @@ class _Displaced:
         return sqrt(tidied(x**2 + y**2))
 
     def _arrows(self) -> Iterator[Mark]:
-        room = self._least([at for _, at in self.masses])
+        besides = [self._beside(each, at) for each, (_, at) in zip(self.displacements, self.masses, strict=True)]
+        is_beside = any(side is not None for side, *_ in besides)
+        room = self._least([at for _, at in self.masses]) if is_beside else None
         moved = tuple(self.displacements)
         keys, exact = self.keys, self.lengths == TO_SCALE
-        for displacement, turned, (_, at) in zip(self.displacements, self.rotations, self.masses, strict=True):
+        moves = zip(self.displacements, self.rotations, self.masses, besides, strict=True)
+        for displacement, turned, (_, at), beside in moves:
             if turned != 0 and not any(displacement):
                 yield RotationArrow(column_of(at), turned, keys=keys)
             else:
-                beside = self._beside(displacement, at)
                 yield DisplacementArrow(self._start(at), displacement, moved, *beside, room, exact, keys=keys)
 
     def _start(self, at: Location) -> Position:

@@ -234,11 +234,14 @@ class SurfacePiece(Surface):
         return "surface", {}
 
 
+WAYS = {"wire": "wire", "edge": "drawn_curve"}  # the names of phrases for the pens other than `trace`
+
+
 @dataclass(frozen=True)
 class WayMark(Surface):
     """The curve of a point as one symbol varies over a range, with all other symbols fixed.
 
-    pen   `trace`, or `wire` for a solid object
+    pen   `trace`, `wire` for a solid object, or `edge` for a line
     """
 
     place: Position
@@ -261,7 +264,7 @@ class WayMark(Surface):
         return all(entry.diff(self.letter, 2) == 0 for entry in self.place)
 
     def in_words(self) -> InWords | None:
-        return "wire" if self.pen == "wire" else "way", {"label": self.label}
+        return WAYS.get(self.pen, "way"), {"label": self.label}
 
 
 @dataclass(frozen=True)

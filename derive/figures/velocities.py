@@ -12,6 +12,7 @@ from sympy.matrices import MatrixBase
 from derive.algebra.expressions import explicit
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Arrow, Axis, LengthMark, PointMark
+from derive.figures.annotations import Line as LineMark
 from derive.figures.ghosts import Ghost, HollowParticle
 from derive.figures.links import is_fixed, moving_in, same
 from derive.figures.marks import Mark
@@ -31,8 +32,9 @@ from derive.steps.step import is_zero
 ZERO, ONE = Integer(0), Integer(1)
 AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
-TURNED = (pi / 9, pi / 5)  # angles of the dashed bodies in the drawing of an impact
+TURNED = (pi / 9, pi / 5)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
+TURNED_ROUND = 2 * pi / 9  # angle of a dashed round body
 ROLLED = 3  # displacement of the dashed bodies, relative to the radius of a round body
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
@@ -248,7 +250,8 @@ def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterab
     length = next((placed.body.length for placed in system.bodies if getattr(placed.body, "length", None)), ONE)
     shift = SHIFTED * length if radius is None else ROLLED * radius
     later: dict[Symbol, Expr] = {q: shift for q in zero if q not in angles}
-    later |= {q: TURNED[min(n, len(TURNED) - 1)] for n, q in enumerate(angles)}
+    turns = TURNED if radius is None else (TURNED_ROUND,)
+    later |= {q: turns[min(n, len(turns) - 1)] for n, q in enumerate(angles)}
     for mark in marks:
         if mark in solids and (there := _at(mark, later)) != mark:
             if isinstance(there, BarMark):
@@ -256,7 +259,11 @@ def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterab
             elif isinstance(there, WheelMark):
                 yield Ghost(of=replace(there, label=None, pointer=None))
         elif mark.label in later and isinstance(mark, AngleBetween | DistanceMark | LengthMark):
-            yield _at(mark, later)
+            there = _at(mark, later)
+            yield there
+            if isinstance(there, AngleBetween) and radius is not None:  # the radius that has turned
+                turned = there.b / sqrt(tidied(Add(*(c**2 for c in there.b))))
+                yield LineMark(there.vertex, there.vertex + radius * turned, "edge")
 
 
 def _at(mark: Mark, values: Values) -> Mark:

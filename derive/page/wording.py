@@ -32,6 +32,7 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
 from derive.page.template import environment
+from derive.page.unbroken import unbroken
 from derive.steps.derivation import Derivation
 from derive.steps.numeric import in_radians
 from derive.steps.step import Step
@@ -39,7 +40,12 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Text:
+    """Running text, in which a number and its unit are not separated by the end of a line."""
+
     text: str
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", unbroken(self.text))
 
 
 @dataclass(frozen=True)

@@ -445,6 +445,15 @@ def test_a_harmonic_period_does_not_depend_on_the_amplitude() -> None:
     assert period.step.outcome == "exact"
 
 
+def test_the_period_on_a_cycloid_does_not_depend_on_the_amplitude() -> None:
+    """Huygens: 4 pi sqrt(h/g) for every amplitude, although the coordinate itself does not oscillate harmonically."""
+    q = coordinate("theta")
+    bead = Particle(m, point(h * (q + sin(q)), -h * cos(q)))
+    period = period_by_energy(speed_from_energy(energy_of(System(bead, weight(g))), q, theta0))
+    assert equal(period.value, 4 * pi * sqrt(h / g))
+    assert period.step.outcome == "exact"
+
+
 def test_the_period_in_a_well_whose_depth_may_have_either_sign() -> None:
     """Landau, Lifshitz, section 11, problem 2b: tau = pi c sqrt(2 m/A) cos(x_0/c) for U = A tan^2(x/c)."""
     x, A = along(), symbols("A", real=True)

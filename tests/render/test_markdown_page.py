@@ -51,7 +51,7 @@ def test_text_is_shown_as_it_is(text: str, shown: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "shown"), [("1. Find it", r"1\. Find it"), ("- a", r"\- a"), ("1.5 kg", "1.5 kg"), ("# a", r"\# a")]
+    ("text", "shown"), [("1. Find it", r"1\. Find it"), ("- a", r"\- a"), ("1.5 kg", "1.5\u00a0kg"), ("# a", r"\# a")]
 )
 def test_a_sentence_begins_no_list(text: str, shown: str) -> None:
     assert MarkdownPage(page(Paragraph(())), WORDS, NOTATION).paragraph((Text(text),)) == shown

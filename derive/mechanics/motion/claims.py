@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
 from sympy import (
@@ -22,7 +23,8 @@ from sympy import (
 )
 
 from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
-from derive.algebra.samples import letters_of
+from derive.algebra.samples import letters_of, points, seed_of
+from derive.algebra.swing import half_swing
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Load
@@ -67,6 +69,7 @@ def moves_off(wanted: int | None) -> Predicate:
     return is_so
 
 
+TWO_AMPLITUDES = Rational(4, 5), Rational(1, 4)
 FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number for infinity, and a small change of a coordinate
 AHEAD = [
     *(Rational(n, 8) for n in range(1, 57)),
@@ -166,11 +169,18 @@ def coordinate_of_rate(facts: Judged, q: Any) -> bool:
 
 
 def isochronous(wanted: bool) -> Predicate:
-    """Judge whether the acceleration is proportional to the coordinate; for `wanted=False`, whether it is not."""
+    """Judge numerically whether a large swing and a small one take the same time; for `wanted=False`, whether the times
+    differ."""
 
     def is_so(facts: Judged) -> bool:
-        q, a = facts.inputs["coordinate"], facts.inputs["acceleration"]
-        return is_zero(a - a.diff(q).subs(q, 0) * q) == wanted
+        q, amplitude, value = (facts.inputs[role] for role in ("coordinate", "amplitude", "value"))
+        letters = letters_of(value) - {q, amplitude}
+        for point in islice(points(letters, seed_of(value)), 40):
+            swings = value.xreplace(dict(point))
+            large, small = (half_swing(swings.subs(amplitude, size), q, size, 15) for size in TWO_AMPLITUDES)
+            if large is not None and small is not None:
+                return bool(abs(large / small - 1) < Rational(1, 10**9)) == wanted
+        return False
 
     return is_so
 

@@ -24,7 +24,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.ranges import where_positive
 from derive.algebra.samples import letters_of, points, seed_of
-from derive.algebra.swing import SwingTime, half_swing, quarter_swing
+from derive.algebra.swing import SwingTime, half_swing, is_isochronous, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked
@@ -300,7 +300,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
         message = f"`period_by_energy`: the motion of `{squared.key}` is not an oscillation about {q.name} = 0"
         raise Rejected(Complaint("no-oscillation", message)) from None
     stiffness = tidied((pi / 2 / leading) ** 2)
-    exact = is_zero(value - stiffness * (amplitude**2 - q**2))
+    exact = is_isochronous(value, q, amplitude, stiffness)
 
     def linearised(result: Expr) -> tuple[Expr, Expr]:
         slope = tidied(diff(known.acceleration, q).subs({q: ZERO, rate(q): ZERO}))

@@ -11,6 +11,7 @@ from derive.course.placement import STATEMENT
 from derive.page.numbering import Number
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
+from derive.page.unbroken import NO_BREAK, unbroken
 from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Phrases, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
@@ -170,4 +171,6 @@ class _Page:
 
 
 def _filled(text: str) -> str:
-    return textwrap.fill(text, PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
+    """Return text in lines; no line ends between a number and its unit."""
+    filled = textwrap.fill(unbroken(text), PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
+    return filled.replace(NO_BREAK, " ")

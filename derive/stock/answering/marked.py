@@ -39,6 +39,7 @@ NEEDED = {
     "angle": ("at", "start", "end"),
     "turn": ("at",),
     "circle": ("at", "end"),
+    "curve": ("at", "against", "between"),
 }
 ALSO = {
     "length": ("side",),
@@ -47,7 +48,7 @@ ALSO = {
     "turn": ("along", "size"),
     "circle": ("along",),
 }
-CALLED = {"start": "from", "end": "to"}
+CALLED = {"start": "from", "end": "to", "between": "range"}
 LONG, ROUND = {True: Rational(2, 5), False: Rational(5, 4)}, Rational(1, 5)
 ANGLE = scalar("u")
 COUNTERCLOCKWISE = ImmutableDenseMatrix([0, 0, 1])
@@ -75,7 +76,9 @@ class Marked:
             rejected("unknown-drawing", f"the engine draws nothing called `{name}`", name.place, known)
         found = shown[name]
         added = each([partial(self._mark, keys, found) for keys in self.drawing.marks])
-        marks = (*found.marks, *added)
+        measured = {mark.label for mark in added if isinstance(mark, DistanceMark)} - {None}
+        own_marks = (replace(mark, label=None) if mark.label in measured else mark for mark in found.marks)
+        marks = (*own_marks, *added)  # a length with its own dimension line is not named twice
         named = {letter for mark in added for letter in getattr(mark.label, "free_symbols", ())}
         undrawn = tuple((sort, value) for sort, value in found.undrawn if value not in named)
         own = replace(found, marks=marks, undrawn=undrawn)
@@ -94,11 +97,11 @@ class Marked:
         kind = str(keys.mark)
         is_plane = drawing.view == PLANE
         for name in NEEDED[kind]:
-            if getattr(keys, name) is None and not (name == "at" and not is_plane):
+            if not keys.has(name) and not (name == "at" and not is_plane):
                 message = f"the mark `{kind}` needs `{CALLED.get(name, name)}`"
                 rejected("missing-key", message, keys.places[""])
-        for name in ("at", "start", "end", "along", "side", "size"):
-            if getattr(keys, name) is not None and name not in (*NEEDED[kind], *ALSO.get(kind, ())):
+        for name in ("at", "start", "end", "along", "side", "size", "against", "between"):
+            if keys.has(name) and name not in (*NEEDED[kind], *ALSO.get(kind, ())):
                 written = CALLED.get(name, name)
                 rejected("unused-key", f"`{written}` has no effect on the mark `{kind}`", keys.places[written])
         with told_at(keys.places[""]):
@@ -116,6 +119,8 @@ class Marked:
             aside = towards(keys.side, rows) if keys.side else None
             return DistanceMark(*self._ends(keys, rows), aside, label=label, keys=used)
         at = self._place(keys.at, "at", rows)
+        if kind == "curve":
+            return self._curve(at, keys, label, used)
         size = self._size(keys.size)
         if kind == "angle":
             (a, first, is_place), (b, second, both) = (
@@ -132,6 +137,16 @@ class Marked:
             return Turn(at, around, size or ROUND, label=label, keys=(*used, *own_keys))
         along, own_keys, _ = self._way(keys.along, "along", rows)
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
+
+    def _curve(self, at: MatrixBase, keys: MarkKeys, label: Any, used: tuple[str, ...]) -> Mark:
+        """Return the curve of a point whose place is a formula in one letter."""
+        assert keys.against is not None and keys.between  # `_mark` rejects a curve without them
+        letter, _ = read_expression(keys.against.scalar, self._letters.letters)
+        if not letter.is_Symbol or not at.has(letter):
+            message = f"`at` is the same for all values of `{keys.against}`"
+            rejected("wrong-argument", message, keys.against.place, "write a place that contains the letter")
+        lower, upper = (read_expression(end.scalar, self._letters.letters)[0] for end in keys.between)
+        return WayMark(at, letter, lower, upper, "edge", label=label, keys=used)
 
     def _axis(self, node: Tree | None) -> tuple[MatrixBase, tuple[str, ...]]:
         """Return the axis of a turn or a circle, and the keys of its steps."""

@@ -50,6 +50,7 @@ drawings:
     marks:
       - {mark: arrow, label: l*theta_dot, at: bob, along: [cos(theta), sin(theta)]}
       - {mark: circle, at: pivot, to: bob}
+      - {mark: curve, label: K, at: [l*sin(theta), -l*cos(theta)], against: theta, range: [0, theta_0]}
 """
 
 DISC = """\
