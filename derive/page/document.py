@@ -48,6 +48,7 @@ from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.pointers import pointed_out
+from derive.page.reasons import framed_once, without_known_reasons
 from derive.page.repeats import AGAIN, Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
@@ -327,6 +328,7 @@ class _Writer:
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
         drawings = {each.key: each for each in self.drawings}
         placed = figures_mentioned(placed, drawings, self._figures_named(), self.words)
+        placed = framed_once(without_known_reasons(placed, self.numbers))
         return PartPage(label, self._question(label, part, illustrations), part.points, placed, part.extra)
 
     def _question(self, label: str, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:

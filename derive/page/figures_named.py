@@ -1,6 +1,8 @@
-"""Sentences that refer to the figures of a part: "Figure 2 shows the forces."
+"""Mentions of the figures of a part, in the sentence that a figure belongs to: "It is unstable (Figure 2)."
 
-A figure that no text of the author mentions is mentioned directly before it.
+A figure that no text of the author mentions is mentioned in parentheses at the end of the sentence before it, or, if
+the part begins with the figure, of the first sentence after it. If the part begins with a figure of forces, its first
+sentence is "With the forces in Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -11,66 +13,99 @@ from itertools import groupby
 from typing import Any
 
 from derive.figures import marks as m
-from derive.page.tree import Block, Illustration, Paragraph
-from derive.page.wording import FigureRef, Inline, Math, Phrases, Text, filled, joined
+from derive.page.tree import Block, Display, Illustration, Paragraph
+from derive.page.wording import FigureRef, Inline, Phrases, Text, filled, joined
+
+STOPS = (".", ",", ":")
 
 
 def figures_mentioned(
     blocks: Sequence[Block], drawings: Mapping[str, m.Recorded], mentioned: Collection[str], words: Phrases
 ) -> tuple[Block, ...]:
-    """Return the blocks of a part with a sentence before each figure that no text of the author mentions; figures of
-    one sort that follow each other share a sentence.
+    """Return the blocks of a part in which every figure is mentioned that no text of the author mentions; figures that
+    follow each other are mentioned together.
 
     drawings    the drawings of the problem, by key
     mentioned   the keys of the drawings that a text of the author mentions
     """
     found: list[Block] = []
+    waiting: list[Illustration] = []  # figures before the first sentence of the part
     for is_drawing, group in groupby(blocks, lambda block: isinstance(block, Illustration)):
         together = list(group)
         if not is_drawing:
-            found += together
+            forces = [each for each in waiting if _shows_forces(drawings[each.key])]
+            others = [each for each in waiting if each not in forces]
+            together = _after_figures(together, others, words) if others else together
+            found += _with_forces(together, forces, words) if forces else together
+            waiting = []
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
-        for (sort, _), figures in groupby(new, lambda each: _sort(drawings[each.key])):
-            _add(found, _sentence(sort, list(figures), drawings, words))
+        if new and (at := _sentence_before(found)) is not None:
+            found[at] = _with_mention(found[at], new, words)
+        else:
+            waiting = new
         found += shown
     return tuple(found)
 
 
-def _add(blocks: list[Block], sentence: tuple[Inline, ...]) -> None:
-    """Add a sentence to the last paragraph, if this paragraph ends a sentence, or as a new paragraph."""
-    last = blocks[-1] if blocks else None
-    end = last.nodes[-1] if isinstance(last, Paragraph) else None
-    if isinstance(last, Paragraph) and type(end) is Text and end.text.rstrip().endswith("."):
-        blocks[-1] = replace(last, nodes=(*last.nodes, Text(" "), *sentence))
-    else:
-        blocks.append(Paragraph(sentence))
+def _shows_forces(drawing: m.Recorded) -> bool:
+    return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
 
 
-def _sort(drawing: m.Recorded) -> tuple[str, str]:
-    """Return the name of the phrase for a drawing, and the key of the drawing if it needs a sentence of its own, else
-    "". Drawings with the same result can share a sentence."""
-    if isinstance(drawing, m.Drawing):
-        if drawing.forces_on is not None:
-            return "shows_forces", ""
-        return ("shows_modes", "") if drawing.mode is not None else ("shows", "")
-    if drawing.diagram is not None:
-        return "shows_diagram", drawing.key
-    if drawing.across is not None:
-        return ("shows_path" if drawing.kind == "length" and drawing.across.unit == "m" else "shows"), ""
-    return ("shows", "") if drawing.levels is not None else ("shows_function", drawing.key)
-
-
-def _sentence(
-    sort: str, figures: Sequence[Illustration], drawings: Mapping[str, m.Recorded], words: Phrases
-) -> tuple[Inline, ...]:
-    last, label = words.labels["and"], words.labels["figure"]
+def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
+    """Return the names of the figures, and their number."""
+    label = words.labels["figure"]
     numbers = [(each.number, each.key) for each in figures if each.number is not None]
     named = [(FigureRef(f"{label}\u00a0{number}", key, number),) for number, key in numbers]
-    own: dict[str, Any] = {"figures": joined(named, last), "count": len(named)}
-    plot = drawings[figures[0].key]
-    if isinstance(plot, m.Plot):
-        own["quantity"] = joined([(Math(each),) for each in plot.labels], last)
-        own["variable"] = (Math(plot.named_across),)
-    return filled(words.drawings[sort], own)
+    return {"figures": joined(named, words.labels["and"]), "count": len(named)}
+
+
+def _sentence_before(blocks: Sequence[Block]) -> int | None:
+    """Return the position of the last paragraph, if it ends the blocks or leads to a display that ends them."""
+    for at in (len(blocks) - 1, len(blocks) - 2):
+        if at >= 0 and isinstance(blocks[at], Paragraph):
+            return at
+        if at >= 0 and not isinstance(blocks[at], Display):
+            return None
+    return None
+
+
+def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
+    """Mention the figures in the first sentence after them, if there is one."""
+    at = next((i for i, block in enumerate(blocks) if isinstance(block, Paragraph)), None)
+    return blocks if at is None else [*blocks[:at], _with_mention(blocks[at], figures, words), *blocks[at + 1 :]]
+
+
+def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
+    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article follows a
+    sentence about the figures."""
+    first, named = blocks[0], _named(figures, words)
+    article = words.drawings["article"]
+    opening = first.nodes[0] if isinstance(first, Paragraph) else None
+    if isinstance(first, Paragraph) and type(opening) is Text and opening.text.startswith(f"{article} "):
+        said = filled(words.drawings["with_forces"], named)
+        rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
+        return [Paragraph((*said, rest, *first.nodes[1:])), *blocks[1:]]
+    shown = filled(words.drawings["shows_forces"], named)
+    if isinstance(first, Paragraph):
+        return [Paragraph((*shown, Text(" "), *first.nodes)), *blocks[1:]]
+    return [Paragraph(shown), *blocks]
+
+
+def _with_mention(paragraph: Block, figures: Sequence[Illustration], words: Phrases) -> Block:
+    """Put the figures in parentheses before the mark at the end of a paragraph, or after its last word."""
+    if not isinstance(paragraph, Paragraph):
+        return paragraph
+    *before, last = paragraph.nodes
+    said, end = (last.text.rstrip(), "") if type(last) is Text else ("", "")
+    space = last.text[len(said) :] if type(last) is Text else ""
+    if type(last) is not Text:
+        before.append(last)
+    if said.endswith(STOPS):
+        said, end = said[:-1], said[-1]
+    mention: tuple[Inline, ...] = filled(words.drawings["mentioned"], _named(figures, words))
+    if said.endswith(")"):  # in the parentheses that are there
+        mention = (*_named(figures, words)["figures"], Text(")"))
+        return replace(paragraph, nodes=(*before, Text(f"{said[:-1]}; "), *mention, Text(f"{end}{space}")))
+    return replace(paragraph, nodes=(*before, Text(f"{said} "), *mention, Text(f"{end}{space}")))

@@ -27,13 +27,20 @@ def told(*blocks: Block, mentioned: tuple[str, ...] = ()) -> list[str]:
     return [inline_text(each.nodes, Notation()) if isinstance(each, Paragraph) else "*" for each in found]
 
 
-def test_figures_of_one_sort_share_a_sentence_before_them() -> None:
-    assert told(figure("left", 2), figure("right", 3)) == ["Figure 2 and Figure 3 show the forces.", "*", "*"]
+def test_figures_of_forces_begin_the_sentence_after_them() -> None:
+    said = told(figure("left", 2), figure("right", 3), Paragraph((Text("The upward component is"),)))
+    assert said == ["*", "*", "With the forces in Figure 2 and Figure 3, the upward component is"]
+    (_, said) = told(figure("left", 2), Paragraph((Text("At rest they add up to zero."),)))
+    assert said == "Figure 2 shows the forces. At rest they add up to zero."
 
 
-def test_the_sentence_follows_a_sentence_that_is_complete() -> None:
+def test_a_figure_is_mentioned_at_the_end_of_the_sentence_before_it() -> None:
     (said, _) = told(Paragraph((Text("It falls."),)), figure("curve", 2))
-    assert said == "It falls. Figure 2 shows U as a function of x."
+    assert said == "It falls (Figure 2)."
+    (said, _) = told(Paragraph((Text("It falls (at once)."),)), figure("curve", 2))
+    assert said == "It falls (at once; Figure 2)."
+    (_, said) = told(figure("curve", 2), Paragraph((Text("Hence "),)))
+    assert said == "Hence (Figure 2)"
 
 
 def test_a_figure_without_a_number_and_one_that_is_mentioned_have_no_sentence() -> None:

@@ -30,7 +30,7 @@ def formulas(document: Document) -> list[tuple[bool, Formula]]:
                 left = ""
                 for line in printed_lines(group, Notation({}), 1e9):
                     left = plain(line.left) if line.left is not None else left
-                    within = len(line.sides) - line.framed
+                    within = len(line.sides) - min(line.framed, 1)  # the result, at the end of a framed equation
                     sides = enumerate(line.sides)
                     found += [(i >= within, (left, relation, plain(side))) for i, (relation, side) in sides]
     return found

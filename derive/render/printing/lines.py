@@ -20,9 +20,8 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
+FRAME = 2.0  # width of the two sides of a frame
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
-FRAMED_WIDTH = 36.0  # greatest width of a line that is framed with its left side; an inequality may be wider
-SHORT_CHAIN_WIDTH = 60.0  # the same for a line with at most two right sides
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
 
@@ -83,10 +82,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
-    bare = equations.frames_bare_value and (packed[-1].left is None or packed[-1].width > limit)
-    packed = _with_bare_value_framed(packed, begun) if bare else packed
+    packed = _with_left_side_again(packed, begun) if _frames_half(packed[-1], begun, equations, limit) else packed
     packed = _with_bound_framed(packed, equations)
-    if _frames_left_side(packed[-1], equations):
+    if _frames_left_side(packed[-1], equations, limit):
         packed[-1] = replace(packed[-1], framed=len(packed[-1].sides))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
@@ -121,8 +119,17 @@ def _is_one_answer(lines: Sequence[Printed]) -> bool:
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
-def _with_bare_value_framed(packed: list[Printed], begun: Layout | None) -> list[Printed]:
-    """Repeat the left side of the chain before a bare number or letter, so that the frame has a complete equation."""
+def _frames_half(last: Printed, begun: Layout | None, equations: Equations, limit: float) -> bool:
+    """Return whether only the right side of a result would be framed although the equation has room on a line."""
+    if equations.framed != 1 or begun is None or last.left is not None and last.width <= limit - FRAME:
+        return False
+    relation, side = last.sides[-1]
+    fits = width(begun) + 2 + width(side) <= limit - FRAME
+    return equations.frames_bare_value or fits and relation in ("equals", "approx") and not equations.lines[-1].numeric
+
+
+def _with_left_side_again(packed: list[Printed], begun: Layout | None) -> list[Printed]:
+    """Repeat the left side of the chain before its result, so that the frame has a complete equation."""
     *others, last = packed
     chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
     return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
@@ -141,12 +148,12 @@ def _with_bound_framed(packed: list[Printed], equations: Equations) -> list[Prin
     return [*others, chain, bound]
 
 
-def _frames_left_side(line: Printed, equations: Equations) -> bool:
+def _frames_left_side(line: Printed, equations: Equations, limit: float) -> bool:
     """Return whether the frame includes the left side of the last line.
 
-    Half an equation, such as "= 0", is not an answer. But a long line, or a line in which numbers are substituted, has
-    only its result in the frame, unless this is a bare number or letter, which means nothing alone. An inequality is
-    framed as a whole, unless a formula with numbers precedes its result.
+    Half an equation, such as "= 0", is not an answer. But a line in which numbers are substituted, or which is too
+    long, has only its result in the frame, unless this is a bare number or letter, which means nothing alone. An
+    inequality is framed as a whole, unless a formula with numbers precedes its result.
     """
     if line.left is None or not equations.framed:
         return False
@@ -155,7 +162,7 @@ def _frames_left_side(line: Printed, equations: Equations) -> bool:
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
         return not (numeric and len(line.sides) > line.framed)
-    return line.width <= (SHORT_CHAIN_WIDTH if len(line.sides) <= 2 else FRAMED_WIDTH) and not numeric
+    return line.width <= limit - FRAME and not numeric
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:

@@ -1,0 +1,77 @@
+"""Reasons and frames that a page leaves out, because the reader can guess the one and has seen the other.
+
+A reason that only names equations, "from (2) and (3)", is left out if these are the equations just before, or if the
+sentence before the display names them. A result that a part has framed is not framed again in this part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from derive.page.chain_lines import ChainLine, Equations
+from derive.page.numbering import Number
+from derive.page.tree import Block, Display, Paragraph
+from derive.page.wording import Inline, Ref, Text
+
+JUST_BEFORE = 2  # the number of equations before a line that a reader has in view
+
+
+def without_known_reasons(blocks: Sequence[Block], numbers: Mapping[str, Number]) -> tuple[Block, ...]:
+    """Return the blocks without the reasons that only name equations in view."""
+    found: list[Block] = []
+    for i, block in enumerate(blocks):
+        before = blocks[i - 1] if i else None
+        named = (
+            {numbers[node.key] for node in before.nodes if isinstance(node, Ref) and node.key in numbers}
+            if (isinstance(before, Paragraph))
+            else set()
+        )
+        if isinstance(block, Display):
+            groups = tuple(_without_known_reasons(group, named, numbers) for group in block.groups)
+            block = replace(block, groups=groups)
+        found.append(block)
+    return tuple(found)
+
+
+def framed_once(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Return the blocks of a part without the frames of results that an earlier display of the part has framed."""
+    seen: set[Any] = set()
+    found: list[Block] = []
+    for block in blocks:
+        if isinstance(block, Display):
+            groups: list[Equations] = []
+            for group in block.groups:
+                result = _result(group)
+                groups.append(replace(group, framed=0) if group.framed and result in seen else group)
+                seen |= {result} if group.framed else set()
+            block = replace(block, groups=tuple(groups))
+        found.append(block)
+    return tuple(found)
+
+
+def _result(group: Equations) -> tuple[Any, ...]:
+    """Return the left side, the relation and the right side of each framed line."""
+    begun: Any = None
+    sides: list[Any] = []
+    for line in group.lines:
+        begun = line.left if line.left is not None else begun
+        sides.append((str(begun), line.relation, str(line.right)))
+    return tuple(sides[len(sides) - group.framed :])
+
+
+def _without_known_reasons(group: Equations, named: set[Number], numbers: Mapping[str, Number]) -> Equations:
+    in_view = named | {number for number in numbers.values() if 0 < group.number.whole - number.whole <= JUST_BEFORE}
+    return replace(group, lines=tuple(_without_known_reason(line, in_view, numbers) for line in group.lines))
+
+
+def _without_known_reason(line: ChainLine, in_view: set[Number], numbers: Mapping[str, Number]) -> ChainLine:
+    refs = [node for node in line.reason if isinstance(node, Ref)]
+    known = refs and all(ref.key in numbers and numbers[ref.key] in in_view for ref in refs)
+    return replace(line, reason=()) if known and all(map(_only_names, line.reason)) else line
+
+
+def _only_names(node: Inline) -> bool:
+    """Return whether a part of a reason is the number of an equation, or a single word such as `from` or `and`."""
+    return isinstance(node, Ref) or (isinstance(node, Text) and len(node.text.split()) <= 1)
