@@ -129,8 +129,7 @@ def test_the_caption_names_the_axes(tmp_path: Path) -> None:
     assert "loops around the axes of the greatest (z) and of the least moment (x)" in text
     assert (
         "the thick separatrix through the intermediate axis (y), dashed where it is hidden. "
-        "The moments about x, y and z are"
-        in text
+        "The moments about x, y and z are" in text
     )
 
 
