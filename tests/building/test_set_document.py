@@ -431,7 +431,8 @@ def test_the_caption_of_a_statement_is_under_its_drawing_also_if_the_drawing_is_
     solution = rendered_once(root, "hw9/block", draws=True)
     drawings = [each for each in solution.files if each[0].endswith(".pdf")]
     name = Path(drawings[0][0]).name
-    beside = rf"\beside{{One line.}}{{{name}}}{{words}}{{Figure 1.}}{{The axes.}}"
+    drawn = rf"\beside{{One line.}}{{{name}}}{{words}}{{Figure 1.}}{{The axes.}}"
+    beside = rf"\begin{{statement}}{drawn}\end{{statement}}\strategy{{Plan.}}{{Go.}}"
     target = tmp_path / "statement.pdf"
     tex = problem_document(root, replace(solution, latex=Tex(beside)), problem_set(root, "hw9"))
     typeset(tex, target, chosen_engine(None), included=drawings)

@@ -126,7 +126,6 @@ def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain(tmp_pa
 @pytest.mark.parametrize(
     ("problem_id", "reason"),
     [
-        ("library/yoyo", "The string does not slip on the disc, "),
         ("library/atwood", "The length of the string is constant, "),
         ("library/race", "At the contact the body and the surface have the same velocity, "),
         ("library/rough_cylinder", "At the contact the body and the surface have the same velocity, "),

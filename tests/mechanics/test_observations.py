@@ -85,8 +85,9 @@ def observed(problem_id: str) -> tuple[list[list[Any]], dict[tuple[str, str], tu
         patch.setattr(establishing, "_check_outcome", of_outcome)
         patch.setattr(establishing, "_check_named", of_names)
         problem = load_problem(ROOT, problem_id)
-        parts = tuple(replace(part, observations=None) for part in problem.parts)  # derive chooses in all parts
-        derivation, *_ = derived(replace(problem, parts=parts))
+        # derive chooses in all parts, also where the author wants no observations
+        parts = tuple(replace(part, observations=None) for part in problem.parts)
+        derivation, *_ = derived(replace(problem, parts=parts, observations=None))
     return [[derivation.step(key) for key in keys] for keys in derivation.observed], judged
 
 

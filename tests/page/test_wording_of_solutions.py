@@ -136,7 +136,7 @@ def test_the_conditions_of_an_answer_are_in_its_frame_as_one_line() -> None:
 
 def test_a_speed_is_answered_where_the_speed_is_asked_for(tmp_path: Path) -> None:
     text = library_page("constraints/loop")
-    assert "Hence v = √(v_0² - 2g R + 2g R cos θ)" in text
+    assert "v = √(v_0² - 2g R + 2g R cos θ)" in text
     same = edited(library("contacts/pushed_off_sphere"), ("{square_root: speed}", "{square_root: force}"))
     with pytest.raises(DeriveError, match="is not the square of a rate"):
         solved(tmp_path, same)
@@ -152,7 +152,7 @@ def test_a_root_has_the_letter_of_its_rate() -> None:
 
 def test_only_an_exactly_linear_equation_has_a_frequency_for_every_amplitude() -> None:
     hanging = library_page("oscillations/hanging_mass")
-    assert "Without approximation" in hanging and "does not depend on the amplitude" in hanging
+    assert "without approximation" in hanging.lower() and "does not depend on the amplitude" in hanging
     assert "To first order" not in hanging and "small oscillations" not in hanging
     pendulum = library_page("pendulums/simple_pendulum")
     assert "small oscillations" in pendulum and "on the amplitude, ω" not in pendulum

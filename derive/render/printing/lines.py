@@ -20,7 +20,7 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-FRAME = 2.0  # width of the two sides of a frame
+FRAMED_WIDTH = 44.0  # greatest width of a line that is framed with its left side: it fits in every format
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
@@ -82,9 +82,9 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
-    packed = _with_left_side_again(packed, begun) if _frames_half(packed[-1], begun, equations, limit) else packed
+    packed = _with_left_side_again(packed, begun) if _frames_half(packed[-1], equations) else packed
     packed = _with_bound_framed(packed, equations)
-    if _frames_left_side(packed[-1], equations, limit):
+    if _frames_left_side(packed[-1], equations):
         packed[-1] = replace(packed[-1], framed=len(packed[-1].sides))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
@@ -119,13 +119,9 @@ def _is_one_answer(lines: Sequence[Printed]) -> bool:
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
-def _frames_half(last: Printed, begun: Layout | None, equations: Equations, limit: float) -> bool:
-    """Return whether only the right side of a result would be framed although the equation has room on a line."""
-    if equations.framed != 1 or begun is None or last.left is not None and last.width <= limit - FRAME:
-        return False
-    relation, side = last.sides[-1]
-    fits = width(begun) + 2 + width(side) <= limit - FRAME
-    return equations.frames_bare_value or fits and relation in ("equals", "approx") and not equations.lines[-1].numeric
+def _frames_half(last: Printed, equations: Equations) -> bool:
+    """Return whether only a bare number or letter would be framed, which means nothing without its left side."""
+    return equations.frames_bare_value and (last.left is None or last.width > FRAMED_WIDTH)
 
 
 def _with_left_side_again(packed: list[Printed], begun: Layout | None) -> list[Printed]:
@@ -148,7 +144,7 @@ def _with_bound_framed(packed: list[Printed], equations: Equations) -> list[Prin
     return [*others, chain, bound]
 
 
-def _frames_left_side(line: Printed, equations: Equations, limit: float) -> bool:
+def _frames_left_side(line: Printed, equations: Equations) -> bool:
     """Return whether the frame includes the left side of the last line.
 
     Half an equation, such as "= 0", is not an answer. But a line in which numbers are substituted, or which is too
@@ -162,7 +158,7 @@ def _frames_left_side(line: Printed, equations: Equations, limit: float) -> bool
     numeric = equations.lines[-1].numeric
     if line.sides[0][0] in INEQUALITIES:
         return not (numeric and len(line.sides) > line.framed)
-    return line.width <= limit - FRAME and not numeric
+    return line.width <= FRAMED_WIDTH and not numeric
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
