@@ -27,6 +27,7 @@ from derive.documents.syntax import Int, Letter, Mat, Node
 SECONDS = 3.0  # of processor time for one claim
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
+# SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)

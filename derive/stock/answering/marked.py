@@ -11,6 +11,7 @@ from typing import Any
 from sympy import Expr, ImmutableDenseMatrix, MatrixBase, Rational, cos, pi, sin, sqrt
 
 from derive.algebra.dimensions import Dimension
+from derive.algebra.equality import equal
 from derive.algebra.expressions import AXES, explicit, scalar
 from derive.course.expression import read_expression
 from derive.course.placement import Placement
@@ -117,7 +118,9 @@ class Marked:
             return Line(*self._ends(keys, rows), PENS[kind], label=label, keys=used)
         if kind == "length":
             aside = towards(keys.side, rows) if keys.side else None
-            return DistanceMark(*self._ends(keys, rows), aside, label=label, keys=used)
+            start, end = self._ends(keys, rows)
+            self._check_length(end - start, label, keys)
+            return DistanceMark(start, end, aside, label=label, keys=used)
         at = self._place(keys.at, "at", rows)
         if kind == "curve":
             return self._curve(at, keys, label, used)
@@ -137,6 +140,15 @@ class Marked:
             return Turn(at, around, size or ROUND, label=label, keys=(*used, *own_keys))
         along, own_keys, _ = self._way(keys.along, "along", rows)
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
+
+    def _check_length(self, arm: MatrixBase, label: Any, keys: MarkKeys) -> None:
+        """Check that a dimension line is as long as its label says, if the label has letters of the problem only."""
+        known = {declared.symbol for declared in self._letters.letters.values()}
+        if not isinstance(label, Expr) or not label.free_symbols or not label.free_symbols <= known:
+            return
+        if not equal(arm.dot(arm), label**2):
+            message = f"the distance from `from` to `to` is not {keys.label}"
+            rejected("wrong-argument", message, keys.places[""], "change an end of the line, or its label")
 
     def _curve(self, at: MatrixBase, keys: MarkKeys, label: Any, used: tuple[str, ...]) -> Mark:
         """Return the curve of a point whose place is a formula in one letter."""

@@ -145,6 +145,7 @@ def test_the_steps_are_made_again_if_a_mark_changes(tmp_path: Path) -> None:
         ("along: [cos(theta), sin(theta)]}", "along: [cos(theta), l]}", "have different dimensions"),
         ("along: [cos(theta), sin(theta)]}", "along: [cos(theta)]}", "`along` needs 2 components"),
         ("size: 0.4}", "size: -1}", "`size` must be a positive number"),
+        ("label: l/2, from", "label: l/3, from", "the distance from `from` to `to` is not l/3"),
     ],
 )
 def test_wrong_marks_are_rejected(tmp_path: Path, old: str, new: str, message: str) -> None:
