@@ -13,7 +13,7 @@ from derive.course.expression import Declared
 from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
-from derive.course.written import DrawingKeys, MarkKeys
+from derive.course.written import MARKS_OF_BODY, DrawingKeys, MarkKeys
 from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
@@ -59,7 +59,6 @@ class Placement:
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
         up        the ends of the vertical axis of curves, outside of which they are not drawn
-        shows     the names of what the drawing of a body shows in addition to the outline
         panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
               bifurcation diagram: the range of its vertical axis
@@ -85,7 +84,6 @@ class Placement:
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
     surfaces: tuple[Word, ...] = ()
-    shows: tuple[Word, ...] = ()
     panels: str | None = None
     against: Formula | None = None
     levels: tuple[Formula, ...] = ()
@@ -96,6 +94,16 @@ class Placement:
     def is_of_engine(self) -> bool:
         """Whether the drawing is a plot that the engine draws."""
         return bool(self.plot or self.curves)
+
+    @property
+    def shows(self) -> tuple[str, ...]:
+        """Return the marks that name a thing of a body, such as its centre of mass."""
+        return tuple(str(mark.mark) for mark in self.marks if mark.mark in MARKS_OF_BODY)
+
+    @property
+    def adds(self) -> tuple[MarkKeys, ...]:
+        """Return the marks that the problem places itself."""
+        return tuple(mark for mark in self.marks if mark.mark not in MARKS_OF_BODY)
 
     @property
     def is_diagram(self) -> bool:
@@ -134,7 +142,6 @@ def placements(
             curves=written.curves,
             labels=written.labels,
             surfaces=written.surfaces,
-            shows=written.shows,
             panels=written.panels,
             against=written.against,
             levels=written.levels,

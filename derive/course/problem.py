@@ -37,7 +37,7 @@ from derive.course.schema import THE_KEYS_ARE, read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, Methods, StockScript, stock_names, stock_script
 from derive.course.unused import unused_in
-from derive.course.written import SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
+from derive.course.written import MARKS_OF_BODY, SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
 from derive.steps.defined import define
@@ -278,7 +278,7 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
     `against`."""
     for drawing in drawings:
         _check_panels(drawing, faults)
-        _check_shows(drawing, script, faults)
+        _check_marks_of_body(drawing, script, faults)
         if drawing.is_of_engine and isinstance(script, Script):
             name = "plot" if drawing.plot else "curves"
             message, help_line = (
@@ -304,16 +304,19 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
             faults.error("unused-key", "`against` has no effect without `plot` or `curves`", drawing.against.place)
 
 
-def _check_shows(drawing: Placement, script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that `shows` belongs to a drawing of the engine that can show its contents."""
+def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None, faults: Faults) -> None:
+    """Check that marks such as a centre of mass belong to the drawing of a body."""
     known = script.stock.shows if isinstance(script, StockScript) else ()
-    for name in drawing.shows:
-        if not known or drawing.is_of_engine:
-            message = f"`shows` has no effect on `{drawing.key}`, which is not the drawing of a `body`"
-            faults.error("unused-key", message, name.place, help="leave it out")
-        elif name not in known:
-            help_line = did_you_mean(name, known) or f"the names are {', '.join(f'`{each}`' for each in known)}"
-            faults.error("wrong-argument", f"the drawing of a body cannot show `{name}`", name.place, help=help_line)
+    for mark in drawing.marks:
+        if mark.mark not in MARKS_OF_BODY:
+            continue
+        if drawing.is_of_engine or drawing.like or mark.mark not in known:
+            message = f"the mark `{mark.mark}` has no effect on `{drawing.key}`, which is not the drawing of a `body`"
+            help_line = "leave out `like`" if drawing.like and mark.mark in known else "leave it out"
+            faults.error("unused-key", message, mark.places["mark"], help=help_line)
+        for name in mark.places.keys() - {"", "mark"}:
+            message = f"`{name}` has no effect on the mark `{mark.mark}`"
+            faults.error("unused-key", message, mark.places[name], help="leave it out")
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:

@@ -107,7 +107,7 @@ class Stock:
     keys      the keys allowed under `given:`
     read      returns the description in the declared symbols; collects an error for each value that cannot be read
     answers   the class that derives the answers of a description
-    shows     the words that `shows` of a drawing may contain
+    shows     the marks of a drawing that name a thing of the described object
     """
 
     keys: type[Record]

@@ -47,7 +47,8 @@ POSITIVE = "positive"  # the word that may be before a kind
 SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
-MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle", "curve")
+MARKS_OF_BODY = ("masses", "centre_of_mass", "principal_axes", "direction", "element")
+MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle", "curve", *MARKS_OF_BODY)
 SIDES = ("left", "right", "up", "down")
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
@@ -208,7 +209,8 @@ class MarkKeys(Record):
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
         "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, or "
-        "a solid `curve`",
+        "a solid `curve`; for one `body` also the `masses` of its parts, its `centre_of_mass`, its `principal_axes`, "
+        "the `direction` of the axis of `moment_about`, or the `element` of its integrals",
         one_of(MARKS),
         required=True,
     )
@@ -280,7 +282,7 @@ class DrawingKeys(Record):
     )
     marks: tuple[MarkKeys, ...] = key(
         "if `solve` is `system`, `body` or `rotation`: [marks](#marks) that are drawn in addition, such as a centre of "
-        "mass, a length, a velocity or an angle",
+        "mass, a length, a velocity or an angle. Marks of a body under a new name make a further drawing of it",
         MARKS_OF_DRAWING,
     )
     view: tuple[float, float] | None = key(
@@ -338,12 +340,6 @@ class DrawingKeys(Record):
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
         "from those of the first",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
-    )
-    shows: tuple[Word, ...] = key(
-        "for a drawing of one `body`, what it shows in addition to the outline: `masses` of its parts, "
-        "`centre_of_mass`, `principal_axes`, `direction` of the axis of `moment_about`, or the `element` of its "
-        "integrals; under a new name, it is a further drawing of the body",
-        list_of(TEXT, "a list such as `[centre_of_mass]`", each="a name"),
     )
     panels: str | None = key(
         "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "

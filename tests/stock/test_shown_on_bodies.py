@@ -1,4 +1,4 @@
-"""The key `shows` of the drawing of a body: what the drawing shows in addition to the outline."""
+"""Marks that name a thing of a body, such as its centre of mass, in addition to the outline."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ parts:
   - ask: Where is its centre of mass, and what are its principal axes?
     answer: [centre_of_mass, principal_axes]
 drawings:
-  axes: {shows: [centre_of_mass, principal_axes], caption: The axes.}
+  axes: {marks: [{mark: centre_of_mass}, {mark: principal_axes}], caption: The axes.}
 """
 
 
@@ -48,7 +48,7 @@ def body(given: str, marks: str, answer: str = "moment_of_inertia_z") -> str:
         ("{shape: triangle, corners: [[0, 0], [a, 0], [0, a]], mass: M}", given),
         ("  about: first corner\n", ""),
         ("[centre_of_mass, principal_axes]\ndrawings", f"{answer}\ndrawings"),
-        ("axes: {shows: [centre_of_mass, principal_axes]", f"body: {{shows: [{marks}]"),
+        ("axes: {marks: [{mark: centre_of_mass}, {mark: principal_axes}]", f"body: {{marks: [{{mark: {marks}}}]"),
         ("symbols: {a: length, M: mass}", "symbols: {a: length, b: length, M: mass, theta: angle, phi: angle}"),
     )
 
@@ -92,12 +92,12 @@ def test_a_direction_is_drawn_with_its_two_angles(tmp_path: Path) -> None:
     ("edits", "words"),
     [
         (
-            (("principal_axes], caption", "principal_axis], caption"),),
-            "the drawing of a body cannot show `principal_axis`",
+            (("{mark: principal_axes}", "{mark: principal_axes, label: a}"),),
+            "`label` has no effect on the mark `principal_axes`",
         ),
         (
-            (("{shows: [", "{plot: mass, against: a, range: [1 m, 2 m], shows: ["),),
-            "`shows` has no effect on `axes`, which is not the drawing of a `body`",
+            (("{marks: [", "{plot: mass, against: a, range: [1 m, 2 m], marks: ["),),
+            "the mark `centre_of_mass` has no effect on `axes`, which is not the drawing of a `body`",
         ),
     ],
 )

@@ -76,7 +76,7 @@ class Marked:
             known = did_you_mean(name, shown) or f"the drawings are {', '.join(f'`{known}`' for known in shown)}"
             rejected("unknown-drawing", f"the engine draws nothing called `{name}`", name.place, known)
         found = shown[name]
-        added = each([partial(self._mark, keys, found) for keys in self.drawing.marks])
+        added = each([partial(self._mark, keys, found) for keys in self.drawing.adds])
         measured = {mark.label for mark in added if isinstance(mark, DistanceMark)} - {None}
         own_marks = (replace(mark, label=None) if mark.label in measured else mark for mark in found.marks)
         marks = (*own_marks, *added)  # a length with its own dimension line is not named twice

@@ -44,7 +44,7 @@ def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", 
     about      the name of a point; the axes begin at this point only if it is the centre of mass, and the position of
                the centre is known by symmetry
     is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
-    shown      the words of SHOWS for what is drawn in addition to the outline
+    shown      the marks of SHOWS that are drawn in addition to the outline
     """
     body = answers.body
     origin = "centre" if about == "centre" and _has_known_centre(body) else body.reference
