@@ -58,6 +58,7 @@ class Placement:
         curves    several answers, whose curves the engine draws in one plot
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
+        then      the value that curves keep after the range
         up        the ends of the vertical axis of curves, outside of which they are not drawn
         panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
@@ -76,6 +77,7 @@ class Placement:
     values: tuple[tuple[Symbol, Expr], ...] = ()
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
+    then: Formula | None = None
     up: Range | None = field(default=None, repr=False)
     cases: tuple[tuple[Measured, ...], ...] = ()
     like: Word | None = None
@@ -134,6 +136,7 @@ def placements(
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
             range=Range(written.ends) if written.ends else None,
+            then=written.then,
             up=Range(written.up) if written.up else None,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             like=written.like,

@@ -320,14 +320,17 @@ def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Check that a drawing with `panels` has several curves, and a drawing with `labels` or `surfaces` is a path, and
-    a drawing with `up` is not."""
+    """Check that a drawing with `panels` has several curves, that one with `labels` or `surfaces` is a path, that one
+    with `up` is not, and that one with `then` has curves against the time."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
     if drawing.up and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels):
         message = f"`up` has no effect on `{drawing.key}`, which is not a plot of curves"
         faults.error("unused-key", message, drawing.up.place, help="leave it out, or write `over`")
+    if drawing.then and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels or drawing.against != "t"):
+        message = f"`then` has no effect on `{drawing.key}`, which is not a plot of curves against `t`"
+        faults.error("unused-key", message, drawing.then.place, help="leave it out")
     for name, words in (("labels", drawing.labels), ("surfaces", drawing.surfaces)):
         if words and len(drawing.plot) != 2:
             message = f"`{name}` has no effect on `{drawing.key}`, which is not a path"

@@ -86,7 +86,8 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
             yield from _names(node)
         yield from _NAME.findall(mark.label or "")
     ends = [end for both in drawing.over.values() for end in both]
-    for formula in (*(drawing.plot or ()), drawing.against or "", *drawing.levels, *(drawing.ends or ()), *ends):
+    alone = (drawing.against or "", drawing.then or "")
+    for formula in (*(drawing.plot or ()), *alone, *drawing.levels, *(drawing.ends or ()), *ends):
         yield from _NAME.findall(formula)
 
 

@@ -332,6 +332,11 @@ class DrawingKeys(Record):
         ENDS,
         called="range",
     )
+    then: Formula | None = key(
+        "for curves against `t`: the answer or the formula whose value they keep after the range, such as `v_1`; it "
+        "must be their value at the end of the range",
+        FORMULA,
+    )
     up: tuple[Formula, ...] | None = key(
         "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
         ENDS,

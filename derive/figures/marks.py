@@ -314,6 +314,7 @@ class Plot:
     outlines         surfaces in the plane of a path
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
     places           the values of the variable for which the solution has a symbol, such as r_0, with these symbols
+    then             the value that the curves keep after their range
     """
 
     key: str
@@ -332,6 +333,7 @@ class Plot:
     outlines: tuple[Outline, ...] = ()
     diagram: Diagram | None = None
     places: tuple[tuple[Any, Any], ...] = ()
+    then: Any = None
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -364,7 +366,8 @@ class Plot:
         others = [other.expr for other in self.others]
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
-        return letters_in((*self.shown, *others, *self.values, *outlines)) - in_plane
+        kept = () if self.then is None else (self.then,)
+        return letters_in((*self.shown, *others, *kept, *self.values, *outlines)) - in_plane
 
     @property
     def ends(self) -> tuple[Any, ...]:

@@ -110,7 +110,7 @@ def depictions(
                 if caption and isinstance(drawing, m.Plot):
                     if drawing.diagram is not None:
                         caption += (Text(" "), *filled(words.drawings["solid_and_dashed"], {}))
-                    caption += _numbers_of_all(problem, drawing, placement, words)
+                    caption += _told_of_curves(curves_of(problem, drawing, placement), words)
             except Rejected as error:
                 faults += error.complaints
                 continue
@@ -702,9 +702,11 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
     ]
 
 
-def _numbers_of_all(problem: Problem, plot: m.Plot, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the numbers that all curves of a plot share, to follow the caption, which does not repeat the extrema."""
-    told = _shared(curves_of(problem, plot, placement), words)
+def _told_of_curves(curves: Curves, words: Phrases) -> tuple[Inline, ...]:
+    """Return what the dots mean, and the numbers that all curves of a plot share, to follow the caption, which does not
+    repeat the extrema."""
+    dots = [filled(words.drawings["filled_and_open"], {})] if curves.has_unstable else []
+    told = (*dots, *_shared(curves, words))
     return tuple(node for nodes in told for node in (Text(" "), *nodes))
 
 

@@ -21,8 +21,8 @@ from derive.course.problem import Problem
 from derive.course.stock import told_at
 from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
-from derive.errors import Complaint, Place, Rejected
-from derive.figures.extrema import NOISE, Extremum, extrema, meetings, values_along, zeros
+from derive.errors import Complaint, Place, Rejected, rejected
+from derive.figures.extrema import MAXIMUM, NOISE, Extremum, extrema, meetings, values_along, zeros
 from derive.figures.marks import Outline, Plot, letters_in
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Path: TypeAlias = tuple[tuple[float, float], ...]
 
 DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
-JOULE = "J"
+JOULE, POTENTIAL = "J", "U"  # the unit and the first letter of a potential energy
 
 STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
@@ -41,6 +41,7 @@ PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
 NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
+KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
@@ -55,6 +56,7 @@ class Curve:
     outlines surfaces in the plane of a path
     diagram  the branches of a bifurcation diagram
     places   the values of the variable for which the solution has a symbol, with these symbols
+    then     the value that the curve keeps after its range
     """
 
     expr: Expr
@@ -70,12 +72,21 @@ class Curve:
     outlines: tuple[Outline, ...] = ()
     diagram: Bifurcations | None = None
     places: tuple[tuple[Any, float], ...] = ()
+    then: float | None = None
 
     @cached_property
     def spots(self) -> Path:
         """Return points of the curve, in SI units."""
         steps = min(max(STEPS, STEPS_OF_TURN * len(self.extrema)), MOST_STEPS)
-        return self.path or tuple(values_along(self.expr, self.variable, self.lower, self.upper, steps))
+        if self.path:
+            return self.path
+        kept = () if self.then is None else ((self.end, self.then),)
+        return (*values_along(self.expr, self.variable, self.lower, self.upper, steps), *kept)
+
+    @property
+    def end(self) -> float:
+        """Return the end of the horizontal axis; after the range, there is room for a value that the curve keeps."""
+        return self.upper if self.then is None else self.upper + KEPT * (self.upper - self.lower)
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
@@ -121,6 +132,12 @@ class Curves:
     is_lettered: bool = False
     ends_up: tuple[float, float] | None = None
 
+    @property
+    def has_unstable(self) -> bool:
+        """Whether a curve is a potential energy with a marked maximum, an unstable equilibrium."""
+        potential = [each for each in self.curves if str(each.label).startswith(POTENTIAL)]
+        return self.up.unit == JOULE and any(turn.kind == MAXIMUM for each in potential for turn in each.marked)
+
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
         """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
         is a zero.
@@ -160,8 +177,10 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
-    shared = tuple(number for number in cases[0] if number.symbol not in changed) if len(cases) > 1 else ()
-    own = [_own(problem, cases[0], case, changed) if len(cases) > 1 else case for case in cases]
+    # The caption states the numbers that all curves share. Without a caption, one curve has them above the panel.
+    is_told = len(cases) > 1 or bool(placement and placement.caption)
+    shared = tuple(number for number in cases[0] if number.symbol not in changed) if is_told else ()
+    own = [_own(problem, cases[0], case, changed) if is_told else case for case in cases]
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     ends = [_range(problem, plot, placement, plot.variable, written[:2], each) for each in numbers]
     found = tuple(
@@ -353,7 +372,10 @@ def _curve(
             outlines = tuple(_with_numbers(each, numbers) for each in plot.outlines)
             return Curve(expr, plot.variable, lower, upper, own, (), plot.label, across[0], path, outlines=outlines)
         found = with_names(extrema(expr, plot.variable, lower, upper), places, NEAR * (upper - lower))
-        return Curve(expr, plot.variable, lower, upper, own, found, plot.label)
+        then = None if plot.then is None else float(plot.then.xreplace(numbers))
+        if then is not None and abs(float(expr.subs(plot.variable, upper)) - then) > NEAR * (abs(then) or 1.0):
+            rejected("wrong-argument", f"a curve of `{plot.key}` does not end at the value of `then`", None)
+        return Curve(expr, plot.variable, lower, upper, own, found, plot.label, then=then)
 
 
 def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, floor, log10
 from typing import Any, TypeAlias
 
-from derive.algebra.expressions import Amount
+from derive.algebra.expressions import Amount, scalar
 from derive.course.given import Measured
 from derive.figures.branches import Bifurcations
 from derive.figures.extrema import MINIMUM, Extremum
@@ -37,6 +38,8 @@ NEAR_ZERO = 0.25  # a curve above zero whose distance from zero is a smaller par
 FEWEST = 3  # least number of ticks, if smaller steps can give it
 AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
+
+_NAMED = re.compile(r"(?P<stem>[A-Za-z]+)_(?P<subscript>.+?)(?P<rate>_d+ot)?")  # such as x_1 or phi_1_dot
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
 Turn: TypeAlias = tuple[Spot, bool, tuple[str, ...]]
@@ -92,6 +95,7 @@ class Panel:
     shape            height divided by width; None for the usual shape
     points           zeros of a curve, or points at which two curves meet, with their names
     is_signed        whether a curve changes its sign, so that a thin line shows zero
+    has_open         whether the dots of maxima are open, because they are unstable equilibria
     """
 
     traces: tuple[Trace, ...]
@@ -110,6 +114,7 @@ class Panel:
     changes: tuple[Mark, ...] = ()
     points: tuple[tuple[Spot, str], ...] = ()
     is_signed: bool = False
+    has_open: bool = False
 
     @property
     def has_several(self) -> bool:
@@ -157,7 +162,7 @@ def curve_panel(
     height: float,
 ) -> Panel:
     """Return the panel of curves; the axes leave room for the names below a minimum and above a maximum."""
-    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.upper)]
+    ends = [each * curves.variable.per_unit for curve in own for each in (curve.lower, curve.end)]
     start, end = min(ends), max(ends)
     power = _power(start, end, curves.variable)
     across = _scaled_ticks(power, start, end, MOST_ACROSS, curves.variable.in_degrees)
@@ -200,6 +205,7 @@ def curve_panel(
         numbers=_title(letter, own, curves, notation),
         points=tuple(_point(*each, curves) for each in curves.points(own) if not _is_tick_at_end(each, across, curves)),
         is_signed=low < -BARELY * tall and high > BARELY * tall,
+        has_open=curves.has_unstable,
     )
 
 
@@ -239,11 +245,14 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         left, right = _widened(left, right, max(wide, tall / shape))
         low, high = _widened(low, high, max(tall, wide * shape))
         powers = (max(powers, key=abs),) * 2
-    most_up = MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1
+    most_across, most_up = float(MOST_ACROSS), float(MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1)
+    if shape is not None:  # one scale, so the numbers of both axes have the same step
+        step = max((right - left) / most_across, (high - low) / most_up)
+        most_across, most_up = (right - left) / step, (high - low) / step
     return Panel(
         traces=traces,
         values=(left, low, right, high),
-        across=_scaled_ticks(powers[0], left, right, MOST_ACROSS, curves.across.in_degrees),
+        across=_scaled_ticks(powers[0], left, right, most_across, curves.across.in_degrees),
         up=_scaled_ticks(powers[1], low, high, most_up, curves.up.in_degrees),
         names=(
             _axis_name((plot.across.label,), curves.across.unit, notation, powers[0]),
@@ -380,7 +389,7 @@ def _power(low: float, high: float, axis: Axis) -> int:
 
 
 def _scaled_ticks(
-    power: int, low: float, high: float, most: int, in_degrees: bool = False, room: tuple[float, float] = (0.0, 0.0)
+    power: int, low: float, high: float, most: float, in_degrees: bool = False, room: tuple[float, float] = (0.0, 0.0)
 ) -> Ticks:
     """Return the ticks with numbers that are divided by a power of ten."""
     unit = 10.0**power
@@ -389,7 +398,7 @@ def _scaled_ticks(
     return tuple((at * unit, text) for at, text in found) if power else found
 
 
-def _ticks(low: float, high: float, most: int, in_degrees: bool, room: tuple[float, float]) -> Ticks:
+def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[float, float]) -> Ticks:
     """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
 
     The numbers divide the range into at most `most` intervals, except for a range of more than `most` full turns. If
@@ -458,7 +467,12 @@ def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:
 
 
 def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
-    return tuple(dict.fromkeys(curve.label for curve in own))
+    """Return the symbols for the name of the vertical axis. Three or more symbols that differ only in their subscripts
+    are replaced by the symbol without a subscript."""
+    labels = tuple(dict.fromkeys(curve.label for curve in own))
+    named = [_NAMED.fullmatch(str(label)) for label in labels]
+    stems = {f"{each['stem']}{each['rate'] or ''}" if each else "" for each in named}
+    return (scalar(*stems),) if len(labels) > 2 and len(stems) == 1 and "" not in stems else labels
 
 
 def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0, inline: bool = False) -> str:

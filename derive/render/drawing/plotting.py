@@ -34,7 +34,7 @@ from derive.render.drawing.curve_names import (
     rows_of,
 )
 from derive.render.drawing.lettering import Lettered, Letters, letters_of
-from derive.render.drawing.panels import Mark, Panel, Turn, panel_of
+from derive.render.drawing.panels import Mark, Panel, Ticks, Turn, panel_of
 from derive.render.drawing.sheets import Extent, Shape, Sheet, moved, sheet_of_shapes, turned
 from derive.render.notation.notation import Notation
 
@@ -173,13 +173,13 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
     """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame, names.gaps)))
-    yield from shapes_of([piece for turn in panel.turns for piece in _dot(turn, frame)])
+    yield from shapes_of([piece for turn in panel.turns for piece in _dot(turn, frame, panel.has_open)])
     yield from names.turns
     yield from names.curves
     for place, _ in panel.points:
         yield from shapes_of([Bullet(frame.spot(place), DOT, "ink")])
     yield from names.points
-    for x, text in panel.across:
+    for x, text in _apart(panel.across, frame, writing):
         yield writing.at((frame.spot((x, 0.0))[0], below - TICK), text, SMALL, (0.5, 1.0))
     for y, text in panel.up:
         yield writing.at((left - TICK, frame.spot((0.0, y))[1]), text, SMALL, (1.0, 0.5))
@@ -197,6 +197,14 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
             yield writing.on((x, base), text, scale, QUIET)
             x += wide + SPACE
         base += high
+
+
+def _apart(ticks: Ticks, frame: Frame, writing: Writing) -> Ticks:
+    """Return the numbers of the horizontal axis, or only every second one if they would touch."""
+    ends = [(frame.spot((x, 0.0))[0], writing.size(text, SMALL)[0] / 2) for x, text in ticks]
+    touch = any(x + half + PAD > u - other for (x, half), (u, other) in pairwise(ends))
+    nought = min(range(len(ticks)), key=lambda i: abs(ticks[i][0]), default=0)
+    return ticks[nought % 2 :: 2] if touch else ticks
 
 
 @dataclass(frozen=True)
@@ -381,10 +389,10 @@ def _legend(
             x += SAMPLE + PAD + sizes[i][0] + BETWEEN
 
 
-def _dot(turn: Turn, frame: Frame) -> Iterator[Piece]:
+def _dot(turn: Turn, frame: Frame, has_open: bool) -> Iterator[Piece]:
     place, is_lowest, _ = turn
     yield Bullet(frame.spot(place), DOT, "ink")
-    if not is_lowest:
+    if has_open and not is_lowest:
         yield Bullet(frame.spot(place), 0.64 * DOT, "blank")
 
 

@@ -24,6 +24,7 @@ from derive.figures.marks import Across, Diagram, Further, Levels, Outline, Plot
 from derive.mechanics import Coordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.momenta import letter_of_momentum
+from derive.steps.record import current_run
 from derive.steps.step import Quantity
 from derive.stock.answering.diagrams import Equilibria, Parameter, equilibria_of, ratio
 from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
@@ -78,6 +79,7 @@ class Plotted:
         with told_at(answer.place):
             unit = self._unit(quantity)
             plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
+        self._keep(unit)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
         """Draw the curves of several answers, which must have the same unit because they share the vertical axis."""
@@ -96,6 +98,20 @@ class Plotted:
                      first.step.kind or "number", kind, tuple(q.key for q in quantities) + keys,
                      self._unit(first), others=others)
             )  # fmt: skip
+        self._keep(self._unit(first))
+
+    def _keep(self, unit: str) -> None:
+        """Add the value of `then`, which the curves keep after their range, to the recorded plot."""
+        run, then = current_run.get(), self.drawing.then
+        if run is None or then is None:
+            return
+        shown = self._shown(then.scalar)
+        if shown.unit != unit:
+            message = f"`{then}` is in {shown.unit or 'no unit'}, but the curves are in {unit or 'no unit'}"
+            rejected("wrong-argument", message, then.place)
+        found = run.drawings.pop()
+        assert isinstance(found, Plot)
+        run.drawings.append(replace(found, then=shown.expr, keys=tuple(dict.fromkeys((*found.keys, *shown.keys)))))
 
     def _unit(self, quantity: Quantity) -> str:
         """Return the SI unit of an answer: the unit of its kind or, without a kind, of its dimension."""
