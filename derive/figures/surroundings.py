@@ -154,8 +154,8 @@ class FixedEnd(Surface):
 
 @dataclass(frozen=True)
 class MovingEnd(Surface):
-    """A support with a prescribed motion, with an arrow beside it: a pivot on a slider, which is on a rail; or a plate
-    at the end of a spring or a string.
+    """A support with a prescribed motion, with an arrow beside it: a pivot on a slider, which is on a rail; a pivot
+    on a ceiling that rises or sinks; or a plate at the end of a spring or a string.
 
     along   the direction of the motion, or one of its two directions
     side    the side of the arrow
@@ -192,10 +192,15 @@ class MovingEnd(Surface):
             Bullet(spot, 2.2),
             Bullet(spot, 1.3, "blank"),
         ]
+        start, aside = -MOVES, BESIDE_RAIL
+        if self.joint and abs(u) < 1e-6 and not self.is_to_and_fro:
+            slider = [*hatched((x + STAND, y), (x - STAND, y), (0.0, 1.0)), *slider[3:]]
+            start, aside = (1.0 if v > 0 else -1.0) * 2 * HATCH, 0.0
+        end = start + 2 * MOVES
         return [
             *(slider if self.joint else [Stroke((moved(0.0, -STAND), moved(0.0, STAND)), "bar")]),
-            Stroke((moved(-MOVES, BESIDE_RAIL), moved(MOVES, BESIDE_RAIL)), "given", True, self.is_to_and_fro),
-            Tag(self.motion, moved(MOVES, BESIDE_RAIL), (p, q)),
+            Stroke((moved(start, aside), moved(end, aside)), "given", True, self.is_to_and_fro),
+            Tag(self.motion, moved(end, aside), (p, q)),
             Tag(self.label, spot, (-u, -v), RAIL),
         ]
 
