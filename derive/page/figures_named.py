@@ -54,11 +54,15 @@ def _shows_forces(drawing: m.Recorded) -> bool:
 
 
 def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
-    """Return the names of the figures, and their number."""
-    label = words.labels["figure"]
+    """Return the names of the figures, such as Figure 1, or Figures 1 and 2, and how many there are."""
     numbers = [(each.number, each.key) for each in figures if each.number is not None]
-    named = [(FigureRef(f"{label}\u00a0{number}", key, number),) for number, key in numbers]
-    return {"figures": joined(named, words.labels["and"]), "count": len(named)}
+    if len(numbers) == 1:
+        [(number, key)] = numbers
+        label = words.labels["figure"]
+        return {"figures": (FigureRef(f"{label}\u00a0{number}", key, number),), "count": 1}
+    named = [(FigureRef(str(number), key, number, is_alone=True),) for number, key in numbers]
+    listed = (Text(f"{words.labels['figures']}\u00a0"), *joined(named, words.labels["and"]))
+    return {"figures": listed, "count": len(named)}
 
 
 def _sentence_before(blocks: Sequence[Block]) -> int | None:

@@ -80,8 +80,9 @@ class FragmentPage(LatexPage):
         match node:
             case ProblemRef(text=text):
                 return escaped(text)
-            case FigureRef(key=key):
-                return rf"{escaped(self.words.labels['figure'])}~\ref{{{self._figure(key)}}}"
+            case FigureRef(key=key, is_alone=is_alone):
+                label = "" if is_alone else rf"{escaped(self.words.labels['figure'])}~"
+                return rf"{label}\ref{{{self._figure(key)}}}"
         return super()._node(node)
 
     def _reference(self, key: str) -> str:

@@ -152,6 +152,8 @@ class HtmlPage:
 
     def _node(self, node: Inline) -> str:
         match node:
+            case FigureRef(number=figure, is_alone=True):
+                return self._figure_number(figure)
             case FigureRef(number=figure):
                 return self._figure(figure, "&nbsp;")
             case Text(" = "):
@@ -269,8 +271,10 @@ class HtmlPage:
 
     def _figure(self, number: int, space: str) -> str:
         """Return the name of a figure; on a page of several problems, the figures later get consecutive numbers."""
-        shown = str(number) if self.standalone else figure_number(number)
-        return f"{escape(self.words.labels['figure'])}{space}{shown}"
+        return f"{escape(self.words.labels['figure'])}{space}{self._figure_number(number)}"
+
+    def _figure_number(self, number: int) -> str:
+        return str(number) if self.standalone else figure_number(number)
 
 
 def _sides(line: Printed, stop: str) -> str:

@@ -173,6 +173,8 @@ class LatexPage:
 
     def _node(self, node: Inline) -> str:
         match node:
+            case FigureRef(number=number, is_alone=True):
+                return rf"\figureno{{{number}}}"
             case FigureRef(number=number):
                 return self._figure_name(number, "~")
             case Text(" = "):
