@@ -12,7 +12,18 @@ from derive.page.numbering import Number
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
 from derive.page.unbroken import NO_BREAK, unbroken
-from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    Inline,
+    Math,
+    NewParagraph,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    ToldOnce,
+    UnitMark,
+)
 from derive.render.notation.layout import Layout, Operator, row
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import columns, in_one_line, plain, text_box, to_the_right
@@ -46,6 +57,8 @@ def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> st
             return f"({numbers[key]})"
         case ProblemRef(_, text):
             return text
+        case ToldOnce(_, told, _):
+            return inline_text(told, notation, numbers)
         case NewParagraph():
             return " "
     raise TypeError(f"nothing prints {type(node).__name__}")
