@@ -293,7 +293,16 @@ class Arrow(Mark):
 @dataclass(frozen=True)
 class ForceArrow(Arrow):
     """A force on a body that is drawn alone. `size` is the length of the arrow in units of FORCE points, so the forces
-    of several drawings have one scale."""
+    of several drawings have one scale.
+
+    inside   whether the arrow is inside the body, so that its label is beside the shaft, away from the other forces
+    """
+
+    inside: bool = False
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        found = super().pieces(paper)
+        return _labelled_beside(found) if self.inside else found
 
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * FORCE / paper.scale

@@ -58,6 +58,9 @@ VISIBLE, LONGER = Rational(1, 2), 2
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
+# A round body whose weight and normal force are on one line: its drawn size in points, and the lengths of its longest
+# and of its shortest arrow, in units of FORCE points. So the weight ends above the contact, and friction is visible.
+STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
@@ -217,8 +220,11 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     on_particles = [own for each, own in zip(bodies, shares, strict=True) if not isinstance(each.of, PlacedBody)]
     least = min((share for own in on_particles for share in own), default=1)
     longer = min(max(VISIBLE / least, 1), LONGER) if scene.in_a_plane else 1
+    least = Integer(0)
+    if any(_stands(scene, each) for each in bodies):
+        longer, least = SHORT, SHORTEST
     return [
-        _diagram(system, each, [longer * share for share in own], scene)
+        _diagram(system, each, [max(longer * share, least) for share in own], scene)
         for each, own in zip(bodies, shares, strict=True)
     ]
 
@@ -231,23 +237,58 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
     of, drawn, reach = alone.of, alone.forces, _reach(alone.of, alone.forces, scene)
     outline = list(_outline(of, is_pulley=_over_pulley(system, of) is not None))
     is_rod = any(isinstance(mark, BarMark | ThinRod) for mark in outline)
+    stands = _stands(scene, alone)
     plain = BODY if scene.in_a_plane else BODY_IN_SPACE
-    size = plain if isinstance(of, PlacedBody | Pulley) and not is_rod else None
+    size = (STANDING if stands else plain) if isinstance(of, PlacedBody | Pulley) and not is_rod else None
     if isinstance(of, _RopePiece):
         size = ROPE * scene.number(distance_of(of.start, of.end)) / scene.number(of.whole)
     longest = LONG if size is None else Rational(FORCE / size)
     lengths = [float(longest * share * reach) for share in shares]
     apart = _set_apart([each.line(length, scene) for each, length in zip(drawn, lengths, strict=True)])
     touched = _touched(scene, of) if size is not None or not isinstance(of, PlacedBody) else []
+    if stands:  # the normal force ends at the contact, and the weight ends above it
+        drawn = tuple(replace(each, ends_there=_is_below(each, of, scene)) for each in drawn)
+        apart = [0.0 if each.ends_there else off for each, off in zip(drawn, apart, strict=True)]
     if size is not None:
         apart = [off or _off_surface(each, touched, scene) for each, off in zip(drawn, apart, strict=True)]
     apart = [each.aside or off for each, off in zip(drawn, apart, strict=True)]
     arrows = [each.arrow(share, off) for each, share, off in zip(drawn, shares, apart, strict=True)]
+    if stands:  # the weight is the first force
+        arrows[0] = replace(arrows[0], inside=True)
     angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
     marks = [*outline, *_surfaces(touched, of), *arrows, *angles]
     mass = None if isinstance(of, Pulley) else explicit(_mass(of))
     return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass, body_size=size)
+
+
+def _stands(scene: Connections, alone: BodyAlone) -> bool:
+    """Whether the weight and a normal force of a round body in a plane are on one line through its centre. Then the
+    normal force is drawn as a push from below, with its tip at the contact, because every force must start or end
+    exactly at its point of action: its torque depends on this point."""
+    of = alone.of
+    if not scene.in_a_plane or not scene.system.weights or not isinstance(of, PlacedBody):
+        return False
+    is_round = any(isinstance(mark, WheelMark) for mark in _outline(of))
+    on_the_line = [each for each in alone.forces if abs(_vector(scene, *each.way)[0]) < SLIGHT]
+    below = [each for each in on_the_line if _is_below(each, of, scene)]
+    others = [each for each in on_the_line if each not in below and _offset(each, of, scene)[0] < SLIGHT]
+    return is_round and len(below) == 1 and len(others) == 1  # the other force is the weight
+
+
+def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
+    """Whether a force pushes a body vertically at a place exactly below its centre of mass."""
+    aside, above = _offset(drawn, of, scene)
+    x, y, _ = _vector(scene, *drawn.way)
+    return drawn.pushes and aside < SLIGHT and above < 0 and abs(x) < SLIGHT and y > 0
+
+
+def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
+    """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
+    the centre.
+    """
+    x, y, _ = _vector(scene, *(drawn.at - of.centre).components)
+    return abs(x), y
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
@@ -274,8 +315,8 @@ def _letter_of_normal(system: System) -> Symbol:
 @dataclass(frozen=True)
 class _Drawn:
     """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
-    is true for the force of a surface, which cannot pull; `aside` is a shift of the arrow to its left, in points, for a
-    string that leaves the rim of a small pulley."""
+    is true for the force of a surface, which cannot pull; `ends_there` is true if the tip of the arrow is at `at`;
+    `aside` is a shift of the arrow to its left, in points, for a string that leaves the rim of a small pulley."""
 
     at: Location
     way: Any
@@ -283,6 +324,7 @@ class _Drawn:
     label: Expr
     keys: tuple[str, ...] = ()
     pushes: bool = False
+    ends_there: bool = False
     aside: float = 0.0
 
     def reversed(self) -> _Drawn:
@@ -291,7 +333,7 @@ class _Drawn:
 
     def arrow(self, size: Expr, aside: float) -> ForceArrow:
         place = column_of(self.at)
-        return ForceArrow(place, self.way, size, False, aside=aside, label=self.label, keys=self.keys)
+        return ForceArrow(place, self.way, size, False, self.ends_there, aside=aside, label=self.label, keys=self.keys)
 
     def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
         """Return the start and the end of the arrow."""

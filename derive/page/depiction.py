@@ -25,6 +25,7 @@ from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
 from derive.figures.branches import BranchLine
+from derive.figures.extrema import MINIMUM
 from derive.figures.polhodes import order_of
 from derive.page.plots import (
     Curve,
@@ -705,7 +706,8 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 def _told_of_curves(curves: Curves, words: Phrases) -> tuple[Inline, ...]:
     """Return what the dots mean, and the numbers that all curves of a plot share, to follow the caption, which does not
     repeat the extrema."""
-    dots = [filled(words.drawings["filled_and_open"], {})] if curves.has_unstable else []
+    kinds = {turn.kind for curve in curves.curves for turn in curve.marked}
+    dots = [filled(words.drawings["filled_and_open"], {"filled": MINIMUM in kinds})] if curves.has_unstable else []
     told = (*dots, *_shared(curves, words))
     return tuple(node for nodes in told for node in (Text(" "), *nodes))
 

@@ -50,8 +50,8 @@ class Text:
 
 @dataclass(frozen=True)
 class FigureRef(Text):
-    """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently. In a list such
-    as Figures 1 and 2 the number is alone."""
+    """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently. In a list,
+    such as Figures 1 and 2, the number is alone."""
 
     key: str
     number: int

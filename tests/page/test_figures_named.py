@@ -29,7 +29,7 @@ def told(*blocks: Block, mentioned: tuple[str, ...] = ()) -> list[str]:
 
 def test_figures_of_forces_begin_the_sentence_after_them() -> None:
     said = told(figure("left", 2), figure("right", 3), Paragraph((Text("The upward component is"),)))
-    assert said == ["*", "*", "With the forces in Figure 2 and Figure 3, the upward component is"]
+    assert said == ["*", "*", "With the forces in Figures 2 and 3, the upward component is"]
     (_, said) = told(figure("left", 2), Paragraph((Text("At rest they add up to zero."),)))
     assert said == "Figure 2 shows the forces. At rest they add up to zero."
 

@@ -12,7 +12,7 @@ from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, symbols
 
 from derive.course.given import Measured
 from derive.course.placement import Placement
-from derive.errors import Place
+from derive.errors import Place, Rejected
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Across, Further, Levels, Outline, Plot
 from derive.figures.pieces import Bullet, Stroke
@@ -519,3 +519,38 @@ def test_a_name_in_a_gap_leaves_no_short_end_of_an_open_curve() -> None:
     box = on_curve(line, (20.0, 8.0), (-50.0, -50.0, 250.0, 50.0), [], near_the_end)
     assert box is not None
     assert box[2] <= line[-1][0] - STUB and box[0] >= line[0][0] + STUB
+
+
+def test_the_dots_of_unstable_equilibria_are_open_and_the_dots_of_other_maxima_are_filled() -> None:
+    U = Symbol("U_eff")
+    energy = replace(plot_of(cos(2 * theta), -pi, pi), label=U)
+    assert curves(energy, 1).has_unstable and panels(energy)[0].has_open
+    assert not curves(plot_of(cos(2 * theta), -pi, pi), 1).has_unstable, "V is not a potential energy"
+    assert not curves(replace(energy, expr=theta**2), 1).has_unstable
+
+
+def test_a_curve_keeps_a_value_after_its_range() -> None:
+    kept = replace(plot_of(1 + theta, Integer(0), Integer(1)), then=Integer(2))
+    (curve,) = curves(kept, 1).curves
+    assert curve.spots[-2:] == ((1.0, 2.0), (pytest.approx(4 / 3), 2.0))
+    (panel,) = panels(kept)
+    assert panel.values[2] == pytest.approx(4 / 3)
+    with pytest.raises(Rejected, match="does not end at the value of `then`"):
+        curves(replace(kept, then=Integer(3)), 1)
+
+
+def test_both_axes_of_a_path_in_one_unit_have_one_step() -> None:
+    across = Across(Symbol("x"), cos(theta), "m")
+    path = Plot(
+        "orbit", Symbol("y"), 3 * sin(theta) / 2, theta, Integer(0), 2 * pi, "length", "angle", unit="m", across=across
+    )
+    (panel,) = panels(path)
+    steps = {round(ticks[1][0] - ticks[0][0], 6) for ticks in (panel.across, panel.up)}
+    assert steps == {1.0}
+
+
+def test_symbols_that_differ_in_their_subscripts_have_one_name_at_the_axis() -> None:
+    first, *others = (Symbol(name) for name in ("x_1", "x_2", "x_3"))
+    more = tuple(Further(each, cos(theta) + i, each.name) for i, each in enumerate(others, 1))
+    several = Plot("motion", first, cos(theta), theta, -pi / 2, pi / 2, "energy", "angle", others=more)
+    assert panels(several, together=None)[0].names[1] == r"$x\,/\,\mathrm{J}$"

@@ -257,7 +257,7 @@ def test_a_path_is_described_by_its_ends(tmp_path: Path) -> None:
         )
 
     assert "A plot of z against x as t increases from 0 s to 1.02 s." in told()
-    assert "it starts at (0 m, 0 m) and ends at (8.837 m, 0 m)." in told()
+    assert "It starts at (0 m, 0 m) and ends at (8.837 m, 0 m)." in told()
     turns = [
         ("[path_x, path_z]", "[cos(alpha), sin(alpha)]"),
         ("against: t", "against: alpha"),
