@@ -8,7 +8,7 @@ from sympy import symbols
 
 from derive.figures.annotations import PointMark
 from derive.figures.parts import ConnectionMark, ParticleMark, RopeBelowMark, RopeMark
-from derive.figures.pieces import Stroke, Tag
+from derive.figures.pieces import Patch, Stroke, Tag
 from derive.figures.surfaces import TableMark
 from derive.figures.surroundings import FieldMark, FixedEnd, MovingEnd, WayMark
 from derive.render.drawing.camera import FLAT, Numbers
@@ -54,6 +54,15 @@ def test_a_charge_is_written_next_to_the_mass_and_its_fields_start_at_one_point(
 def test_the_acceleration_of_a_support_is_the_label_of_its_arrow(tmp_path: Path) -> None:
     (support,) = of_class(drawings(tmp_path, library("elevator"))["system"], MovingEnd)
     assert str(support.motion) == "a"
+
+
+def test_a_pivot_that_rises_hangs_from_a_ceiling_and_any_other_moving_pivot_is_on_a_slider(tmp_path: Path) -> None:
+    for name, is_on_slider in (("elevator", False), ("shaken_pendulum", True)):
+        drawing = drawings(tmp_path, library(name))["system"]
+        (support,) = of_class(drawing, MovingEnd)
+        paper = OnPaper(Numbers(dict.fromkeys(drawing.letters, 1.0)), FLAT, 60.0)
+        pieces = support.pieces(paper)
+        assert any(isinstance(piece, Patch) for piece in pieces) == is_on_slider
 
 
 def test_a_table_hides_the_string_below_its_hole(tmp_path: Path) -> None:
