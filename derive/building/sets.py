@@ -286,10 +286,10 @@ class _Build:
 
     def _prepare(self) -> None:
         """Start a job in which TeX reads the common beginning of all documents, if no job has done this before."""
-        from derive.page.template import template_folder
+        from derive.page.template import templates_of
 
         if self.prepares:
-            begins = partial(beginning, template_folder(self.root), self.options.detail)
+            begins = partial(beginning, templates_of(self.root), self.options.detail)
             work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
             self._put(Job("the beginning of all documents", work, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()

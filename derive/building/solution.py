@@ -30,7 +30,7 @@ from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.figures.places import with_places
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
@@ -72,7 +72,7 @@ def rendered(
     problem, faults = problem_and_faults(root, problem_id)
     with faults:
         _check_characters(problem)
-    phrases(template_folder(root))  # raises errors in the phrases before anything is derived
+    phrases(templates_of(root))  # raises errors in the phrases before anything is derived
     problem = with_known_observations(problem, faults)
     with faults:
         solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)

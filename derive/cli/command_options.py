@@ -28,13 +28,18 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
 # --- each command -----------------------------------------------------------------------------------------------------
 
 
+def _init(init: argparse.ArgumentParser) -> None:
+    init.add_argument("folder", metavar="FOLDER", help="a new or empty folder; . is the working folder")
+    init.add_argument("--title", default="Mechanics", metavar="TITLE", help="name of the course (default Mechanics)")
+
+
 def _new(new: argparse.ArgumentParser) -> None:
     named(new.add_argument("id", metavar="SET/PROBLEM", help="name of the problem; its set may be new"), "new")
     like = new.add_argument(
         "--like",
         default="system",
         metavar="LIKE",
-        help="system (default), body, rotation, script, or a problem: hw9/top",
+        help="system (default), body, rotation, script, or a problem: library/bead",
     )
     named(like, "like")
 
@@ -118,7 +123,7 @@ def _list(listed: argparse.ArgumentParser) -> None:
 
 
 def _schema(schema: argparse.ArgumentParser) -> None:
-    sorts = ("problem", "set", "reference")
+    sorts = ("problem", "set", "course", "reference")
     schema.add_argument("sort", nargs="?", choices=sorts, metavar="SORT", help=f"print one only: {', '.join(sorts)}")
 
 
@@ -163,6 +168,7 @@ def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
 
 
 _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
+    "init": _init,
     "new": _new,
     "preview": _preview,
     "build": _build,

@@ -10,7 +10,8 @@ from collections.abc import Container, Sequence
 
 # Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
-    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like body"),
+    "init": ("begin a course in a new folder", "FOLDER", "mycourse --title Mechanics"),
+    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
@@ -27,7 +28,7 @@ _COMMANDS = {
 }
 
 _AFTERWARDS = """\
-example: derive new hw10/wheel --like body, then derive preview hw10/wheel
+example: derive init mycourse; cd mycourse; derive preview week1/bead
 options: --version, --root FOLDER (that has problems/; default: here or above)
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
 exit codes: 0 fine, 1 a failure or a difference, 2 wrong usage
@@ -100,7 +101,7 @@ class _Version(argparse.Action):
         from importlib.metadata import PackageNotFoundError, version
 
         try:
-            print(f"derive {version('derive')}")
+            print(f"derive {version('derive-mechanics')}")
         except PackageNotFoundError:
             print("derive (not installed)")
         parser.exit()

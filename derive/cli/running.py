@@ -35,6 +35,7 @@ COMMANDS = {
     "audit": "auditing.audit",
     "build": "building.build",
     "preview": "previewing.preview_pages",
+    "init": "beginning.init",
     "new": "beginning.new",
     "schema": "beginning.schema",
     "clean": "keeping.clean",

@@ -1,4 +1,4 @@
-"""The problems and sets that exist, and the contents of a set's own file."""
+"""The problems and sets that exist, and the contents of the files of a course and of a set."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, rea
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
+COURSE = "course.yaml"  # the file in the folder of a course with the keys that all its sets share
 _NOT_PROBLEMS = ("set", "reference")
 
 
@@ -27,13 +28,21 @@ class ProblemSet:
     id: str
     course: str
     title: str
-    date: str | None
-    instructor: str | None
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
+    institution: str | None = None
+    instructor: str | None = None
+    term: str | None = None
+    date: str | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
+
+    @property
+    def facts(self) -> list[str]:
+        """What a title page says about the course, in the order in which it is printed."""
+        known = (self.course, self.institution, self.instructor, self.term, self.date)
+        return [fact for fact in known if fact]
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -78,15 +87,23 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 
 
 @dataclass(frozen=True)
-class SetKeys(Record):
-    """The keys of a set's file."""
+class CourseKeys(Record):
+    """The keys of `course.yaml`, which all sets of the course share; a set may have any of them in its own file."""
 
-    course: Word | None = key("the course", TEXT, required=True)
-    title: Word | None = key("the heading of the set", TEXT, required=True)
-    date: Word | None = key("the date as it is to be printed", TEXT)
+    course: Word | None = key("the course", TEXT)
+    institution: Word | None = key("the university, the department or the school", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
+    term: Word | None = key("the term as it is to be printed", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
+
+
+@dataclass(frozen=True)
+class SetKeys(CourseKeys):
+    """The keys of a set's file."""
+
+    title: Word | None = key("the heading of the set", TEXT, required=True)
+    date: Word | None = key("the date as it is to be printed", TEXT)
     documents: dict[Word, Word] = key(
         "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
@@ -180,23 +197,42 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     """Return the set; raise `Misused` if it does not exist, and one `Rejected` with all errors of its file."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
-    written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
+    of_course = _course(root, faults)
+    node = mapping_in(root, path, "a set")
+    written = read_record(SetKeys, node, "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
+    if not (written.course or of_course.course) and node.get("course") is None:
+        help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
+        faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
     faults.stop()
-    evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
+
+    def own(name: str) -> str | None:
+        """Return the value of a key of the set or, if the set does not have it, the value of the course."""
+        found: str | None = getattr(written, name) or getattr(of_course, name)
+        return found
+
     return ProblemSet(
         set_id,
-        written.course or "",
+        own("course") or "",
         written.title or "",
-        written.date,
-        written.instructor,
         problems,
-        (path,),
-        evidence,
+        (path, *((COURSE,) if (root / COURSE).is_file() else ())),
+        own("institution"),
+        own("instructor"),
+        own("term"),
+        written.date,
+        EvidenceShown(own("evidence") or EvidenceShown.NONE),
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
-        Paper(written.paper or Paper.LETTER),
+        Paper(own("paper") or Paper.LETTER),
     )
+
+
+def _course(root: Path, faults: Faults) -> CourseKeys:
+    """Return what `course.yaml` says; without this file, nothing."""
+    if not (root / COURSE).is_file():
+        return CourseKeys({}, {})
+    return read_record(CourseKeys, mapping_in(root, COURSE, "a course"), "a course", faults)
 
 
 def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -> None:

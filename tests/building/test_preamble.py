@@ -121,7 +121,7 @@ def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_
     assert begins.endswith(DIFFERS)
     assert "<<" not in begins
     assert "<%" not in begins
-    heading = ProblemSet("hw1", "Physics", "Homework", None, None, (), ())
+    heading = ProblemSet("hw1", "Physics", "Homework", (), ())
     problems = [replace(PAGE, detail=detail.value)] if detail else []
     kinds: list[Callable[[Path, ProblemSet, list[Rendered]], str]] = [sheet_document]
     if problems:
@@ -173,7 +173,7 @@ def test_the_anchor_of_a_problem_is_on_the_page_of_its_heading(target: Path) -> 
         replace(PAGE, id=f"hw1/{name}", title_latex=Tex(f"Heading {name}."), latex=Tex(rule.format(83 + 17 * k)))
         for k, name in enumerate(names)
     ]
-    heading = ProblemSet("hw1", "Physics", "Homework", None, None, tuple(f"hw1/{name}" for name in names), ())
+    heading = ProblemSet("hw1", "Physics", "Homework", tuple(f"hw1/{name}" for name in names), ())
     typeset(set_document(ROOT, heading, pages), target, chosen_engine(None))
     found = PdfReader(target)
     for name in names:
