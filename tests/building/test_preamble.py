@@ -17,7 +17,7 @@ from derive.building.set_document import COUNTED, problem_document, report_docum
 from derive.building.tex import Engine, chosen_engine, prepare, typeset
 from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
-from derive.page.template import environment
+from derive.page.template import environment, templates_of
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 from tests.courses import ROOT
@@ -116,7 +116,7 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
 
 @pytest.mark.parametrize("detail", [None, *Level])
 def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one(detail: Level | None) -> None:
-    begins = beginning(ROOT / "templates", detail)
+    begins = beginning(templates_of(ROOT), detail)
     assert begins.startswith("% Written by derive")
     assert begins.endswith(DIFFERS)
     assert "<<" not in begins
@@ -131,7 +131,7 @@ def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_
 
 
 def test_a_brief_page_has_a_class_of_its_own() -> None:
-    brief, *others = (beginning(ROOT / "templates", level) for level in Level)
+    brief, *others = (beginning(templates_of(ROOT), level) for level in Level)
     assert r"\documentclass[10pt]{article}" in brief
     assert all(r"\documentclass[11pt]{article}" in each for each in others)
     assert len({*others}) == 1, "they share a format"
