@@ -18,11 +18,14 @@ import subprocess
 import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from derive.building.cache import Cache, digest
 from derive.building.files import write
 from derive.building.scratch import Scratch
-from derive.page.template import Templates
+
+if TYPE_CHECKING:
+    from derive.page.template import Templates
 
 __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 

@@ -27,8 +27,12 @@ _COMMANDS = {
     "completion": ("print the script by which a shell completes names", "SHELL", "fish"),
 }
 
+# Commands that are rarely needed; the list of commands names them in one line, so that it fits a screen.
+_ALSO = ("schema", "doctor", "completion")
+
 _AFTERWARDS = """\
-example: derive init mycourse; cd mycourse; derive preview week1/bead
+also: schema (for editors), doctor (what a build needs), completion (for shells)
+example: derive new hw10/wheel --like body, then derive preview hw10/wheel
 options: --version, --root FOLDER (that has problems/; default: here or above)
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
 exit codes: 0 fine, 1 a failure or a difference, 2 wrong usage
@@ -62,7 +66,8 @@ class _Screen(argparse.RawDescriptionHelpFormatter):
     def add_argument(self, action: argparse.Action) -> None:
         if isinstance(action, argparse._SubParsersAction):
             for each in action._get_subactions():
-                super().add_argument(each)
+                if each.dest not in _ALSO:
+                    super().add_argument(each)
         elif not isinstance(action, argparse._HelpAction):
             super().add_argument(action)
 

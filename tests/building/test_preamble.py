@@ -17,7 +17,7 @@ from derive.building.set_document import COUNTED, problem_document, report_docum
 from derive.building.tex import Engine, chosen_engine, prepare, typeset
 from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
-from derive.page.template import environment, templates_of
+from derive.page.template import Templates, environment, templates_of
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 from tests.courses import ROOT
@@ -142,7 +142,7 @@ def test_what_a_template_must_be_filled_for_is_not_known_before(tmp_path: Path, 
     (tmp_path / "latex").mkdir()
     if text:
         (tmp_path / "latex" / "document.tex.j2").write_text(text)
-    assert beginning(tmp_path, Level.STANDARD) == ""
+    assert beginning(Templates((tmp_path,)), Level.STANDARD) == ""
 
 
 def test_a_format_that_is_made_before_is_that_of_the_documents(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
