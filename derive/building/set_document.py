@@ -23,6 +23,7 @@ from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
 FONT = "math.woff"  # the font for formulas, see tools/webfont.py
+LOGO = "logo.png"  # the name of the logo where TeX runs
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "witnesses", "agree", "agree_to_figures", "errata", "remarks",
@@ -151,6 +152,8 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
     return {
         "set_id": Tex(heading.id),
         "heading": heading,
+        "logo_file": Tex(LOGO) if heading.logo else "",
+        "logo_data": b64encode(heading.logo).decode() if heading.logo else "",
         "problems": problems,
         "detail": problems[0].problem.detail if problems else Level.STANDARD.value,
         "total": _total(problems),

@@ -359,10 +359,11 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import document_page, index_page, the_document
+        from derive.building.set_document import LOGO, document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
+        logo = ((LOGO, self.heading.logo),) if self.heading.logo else ()
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
@@ -372,7 +373,7 @@ class _Build:
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
             rank = FIRST if kind == SOLUTIONS else LAST
-            beside = files if kind != REPORT else ()
+            beside = (*(files if kind != REPORT else ()), *logo)
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
@@ -406,7 +407,7 @@ class _Build:
                 self._was_made(name)
             return
         limit = self.options.limit
-        included = [file for file in files if file[0].endswith(".pdf")]
+        included = [file for file in files if file[0].endswith((".pdf", ".png"))]
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
             timeout=limit, numbers=numbers, included=included, formats=replace(self.cache, fresh=False),

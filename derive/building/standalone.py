@@ -28,7 +28,7 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
     """Return the report of each set, as path -> PDF; a report contains only the checked problems. If only one of
     several problems of a set was checked, the path contains the name of this problem."""
-    from derive.building.set_document import report_document
+    from derive.building.set_document import LOGO, report_document
 
     found: dict[str, bytes] = {}
     for set_id in dict.fromkeys(problem.partition("/")[0] for problem in solved):
@@ -40,5 +40,6 @@ def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limi
         name = f"{listed[0].id.rpartition('/')[2]}-{REPORT}" if is_single else REPORT
         outputs = set_folder(root, set_id)
         tex = report_document(root, heading, listed)
-        found[str(outputs / f"{name}.pdf")] = typeset_standalone(outputs, name, tex, (), engine, limit)
+        logo = ((LOGO, heading.logo),) if heading.logo else ()
+        found[str(outputs / f"{name}.pdf")] = typeset_standalone(outputs, name, tex, logo, engine, limit)
     return found

@@ -14,6 +14,8 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
 COURSE = "course.yaml"  # the file in the folder of a course with the keys that all its sets share
+LARGEST_LOGO = 2_000_000  # bytes
+PNG = b"\x89PNG\r\n\x1a\n"  # the first bytes of a PNG file
 _NOT_PROBLEMS = ("set", "reference")
 
 
@@ -34,6 +36,7 @@ class ProblemSet:
     instructor: str | None = None
     term: str | None = None
     date: str | None = None
+    logo: bytes | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
@@ -94,6 +97,7 @@ class CourseKeys(Record):
     institution: Word | None = key("the university, the department or the school", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
     term: Word | None = key("the term as it is to be printed", TEXT)
+    logo: Word | None = key("a PNG file in the folder of the course, for the title of each document of a set", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
 
@@ -201,6 +205,8 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     node = mapping_in(root, path, "a set")
     written = read_record(SetKeys, node, "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
+    logo_path = written.logo or of_course.logo
+    logo = _logo(root, logo_path, faults) if logo_path else None
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
     if not (written.course or of_course.course) and node.get("course") is None:
         help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
@@ -217,15 +223,32 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         own("course") or "",
         written.title or "",
         problems,
-        (path, *((COURSE,) if (root / COURSE).is_file() else ())),
+        (path, *((COURSE,) if (root / COURSE).is_file() else ()), *((str(logo_path),) if logo_path else ())),
         own("institution"),
         own("instructor"),
         own("term"),
         written.date,
+        logo,
         EvidenceShown(own("evidence") or EvidenceShown.NONE),
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
         Paper(own("paper") or Paper.LETTER),
     )
+
+
+def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
+    """Return the content of a logo; report an error if it is not a PNG file of the course, or too large."""
+    file = root / path
+    help_line = "name a PNG file in the folder of the course, such as `logo.png`"
+    if not file.resolve().is_relative_to(root.resolve()) or not file.is_file():
+        faults.error("logo", f"the course has no file `{path}`", path.place, help=help_line)
+    elif file.stat().st_size > LARGEST_LOGO:
+        message = f"the logo is larger than {LARGEST_LOGO // 1_000_000} MB"
+        faults.error("logo", message, path.place, help="make it smaller: each page for a browser contains it")
+    elif not (content := file.read_bytes()).startswith(PNG):
+        faults.error("logo", f"`{path}` is not a PNG file", path.place, help=help_line)
+    else:
+        return content
+    return None
 
 
 def _course(root: Path, faults: Faults) -> CourseKeys:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.course.names import EvidenceShown, Paper
-from derive.course.problem_set import ProblemSet, problem_set
+from derive.course.problem_set import PNG, ProblemSet, problem_set
 from derive.errors import Rejected
 
 
@@ -60,3 +60,33 @@ def test_all_errors_of_both_files_are_reported(
     with pytest.raises(Rejected) as caught:
         read(tmp_path, of_course, of_set)
     assert sorted((each.code, each.place.path) for each in caught.value.complaints if each.place) == sorted(codes)
+
+
+def test_a_logo_is_a_png_file_of_the_course(tmp_path: Path) -> None:
+    (tmp_path / "logo.png").write_bytes(PNG + b"more")
+    found = read(tmp_path, "course: A\nlogo: logo.png\n", "")
+    assert found.logo == PNG + b"more"
+    assert "logo.png" in found.inputs
+
+
+@pytest.mark.parametrize(
+    ("path", "content", "message"),
+    [
+        ("none.png", PNG, "the course has no file `none.png`"),
+        ("../secret.png", PNG, "the course has no file"),
+        ("linked.png", PNG, "the course has no file"),
+        ("logo.png", b"%PDF-1.5", "is not a PNG file"),
+        ("logo.png", PNG + bytes(2_000_000), "larger than 2 MB"),
+        ("problems", PNG, "the course has no file"),
+    ],
+)
+def test_any_other_logo_is_an_error_at_its_line(tmp_path: Path, path: str, content: bytes, message: str) -> None:
+    course = tmp_path / "course"
+    course.mkdir()
+    (course / "logo.png").write_bytes(content)
+    (tmp_path / "secret.png").write_bytes(PNG)
+    (course / "linked.png").symlink_to(tmp_path / "secret.png")
+    with pytest.raises(Rejected, match=message) as caught:
+        read(course, f"course: A\nlogo: {path}\n", "")
+    (complaint,) = caught.value.complaints
+    assert complaint.place and (complaint.place.path, complaint.place.line) == ("course.yaml", 2)
