@@ -66,6 +66,22 @@ def _build(build: argparse.ArgumentParser) -> None:
     _jobs_and_messages(build)
 
 
+def _variants(variants: argparse.ArgumentParser) -> None:
+    named(variants.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
+    variants.add_argument("--check", type=_count, default=100, metavar="N", help="draw N variants (default 100)")
+    variants.add_argument("--seed", default="", metavar="TEXT", help="the seed of `derive class`")
+    _time_limit(variants)
+
+
+def _class(of_class: argparse.ArgumentParser) -> None:
+    named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
+    of_class.add_argument("--roster", required=True, metavar="FILE", help="CSV with the column name, and maybe code")
+    of_class.add_argument("--seed", default="", metavar="TEXT", help="another text gives other variants")
+    _engine(of_class)
+    _time_limit(of_class)
+    _jobs_and_messages(of_class)
+
+
 def _check(check: argparse.ArgumentParser) -> None:
     named(check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem"), "ids and sets")
     check.add_argument("--report", action="store_true", help="also make build/SET/report.pdf")
@@ -172,6 +188,8 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "new": _new,
     "preview": _preview,
     "build": _build,
+    "variants": _variants,
+    "class": _class,
     "check": _check,
     "audit": _audit,
     "solve": _solve,

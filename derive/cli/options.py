@@ -14,6 +14,8 @@ _COMMANDS = {
     "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
+    "variants": ("draw variants of problems, and show their answers", "SET|ID", "hw10 --check 1000"),
+    "class": ("make a sheet, a key and solutions for each student", "SET", "hw10 --roster students.csv"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "audit": ("read a worked document, and find the rows that do not follow", "FILE", "solutions.tex"),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),

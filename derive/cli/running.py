@@ -37,6 +37,8 @@ COMMANDS = {
     "preview": "previewing.preview_pages",
     "init": "beginning.init",
     "new": "beginning.new",
+    "variants": "variants.variants",
+    "class": "classes.make_class",
     "schema": "beginning.schema",
     "clean": "keeping.clean",
     "doctor": "keeping.doctor",

@@ -40,11 +40,12 @@ class ProblemSet:
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
+    student: str = ""  # the student for whom a document is made
 
     @property
     def facts(self) -> list[str]:
         """What a title page says about the course, in the order in which it is printed."""
-        known = (self.course, self.institution, self.instructor, self.term, self.date)
+        known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
 
     @property
