@@ -1,7 +1,7 @@
-"""The papers of a class: for each student a sheet, a key and solutions with the values of the student's variant.
+"""The documents of a class: for each student a sheet, a key and solutions with the values of the student's variant.
 
 `students/` has the sheets and nothing else. `class/` has what only the instructor sees: the solutions, the keys and the
-table of all answers. What was made is recorded for each student, so a later run makes only papers whose inputs have
+table of all answers. What was made is recorded for each student, so a later run makes only documents whose inputs have
 changed, also after a run that was killed.
 """
 
@@ -28,13 +28,13 @@ from derive.building.recipe import recipe_digest, recipe_of
 from derive.building.set_names import set_folder
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
-from derive.course.names import KEY, NAME, SHEET, SOLUTIONS
+from derive.course.names import KEY, LOGO, NAME, SHEET, SOLUTIONS
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import Complaint, DeriveError, Faults, Place, Rejected
 
 STUDENTS, CLASS = "students", "class"  # folders of a set's outputs
 CACHE, MADE = ".derived", ".made"
-ANSWERS = "answers.csv"
+ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # students in one job, so that what a process has loaded and derived serves several of them
@@ -51,7 +51,7 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """How many students there are, for how many papers were made, and what went wrong."""
+    """How many students there are, for how many documents were made, and what went wrong."""
 
     students: int = 0
     made: int = 0
@@ -113,8 +113,8 @@ def code_of(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Papers:
-    """What the papers of a class have in common."""
+class ClassDocuments:
+    """What the documents of a class have in common."""
 
     root: Path
     set_id: str
@@ -135,7 +135,7 @@ class Papers:
 
 @dataclass(frozen=True)
 class Made:
-    """The papers of one student: the rows of the table of answers, or the errors of the student's variant."""
+    """The documents of one student: the rows of the table of answers, or the errors of the student's variant."""
 
     code: str
     answers: tuple[tuple[str, ...], ...] = ()
@@ -153,25 +153,25 @@ def made_class(
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
 ) -> ClassReport:
-    """Make the papers of each student whose inputs have changed. An error in one variant stops no other student."""
+    """Make the documents of each student whose inputs have changed. An error in one variant stops no other student."""
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
-    papers = Papers(root, set_id, heading, seed, chosen, limit)
+    shared = ClassDocuments(root, set_id, heading, seed, chosen, limit)
     report = ClassReport(len(students))
-    with locked(folder(papers.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
-        record = _Record(papers, students)
+    with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
+        record = _Record(shared, students)
         waiting = [student for student in students if not record.is_current(student)]
         if waiting:
             preload(root, derives=True, draws=True, set_id=set_id)
         groups = [waiting[start : start + AT_ONCE] for start in range(0, len(waiting), AT_ONCE)]
 
         def tick(_: Mapping[str, float]) -> None:
-            tell(f"{set_id}: papers of {report.made} of {len(waiting)} students ({time.monotonic() - begun:.0f} s)")
+            tell(f"{set_id}: documents of {report.made} of {len(waiting)} students ({time.monotonic() - begun:.0f} s)")
 
         with Crew(jobs or os.cpu_count() or 1, tick) as crew:
             for number, group in enumerate(groups):
-                work = partial(_papers_of, papers, group)
-                crew.put(Job(f"papers {number + 1} of {len(groups)}", work, limit * len(group)))
+                work = partial(_documents_of, shared, group)
+                crew.put(Job(f"documents {number + 1} of {len(groups)}", work, limit * len(group)))
             for outcome in crew.outcomes():
                 if isinstance(outcome.error, DeriveError):
                     report.complaints += outcome.error.complaints
@@ -185,42 +185,42 @@ def made_class(
                         record.add(made)
                 record.save()
         record.finish()
-        Cache(papers.outputs / CACHE).evict()
+        Cache(shared.outputs / CACHE).evict()
     report.seconds = time.monotonic() - begun
     return report
 
 
-def _papers_of(papers: Papers, students: Sequence[Student]) -> list[Made]:
-    return [_papers_of_one(papers, student) for student in students]
+def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[Made]:
+    return [_documents_of_one(shared, student) for student in students]
 
 
-def _papers_of_one(papers: Papers, student: Student) -> Made:
-    from derive.building.set_document import LOGO, document_page, the_document
+def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
+    from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
     from derive.course.problem import problem_and_faults
     from derive.course.variants import chosen_for
 
-    told, pages, cache = "", [], Cache(papers.outputs / CACHE)
+    told, pages, cache = "", [], Cache(shared.outputs / CACHE)
     try:
-        for problem_id in papers.heading.problems:
-            variations = problem_and_faults(papers.root, problem_id)[0].variations
-            chosen = chosen_for(papers.set_id, problem_id.rpartition("/")[2], variations, student.code, papers.seed)
+        for problem_id in shared.heading.problems:
+            variations = problem_and_faults(shared.root, problem_id)[0].variations
+            chosen = chosen_for(shared.set_id, problem_id.rpartition("/")[2], variations, student.code, shared.seed)
             told = ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
             page = rendered(
-                papers.root, problem_id, None, cache, True, ("latex", "html", "json"),
-                papers.heading.evidence, (KEY, SHEET), chosen,
+                shared.root, problem_id, None, cache, True, ("latex", "html", "json"),
+                shared.heading.evidence, (KEY, SHEET), chosen,
             )  # fmt: skip
             pages.append(page)
-        own = replace(papers.heading, student=f"{student.name} ({student.code})")
+        own = replace(shared.heading, student=f"{student.name} ({student.code})")
         drawings = [file for page in pages for file in page.files if file[0].endswith(".pdf")]
         logo = [(LOGO, own.logo)] if own.logo else []
         for kind in KINDS:
-            tex = the_document(kind)(papers.root, own, pages)
+            tex = the_document(kind)(shared.root, own, pages)
             typeset(
-                tex, papers.file(student, kind), papers.engine, timeout=papers.limit,
-                log=papers.outputs / "log", included=[*drawings, *logo], formats=replace(cache, fresh=False),
+                tex, shared.file(student, kind), shared.engine, timeout=shared.limit,
+                log=shared.outputs / "log", included=[*drawings, *logo], formats=replace(cache, fresh=False),
             )  # fmt: skip
-        write(papers.file(student, SHEET).with_suffix(".html"), document_page(papers.root, own, pages, SHEET))
+        write(shared.file(student, SHEET).with_suffix(".html"), document_page(shared.root, own, pages, SHEET))
     except DeriveError as error:
         note = f"in the variant of {student.name} ({student.code})" + (f": {told}" if told else "")
         complaints = (replace(each, notes=(*each.notes, note)) for each in error.complaints)
@@ -245,13 +245,13 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
 class _Record:
     """What was made for each student: the key of the inputs, the digest of each file, and the rows of the answers."""
 
-    def __init__(self, papers: Papers, students: Sequence[Student]):
-        self.papers, self.students = papers, students
-        self.file = papers.outputs / CLASS / MADE
-        recipe = recipe_of(papers.root, None, papers.heading.evidence)
-        inputs = [file_digest(papers.root / path) for path in papers.heading.inputs]
-        course = folder_digest(papers.root / "problems" / papers.set_id, "*")
-        self.common = digest("class", recipe_digest(recipe), papers.engine.identity, papers.seed, course, *inputs)
+    def __init__(self, shared: ClassDocuments, students: Sequence[Student]):
+        self.shared, self.students = shared, students
+        self.file = shared.outputs / CLASS / MADE
+        recipe = recipe_of(shared.root, None, shared.heading.evidence)
+        inputs = [file_digest(shared.root / path) for path in shared.heading.inputs]
+        course = folder_digest(shared.root / "problems" / shared.set_id, "*")
+        self.common = digest("class", recipe_digest(recipe), shared.engine.identity, shared.seed, course, *inputs)
         try:
             read = json.loads(self.file.read_bytes())
         except (OSError, ValueError):
@@ -263,11 +263,11 @@ class _Record:
         return digest(self.common, student.name, student.code)
 
     def _files(self, student: Student) -> list[Path]:
-        sheet = self.papers.file(student, SHEET).with_suffix(".html")
-        return [sheet, *(self.papers.file(student, kind) for kind in KINDS)]
+        sheet = self.shared.file(student, SHEET).with_suffix(".html")
+        return [sheet, *(self.shared.file(student, kind) for kind in KINDS)]
 
     def is_current(self, student: Student) -> bool:
-        """Whether the inputs of the student's papers are as they were, and the papers are as they were made."""
+        """Whether the inputs of the student's documents are as they were, and the documents are as they were made."""
         known = self.made.get(student.code)
         return (
             isinstance(known, dict)
@@ -284,7 +284,7 @@ class _Record:
         write(self.file, json.dumps(self.made))
 
     def finish(self) -> None:
-        """Remove the papers of those who are no longer in the roster, and write the table of answers."""
+        """Remove the documents of those who are no longer in the roster, and write the table of answers."""
         codes = {student.code for student in self.students}
         for code in [code for code in self.made if code not in codes]:
             for file in self._files(Student("", code)):
@@ -297,7 +297,7 @@ class _Record:
         for student in self.students:
             if known := self.made.get(student.code):
                 rows.writerows([plain(cell) for cell in row] for row in known["answers"])
-        write(self.papers.outputs / CLASS / ANSWERS, table.getvalue())
+        write(self.shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
 
 
 def plain(cell: str) -> str:

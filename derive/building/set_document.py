@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.course.names import MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
+from derive.course.names import LOGO, MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import templates_of
@@ -23,7 +23,6 @@ from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 
 FONT = "math.woff"  # the font for formulas, see tools/webfont.py
-LOGO = "logo.png"  # the name of the logo where TeX runs
 COUNTED = (
     "steps_proved", "steps_sampled", "steps_approximation", "steps_definition", "lines",
     "routes", "routes_proved", "checks", "witnesses", "agree", "agree_to_figures", "errata", "remarks",

@@ -30,7 +30,7 @@ from derive.building.signed import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -359,7 +359,7 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.set_document import LOGO, document_page, index_page, the_document
+        from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)

@@ -10,7 +10,7 @@ from derive.building.scratch import Scratch
 from derive.building.set_names import set_folder
 from derive.building.tex import by_the_clock, chosen_engine, typeset
 from derive.building.workers import Job, done
-from derive.course.names import REPORT
+from derive.course.names import LOGO, REPORT
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.render.rendered import Files, Rendered
 
@@ -28,7 +28,7 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
     """Return the report of each set, as path -> PDF; a report contains only the checked problems. If only one of
     several problems of a set was checked, the path contains the name of this problem."""
-    from derive.building.set_document import LOGO, report_document
+    from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}
     for set_id in dict.fromkeys(problem.partition("/")[0] for problem in solved):

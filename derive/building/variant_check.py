@@ -53,6 +53,7 @@ class OfProblem:
     same        pairs of draws with the same choices
     equal       for each answer, pairs of draws with different choices but the same value
     degenerate  what is wrong with a draw -> the draws, each in words
+    outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
     compared    draws that were also derived from the beginning
     """
 
@@ -64,6 +65,7 @@ class OfProblem:
     answers: dict[str, OfAnswer] = field(default_factory=dict)
     equal: dict[str, int] = field(default_factory=dict)
     degenerate: dict[str, list[str]] = field(default_factory=dict)
+    outcomes: dict[str, Counter[str]] = field(default_factory=dict)
     compared: int = 0
     complaints: list[Complaint] = field(default_factory=list)
 
@@ -158,6 +160,7 @@ class _Structure:
                     return {}
             values = {}
             for key, answer in self.answers.items():
+                found.outcomes.setdefault(key, Counter())[answer.step.outcome] += 1
                 try:
                     value = at(explicit(answer.value))
                 except (Undefined, NoNumber, ZeroDivisionError):
@@ -210,7 +213,7 @@ def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False
-    return bool(value.free_symbols) and value.free_symbols <= letters
+    return bool(value.free_symbols <= letters)
 
 
 def _unit(quantity: Quantity, dimensions: Mapping[Any, Dimension | None]) -> str:

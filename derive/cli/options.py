@@ -30,10 +30,10 @@ _COMMANDS = {
 }
 
 # Commands that are rarely needed; the list of commands names them in one line, so that it fits a screen.
-_ALSO = ("schema", "doctor", "completion")
+_ALSO = ("schema", "doctor", "clean", "completion")
 
 _AFTERWARDS = """\
-also: schema (for editors), doctor (what a build needs), completion (for shells)
+also: schema (for editors), doctor (what is missing), clean, completion (shells)
 example: derive new hw10/wheel --like body, then derive preview hw10/wheel
 options: --version, --root FOLDER (that has problems/; default: here or above)
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR

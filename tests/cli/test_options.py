@@ -84,7 +84,7 @@ def test_each_command_is_listed_and_has_help_of_its_own(
     assert commands().keys() == COMMANDS.keys()
     for command in COMMANDS:
         alone = [line for line in whole if line.startswith(f"  {command} ")]
-        assert alone or re.search(rf"^also: .*\b{command} \(", "\n".join(whole), re.MULTILINE), command
+        assert alone or re.search(rf"^also: .*\b{command}\b", "\n".join(whole), re.MULTILINE), command
         assert screen([command], capsys, monkeypatch)[0].startswith(f"usage: derive {command}")
 
 

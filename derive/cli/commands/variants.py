@@ -59,6 +59,10 @@ def _told(found: OfProblem) -> str:
         if found.answers:
             lines.append(table(rows))
             lines.append("same value: pairs of different variants whose values are equal to nine figures")
+        for key, outcomes in found.outcomes.items():
+            if len(outcomes) > 1:
+                counted = ", ".join(f"{outcome} in {number} draws" for outcome, number in outcomes.items())
+                lines.append(f"  `{key}` has different outcomes: {counted}")
         for why, draws in found.degenerate.items():
             lines.append(f"  {len(draws)} degenerate draws: {why}, for example for {draws[0]}")
     return "\n".join(lines)
