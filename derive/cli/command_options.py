@@ -82,6 +82,13 @@ def _class(of_class: argparse.ArgumentParser) -> None:
     _jobs_and_messages(of_class)
 
 
+def _export(export: argparse.ArgumentParser) -> None:
+    named(export.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
+    export.add_argument("--format", choices=("moodle", "qti"), default="moodle", help="(default moodle)")
+    export.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
+    _time_limit(export)
+
+
 def _check(check: argparse.ArgumentParser) -> None:
     named(check.add_argument("ids", nargs="*", metavar="ID|SET", help="default: every problem"), "ids and sets")
     check.add_argument("--report", action="store_true", help="also make build/SET/report.pdf")
@@ -190,6 +197,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "build": _build,
     "variants": _variants,
     "class": _class,
+    "export": _export,
     "check": _check,
     "audit": _audit,
     "solve": _solve,

@@ -16,6 +16,7 @@ _COMMANDS = {
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
     "variants": ("draw variants of problems, and show their answers", "SET|ID", "hw10 --check 1000"),
     "class": ("make a sheet, a key and solutions for each student", "SET", "hw10 --roster students.csv"),
+    "export": ("write a set for Moodle or another learning platform", "SET|ID", "hw10 --format qti"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "audit": ("read a worked document, and find the rows that do not follow", "FILE", "solutions.tex"),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
@@ -30,14 +31,13 @@ _COMMANDS = {
 }
 
 # Commands that are rarely needed; the list of commands names them in one line, so that it fits a screen.
-_ALSO = ("schema", "doctor", "clean", "completion")
+_ALSO = ("why", "schema", "doctor", "clean", "completion")
 
 _AFTERWARDS = """\
-also: schema (for editors), doctor (what is missing), clean, completion (shells)
+also: why (is a page old), schema, doctor (what is missing), clean, completion
 example: derive new hw10/wheel --like body, then derive preview hw10/wheel
-options: --version, --root FOLDER (that has problems/; default: here or above)
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
-exit codes: 0 fine, 1 a failure or a difference, 2 wrong usage
+options: --version, --root FOLDER; exit codes: 0 fine, 1 failure, 2 wrong usage
 """
 
 

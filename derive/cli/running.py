@@ -39,6 +39,7 @@ COMMANDS = {
     "new": "beginning.new",
     "variants": "variants.variants",
     "class": "classes.make_class",
+    "export": "exporting.export",
     "schema": "beginning.schema",
     "clean": "keeping.clean",
     "doctor": "keeping.doctor",

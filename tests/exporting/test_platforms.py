@@ -1,0 +1,149 @@
+"""Sets for learning platforms: the numbers and tolerances are those of the page, and the files are well-formed."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from base64 import b64decode
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from derive.building.solution import rendered
+from derive.exporting.moodle import moodle_xml
+from derive.exporting.qti import PACKAGE, QTI, qti_package
+from derive.exporting.questions import Answer, Question, questions_of
+
+PROBLEM = """\
+title: A bead & a <wire>
+solve: system
+symbols: {m: mass, g: acceleration, b: length}
+values: {b: 20 cm, g: 9.81 m/s^2}
+given:
+  coordinates: {x: length}
+  particles:
+    bead: {mass: m, at: [x, x**2/(2*b)]}
+  gravity: g
+statement: A bead of mass <<m>> on a wire, bent to $y = x^2/(2b)$ with <<b>> < 1 m & more; it falls with <<g>>.
+parts:
+  - ask: Find the equation of motion.
+    answer: equations_of_motion
+    points: 2
+  - ask: Find the angular frequency.
+    answer: frequency
+    points: 3
+    form: {unit: rad/s, figures: 4}
+  - ask: Find the frequency and the period.
+    answer: [frequency, period]
+    points: 4
+    form: {period: {unit: s, figures: 2}, frequency: {unit: rad/s, figures: 4}}
+"""
+
+
+@pytest.fixture(scope="module")
+def questions(tmp_path_factory: pytest.TempPathFactory) -> list[Question]:
+    root = tmp_path_factory.mktemp("course")
+    folder = root / "problems" / "week1"
+    folder.mkdir(parents=True)
+    (folder / "bead.yaml").write_text(PROBLEM)
+    (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    return questions_of([rendered(root, "week1/bead", draws=True, only=("questions",))])
+
+
+def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Question]) -> None:
+    quiz = ElementTree.fromstring(moodle_xml("Physics/A", "Week <1>", questions).encode())
+    category, *asked = quiz
+    assert category.findtext("category/text") == "$course$/top/Physics//A/Week <1>"
+    assert [each.get("type") for each in asked] == ["essay", "numerical", "cloze"]
+    assert asked[0].findtext("name/text") == "1 (a) A bead & a <wire>"
+    assert [each.findtext("defaultgrade") for each in asked] == ["2", "3", None]
+    answer = asked[1].find("answer")
+    assert answer is not None
+    assert (answer.get("fraction"), answer.findtext("text"), answer.findtext("tolerance")) == ("100", "7.004", "0.0005")
+    assert asked[1].findtext("units/unit/unit_name") == "rad/s"
+    cloze = asked[2].findtext("questiontext/text") or ""
+    assert "{1:NUMERICAL:=7.004:0.0005} rad/s" in cloze
+    assert "{1:NUMERICAL:=0.9:0.005} s" in cloze
+    for each in asked:
+        text = each.findtext("questiontext/text") or ""
+        assert "&lt; 1\xa0m &amp; more" in text, "the text is HTML"
+        assert r"\(" in text
+        assert r"\[" in (each.findtext("generalfeedback/text") or "") or each is asked[2]
+        (file,) = each.findall("questiontext/file")
+        assert f'src="@@PLUGINFILE@@/{file.get("name")}"' in text
+        assert b64decode(file.text or "") == questions[0].files[file.get("name") or ""]
+
+
+def test_the_numerical_answer_is_that_of_the_formula(questions: list[Question]) -> None:
+    """sqrt(9.81/0.2) = 7.00357, and 2 pi/7.00357 = 0.89714, worked out by hand."""
+    values = {(part.label, each.key): each.value for part in questions[0].parts for each in part.answers}
+    assert values["b", "frequency"] == 7.004
+    assert values["c", "period"] == 0.9
+
+
+@pytest.mark.parametrize(
+    ("value", "figures", "tolerance"),
+    [
+        (7.0, 3, 0.005),
+        (0.9, 2, 0.005),
+        (123.4, 4, 0.05),
+        (-123.4, 4, 0.05),
+        (1e-5, 3, 0.5e-7),
+        (12300.0, 3, 50.0),
+        (0.0, 3, 0.0),
+    ],
+)
+def test_the_tolerance_is_half_a_unit_of_the_last_figure(value: float, figures: int, tolerance: float) -> None:
+    assert Answer("", "", "", "", value, "", figures).tolerance == pytest.approx(tolerance)
+
+
+def test_a_package_of_qti_is_complete(questions: list[Question]) -> None:
+    content = qti_package("week1", "Week <1>", questions)
+    assert content == qti_package("week1", "Week <1>", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    manifest = ElementTree.fromstring(files["imsmanifest.xml"])
+    listed = {each.get("href") for each in manifest.iter(f"{{{PACKAGE}}}file")}
+    assert listed == files.keys() - {"imsmanifest.xml"}
+    items = [ElementTree.fromstring(files[name]) for name in sorted(files) if name.startswith("Q")]
+    test = ElementTree.fromstring(files["test.xml"])
+    assert {each.get("href") for each in test.iter(f"{{{QTI}}}assessmentItemRef")} == {n for n in files if n[0] == "Q"}
+    fields = [len(list(item.iter(f"{{{QTI}}}textEntryInteraction"))) for item in items]
+    assert fields == [0, 1, 2]
+    for item, number in zip(items, fields, strict=True):
+        values = [each.text for each in item.iter(f"{{{QTI}}}value")]
+        equal = list(item.iter(f"{{{QTI}}}equal"))
+        assert len(equal) == number
+        for image in item.iter(f"{{{QTI}}}img"):
+            assert image.get("src") in files
+        if number == 2:
+            assert "7.004" in values and "0.9" in values
+            assert [each.get("tolerance") for each in equal] == ["0.0005 0.0005", "0.005 0.005"]
+            added = [each.text for each in item.iter(f"{{{QTI}}}baseValue") if each.get("baseType") == "float"]
+            assert added == ["2", "2"], "the four points are shared"
+
+
+def test_hostile_titles_stay_text(questions: list[Question]) -> None:
+    evil = [replace(questions[0], title=']]><script>"&amp;</name>')]
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", evil).encode())
+    assert not list(quiz.iter("script"))
+    with zipfile.ZipFile(io.BytesIO(qti_package("w", '"><x>', evil))) as package:
+        for name in package.namelist():
+            if name.endswith(".xml"):
+                assert not list(ElementTree.fromstring(package.read(name)).iter(f"{{{QTI}}}x"))
+
+
+def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    from derive.cli.options import main
+
+    folder = tmp_path / "problems" / "week1"
+    folder.mkdir(parents=True)
+    (folder / "bead.yaml").write_text(PROBLEM)
+    (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
+    assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
+    assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0
+    assert "<quiz>" in capfd.readouterr().out
+    assert main(["--root", str(tmp_path), "export", "week2"]) == 2
