@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import re
+import sys
 import zipfile
 from base64 import b64decode
 from dataclasses import replace
@@ -12,9 +14,11 @@ from xml.etree import ElementTree
 import pytest
 
 from derive.building.solution import rendered
+from derive.errors import BuildFailed, Misused
 from derive.exporting.moodle import moodle_xml
 from derive.exporting.qti import PACKAGE, QTI, qti_package
 from derive.exporting.questions import Answer, Question, questions_of
+from derive.exporting.word import word_document
 
 PROBLEM = """\
 title: A bead & a <wire>
@@ -147,3 +151,42 @@ def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixtur
     assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0
     assert "<quiz>" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week2"]) == 2
+
+
+def test_every_formula_and_drawing_arrives_in_a_document_of_word(questions: list[Question]) -> None:
+    content = word_document("Week <1>", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        text = package.read("word/document.xml").decode()
+        pictures = [name for name in package.namelist() if name.endswith(".png")]
+    (question,) = questions
+    html = [question.statement, question.remarks, *(part.question + part.solution for part in question.parts)]
+    displays, inline = (sum(each.count(sign) for each in html) for sign in (r"\[", r"\("))
+    assert displays > 5 and inline > 5
+    assert text.count("<m:oMathPara>") == displays
+    assert text.count("<m:oMath>") == displays + inline
+    assert text.count("<pic:pic") == len(pictures) == len(question.files) == 1
+    width = int(re.findall(r'<wp:extent cx="(\d+)"', text)[0]) / 12700  # in points
+    assert f'width="{width:.1f}' in question.files["bead-system.svg"].decode()[:200]
+    assert "Week &lt;1&gt;" in text
+    sheet = zipfile.ZipFile(io.BytesIO(word_document("Week 1", questions, solutions=False)))
+    assert "<m:oMathPara>" not in sheet.read("word/document.xml").decode()
+
+
+def test_a_formula_that_pandoc_cannot_read_is_an_error(questions: list[Question]) -> None:
+    wrong = replace(questions[0], statement=r"<p>\(\nosuchcommand{a\)</p>")
+    with pytest.raises(BuildFailed, match="nosuchcommand"):
+        word_document("Week 1", [wrong])
+
+
+def test_without_pandoc_the_error_says_what_to_install(
+    questions: list[Question], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setitem(sys.modules, "pypandoc", None)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(BuildFailed) as caught:
+        word_document("Week 1", questions)
+    assert "derive-mechanics[docx]" in (caught.value.complaints[0].help or "")
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    with pytest.raises(Misused) as missing:
+        word_document("Week 1", questions)
+    assert "derive-mechanics[docx]" in (missing.value.complaints[0].help or "")

@@ -10,7 +10,7 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "qti": "zip"}
+SUFFIX = {"moodle": "xml", "qti": "zip", "docx": "docx"}
 
 
 def export(arguments: argparse.Namespace) -> int:
@@ -40,6 +40,10 @@ def export(arguments: argparse.Namespace) -> int:
         from derive.exporting.moodle import moodle_xml
 
         content = moodle_xml(heading.course, heading.title, questions).encode()
+    elif arguments.format == "docx":
+        from derive.exporting.word import word_document
+
+        content = word_document(heading.title, questions)
     else:
         from derive.exporting.qti import qti_package
 

@@ -14,7 +14,7 @@ from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Probl
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.printing.amsmath import aligned, display_rows
 from derive.render.printing.lines import TEXT_WIDTH
-from derive.render.printing.markdown_page import MarkdownPage, formula_markdown
+from derive.render.printing.markdown_page import MarkdownPage
 from derive.render.printing.text_page import inline_text
 
 IMAGE = "@@FILE@@/"  # stands for the address of a file, which the platform inserts
@@ -88,4 +88,4 @@ def formula_html(tex: str) -> str:
 
 def _for_mathjax(tex: str) -> str:
     """Return a formula with commands of MathJax only, and without characters that HTML reads as tags."""
-    return formula_markdown(tex).replace("&", "&amp;")
+    return escape(" ".join(tex.replace(r"\bm", r"\boldsymbol").split()), quote=False)
