@@ -84,7 +84,8 @@ def _class(of_class: argparse.ArgumentParser) -> None:
 
 def _export(export: argparse.ArgumentParser) -> None:
     named(export.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
-    export.add_argument("--format", choices=("moodle", "qti", "docx"), default="moodle", help="(default moodle)")
+    known = ("moodle", "stack", "qti", "prairielearn", "docx")
+    export.add_argument("--format", choices=known, default="moodle", help="default moodle; stack: Moodle with STACK")
     export.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
     _time_limit(export)
 

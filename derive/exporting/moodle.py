@@ -1,14 +1,16 @@
 """Moodle XML: a category with one question for each part of each problem.
 
-A part whose answers all have numbers becomes a numerical question or, with several answers, a cloze question; the
+With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima whether
+the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with several answers, a cloze question; the
 tolerance is what rounding to the printed figures can change. Any other part becomes an essay. The general feedback of
 each question is the worked solution.
 
-Source of the format: Moodle documentation, "Moodle XML format".
+Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
 """
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Sequence
 from xml.sax.saxutils import escape, quoteattr
@@ -17,12 +19,12 @@ from derive.exporting.questions import Answer, Part, Question, with_files
 from derive.render.printing.tex_in_html import formula_html
 
 
-def moodle_xml(course: str, title: str, questions: Sequence[Question]) -> str:
+def moodle_xml(course: str, title: str, questions: Sequence[Question], stack: bool = False) -> str:
     """Return the questions of a set as Moodle XML."""
     category = _element("category", _text(f"$course$/top/{_path(course)}/{_path(title)}"))
     made = [f'<question type="category">{category}</question>']
     for question in questions:
-        made += [_question(question, part) for part in question.parts]
+        made += [_question(question, part, stack) for part in question.parts]
     return '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n' + "\n".join(made) + "\n</quiz>\n"
 
 
@@ -30,7 +32,9 @@ def _path(name: str) -> str:
     return name.replace("/", "//")  # a single slash would begin a category within the category
 
 
-def _question(question: Question, part: Part) -> str:
+def _question(question: Question, part: Part, stack: bool) -> str:
+    if stack and part.answers and all(answer.letters and answer.value is None for answer in part.answers):
+        return _typed("stack", question, part, _stack(part.answers), _inputs(part.answers))
     if not part.is_numerical:
         return _typed("essay", question, part, _ESSAY)
     if len(part.answers) == 1:
@@ -78,6 +82,64 @@ def _gaps(answers: Sequence[Answer]) -> str:
         f"<p>{formula_html(answer.symbol or answer.latex)} = "
         f"{{1:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
         for answer in answers
+    )
+
+
+def _inputs(answers: Sequence[Answer]) -> str:
+    """Return a line with a field of STACK for each answer."""
+    return "\n".join(
+        f"<p>{formula_html(answer.symbol or answer.key)} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
+        for number, answer in enumerate(answers, 1)
+    )
+
+
+def _stack(answers: Sequence[Answer]) -> str:
+    """Return the rest of a question of STACK: the right answers, the fields, and a comparison for each."""
+    numbered = list(enumerate(answers, 1))
+    variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
+    feedback = " ".join(f"[[feedback:prt{number}]]" for number, _ in numbered)
+    return "\n".join(
+        [
+            "<stackversion><text></text></stackversion>",
+            _element("questionvariables", _text(variables)),
+            f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
+            "<questionnote><text></text></questionnote>",
+            # the letters of a problem are real, and those of positive kinds positive
+            "<questionsimplify>1</questionsimplify><assumepositive>1</assumepositive><assumereal>1</assumereal>",
+            *(_input(number) for number, _ in numbered),
+            *(_comparison(number, len(numbered)) for number, _ in numbered),
+        ]
+    )
+
+
+def maxima(sympy: str) -> str:
+    """Return a formula of letters and common functions in the syntax of Maxima."""
+    return re.sub(r"\bpi\b", "%pi", sympy.replace("**", "^"))
+
+
+def _input(number: int) -> str:
+    return (
+        f"<input><name>ans{number}</name><type>algebraic</type><tans>ta{number}</tans><boxsize>30</boxsize>"
+        "<strictsyntax>0</strictsyntax><insertstars>1</insertstars><syntaxhint></syntaxhint>"
+        "<syntaxattribute>0</syntaxattribute><forbidwords></forbidwords><allowwords></allowwords>"
+        "<forbidfloat>0</forbidfloat><requirelowestterms>0</requirelowestterms><checkanswertype>0</checkanswertype>"
+        "<mustverify>1</mustverify><showvalidation>1</showvalidation><options></options></input>"
+    )
+
+
+def _comparison(number: int, count: int) -> str:
+    """Return a response tree with one node: is the student's formula algebraically equal to the right one?"""
+    results = "".join(
+        f"<{sort}scoremode>=</{sort}scoremode><{sort}score>{score}</{sort}score><{sort}penalty></{sort}penalty>"
+        f"<{sort}nextnode>-1</{sort}nextnode><{sort}answernote>prt{number}-1-{sort[0].upper()}</{sort}answernote>"
+        f'<{sort}feedback format="html"><text></text></{sort}feedback>'
+        for sort, score in (("true", 1), ("false", 0))
+    )
+    return (
+        f"<prt><name>prt{number}</name><value>{1 / count:.7f}</value><autosimplify>1</autosimplify>"
+        "<feedbackstyle>1</feedbackstyle><feedbackvariables><text></text></feedbackvariables>"
+        f"<node><name>0</name><answertest>AlgEquiv</answertest><sans>ans{number}</sans><tans>ta{number}</tans>"
+        f"<testoptions></testoptions><quiet>0</quiet>{results}</node></prt>"
     )
 
 

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from derive.render.printing.tex_in_html import IMAGE
 from derive.render.rendered import Rendered
+
+# Functions in formulas that learning platforms compare.
+FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt"}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 @dataclass(frozen=True)
@@ -35,6 +40,16 @@ class Answer:
             return 0.0
         exponent = f"{self.value:.{(self.figures or 4) - 1}e}".partition("e")[2]
         return 0.5 * 10.0 ** (int(exponent) - (self.figures or 4) + 1)
+
+    @property
+    def letters(self) -> set[str] | None:
+        """The letters of a formula; None if it has anything but letters, numbers and common functions."""
+        names = set(_NAME.findall(self.sympy))
+        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
+            return None
+        letters = names - FUNCTIONS - {"pi"}
+        called = {name for name in letters if re.search(rf"\b{name}\(", self.sympy)}
+        return None if called or not letters else letters
 
 
 @dataclass(frozen=True)

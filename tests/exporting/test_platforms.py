@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import re
 import sys
 import zipfile
@@ -16,6 +17,7 @@ import pytest
 from derive.building.solution import rendered
 from derive.errors import BuildFailed, Misused
 from derive.exporting.moodle import moodle_xml
+from derive.exporting.prairielearn import prairielearn_package
 from derive.exporting.qti import PACKAGE, QTI, qti_package
 from derive.exporting.questions import Answer, Question, questions_of
 from derive.exporting.word import word_document
@@ -190,3 +192,69 @@ def test_without_pandoc_the_error_says_what_to_install(
     with pytest.raises(Misused) as missing:
         word_document("Week 1", questions)
     assert "derive-mechanics[docx]" in (missing.value.complaints[0].help or "")
+
+
+def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(questions: list[Question]) -> None:
+    content = prairielearn_package("week1", "Week 1", questions)
+    assert content == prairielearn_package("week1", "Week 1", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    folders = {name.split("/")[2] for name in files}
+    assert folders == {"bead-a", "bead-b", "bead-c"}
+    ids = set()
+    for folder in folders:
+        of = {name.split("/", 3)[3]: text for name, text in files.items() if name.split("/")[2] == folder}
+        assert {"info.json", "question.html", "server.py", "clientFilesQuestion/bead-system.svg"} == of.keys()
+        info, page = json.loads(of["info.json"]), of["question.html"].decode()
+        ids.add(info["uuid"])
+        tags = set(re.findall(r"\{\{[^}]*\}\}", page))
+        assert tags == {"{{ options.client_files_question_url }}"}, "no formula has a tag of Mustache"
+        data: dict[str, dict[str, object]] = {"correct_answers": {}}
+        names: dict[str, object] = {}
+        exec(compile(of["server.py"], folder, "exec"), names)  # noqa: S102  the file that was just written
+        names["generate"](data)  # type: ignore[operator]
+        asked = re.findall(r'answers-name="(\w+)"', page)
+        assert asked == list(data["correct_answers"])
+        assert ("gradingMethod" in info) == (folder == "bead-a") == ("pl-rich-text-editor" in page)
+        if folder == "bead-c":
+            assert data["correct_answers"] == {"answer1": 7.004, "answer2": 0.9}
+            assert 'digits="2" suffix="s"' in page
+    assert len(ids) == 3
+
+
+@pytest.mark.parametrize(
+    ("formula", "letters"),
+    [
+        ("sqrt(g/b)", {"g", "b"}),
+        ("2*pi*sqrt(b)/sqrt(g)", {"b", "g"}),
+        ("M*a**2*omega**2*sin(2*theta)/4", {"M", "a", "omega", "theta"}),
+        ("Eq(a, b)", None),
+        ("f(t)*a", None),
+        ("x.y__class__[0]", None),
+        ("3/4", None),
+    ],
+)
+def test_only_plain_formulas_have_a_field_for_symbols(formula: str, letters: set[str] | None) -> None:
+    assert Answer("", "", formula, "", None, "", None).letters == letters
+
+
+def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) -> None:
+    first, *_ = questions[0].parts
+    formulas = (
+        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None),
+        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None),
+    )
+    changed = replace(questions[0], parts=(replace(first, answers=formulas), *questions[0].parts))
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", [changed], stack=True).encode())
+    _, stack, *others = quiz
+    assert [each.get("type") for each in (stack, *others)] == ["stack", "essay", "numerical", "cloze"]
+    assert stack.findtext("questionvariables/text") == "ta1: sqrt(g/b);\nta2: 2*%pi*sqrt(b)/sqrt(g)^3;"
+    text = stack.findtext("questiontext/text") or ""
+    for number in (1, 2):
+        assert f"[[input:ans{number}]] [[validation:ans{number}]]" in text
+        assert f"[[feedback:prt{number}]]" in (stack.findtext("specificfeedback/text") or "")
+    assert [each.findtext("tans") for each in stack.findall("input")] == ["ta1", "ta2"]
+    trees = stack.findall("prt")
+    assert [each.findtext("node/answertest") for each in trees] == ["AlgEquiv"] * 2
+    assert sum(float(each.findtext("value") or 0) for each in trees) == pytest.approx(1)
+    assert [(each.findtext("node/truescore"), each.findtext("node/falsescore")) for each in trees] == [("1", "0")] * 2

@@ -10,7 +10,7 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "qti": "zip", "docx": "docx"}
+SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "docx": "docx", "prairielearn": "zip"}
 
 
 def export(arguments: argparse.Namespace) -> int:
@@ -36,10 +36,14 @@ def export(arguments: argparse.Namespace) -> int:
             pages.append(done(job_of(root, problem_id, work, arguments.time_limit)))
     complain(warning for page in pages for warning in page.warnings)
     questions = questions_of(pages)
-    if arguments.format == "moodle":
+    if arguments.format in ("moodle", "stack"):
         from derive.exporting.moodle import moodle_xml
 
-        content = moodle_xml(heading.course, heading.title, questions).encode()
+        content = moodle_xml(heading.course, heading.title, questions, arguments.format == "stack").encode()
+    elif arguments.format == "prairielearn":
+        from derive.exporting.prairielearn import prairielearn_package
+
+        content = prairielearn_package(set_id, heading.title, questions)
     elif arguments.format == "docx":
         from derive.exporting.word import word_document
 
