@@ -1,9 +1,9 @@
 """Moodle XML: a category with one question for each part of each problem.
 
-With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima whether
-the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with several answers, a cloze question; the
-tolerance is what rounding to the printed figures can change. Any other part becomes an essay. The general feedback of
-each question is the worked solution.
+With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima
+whether the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with
+several answers, a cloze question; the tolerance is what rounding to the printed figures can change. Any other part
+becomes an essay. The general feedback of each question is the worked solution.
 
 Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
 """
