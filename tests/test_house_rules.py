@@ -46,7 +46,7 @@ FLOORS = (
     ("page",),
     ("render",),
     ("building",),
-    ("preview",),
+    ("preview", "exporting"),
     ("cli",),
 )
 DOORS = {"given": "course", "notebook": "cli", "__main__": "cli"}

@@ -90,7 +90,7 @@ class _NotedPhrases(Phrases):
 
 def noted_phrases() -> _NotedPhrases:
     used: set[str] = set()
-    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    read = read_phrases([ROOT / "templates" / "phrases" / "en"])
     plain = {"rules", "routes", "reasons"}  # the methods above note the phrases that they choose from these
     noted = _NotedPhrases(
         **{f.name: read[f.name] if f.name in plain else _Noted(read[f.name], used) for f in fields(Phrases)}
@@ -139,7 +139,7 @@ def _leaves(table: Any) -> Iterator[Phrase]:
 
 
 def phrases_of_pages() -> list[str]:
-    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    read = read_phrases([ROOT / "templates" / "phrases" / "en"])
     return [".".join(phrase.keys) for sort in OF_PAGES for phrase in _leaves(read[sort])]
 
 
@@ -175,7 +175,7 @@ def test_a_page_uses_the_phrases_that_it_answers_for(page: str, tmp_path: Path) 
 
 
 def test_each_word_of_the_frame_stands_in_a_template_or_in_the_code() -> None:
-    read = read_phrases(ROOT / "templates" / "phrases" / "en")
+    read = read_phrases([ROOT / "templates" / "phrases" / "en"])
     sources = [*(ROOT / "derive").rglob("*.py"), *(ROOT / "templates" / "latex").iterdir()]
     text = "\n".join(file.read_text(encoding="utf-8") for file in sources if file.is_file())
     asked = set(re.findall(r"[a-z_]+", text))

@@ -13,7 +13,7 @@ from derive.course.editors import SCHEMAS
 from derive.course.units import UNIT_NAMES
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "yaml.md"
-FILES = {"problem": "A problem", "set": "A set", "reference": "A reference"}
+FILES = {"problem": "A problem", "set": "A set", "course": "A course", "reference": "A reference"}
 
 _BEGINNING = """\
 # Every key

@@ -8,11 +8,13 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from derive import FOLDER
 from derive.building.cache import PACKAGES, package_version
 from derive.building.files import shown_path
 from derive.building.set_names import set_names
 from derive.building.tex import chosen_engine, engines, typeset
 from derive.errors import DeriveError
+from derive.page.template import templates_of
 
 _PAGE = r"""\documentclass{article}
 \usepackage[T1]{fontenc}
@@ -38,7 +40,7 @@ class Finding:
 
 
 def findings(root: Path | None, engine: str | None) -> list[Finding]:
-    return [_python(), _packages(), *_tex(engine), *_root(root)]
+    return [_python(), _packages(), _templates(), *_tex(engine), *_root(root)]
 
 
 def _python() -> Finding:
@@ -53,6 +55,11 @@ def _packages() -> Finding:
     missing = [name for name, version in versions.items() if version is None]
     found = ", ".join(f"{name} {version}" for name, version in versions.items() if version)
     return Finding("packages", not missing, found, f"missing: {', '.join(missing)}; run `make`")
+
+
+def _templates() -> Finding:
+    folder = templates_of(Path(FOLDER)).folders[-1]
+    return Finding("templates", True, f"{shown_path(folder)}, and `templates` of a course for files of its own")
 
 
 def _tex(name: str | None) -> list[Finding]:

@@ -13,7 +13,7 @@ from derive.course.problem import load_problem
 from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.page.wording import Phrases, phrases
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
@@ -30,7 +30,7 @@ Rows = list[tuple[str, ...]]
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
     """Return the explanation of the step with that key; without a key, a table with a row for each step. With
     `as_json`, return JSON in place of the text or the table."""
-    problem, words = load_problem(root, problem_id), phrases(template_folder(root))
+    problem, words = load_problem(root, problem_id), phrases(templates_of(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
     notation = Notation(dimension_table(problem.dimensions, steps.values())[0])

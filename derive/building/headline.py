@@ -83,13 +83,13 @@ def _unread(formula: TexFormula) -> Inline:
 
 def _title_with_mathematics(root: Path, problem_id: str) -> str:
     from derive.course.problem import load_problem
-    from derive.page.template import template_folder
+    from derive.page.template import templates_of
     from derive.page.wording import AXIS_NAMES, Text, given_words, phrases, told
     from derive.render.notation.notation import Notation
     from derive.render.printing.text_page import inline_text
 
     problem = load_problem(root, problem_id)
-    words = phrases(template_folder(root))
+    words = phrases(templates_of(root))
     names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
     names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
     title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None, formula=_unread)

@@ -18,10 +18,14 @@ import subprocess
 import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from derive.building.cache import Cache, digest
 from derive.building.files import write
 from derive.building.scratch import Scratch
+
+if TYPE_CHECKING:
+    from derive.page.template import Templates
 
 __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 
@@ -34,7 +38,7 @@ CANNOT = b""  # stored in place of a format if the engine cannot dump this pream
 Environment = Mapping[str, str]
 
 
-def beginning(templates: Path, detail: str | None) -> str:
+def beginning(templates: Templates, detail: str | None) -> str:
     """Return the preamble that all documents at the level `detail` share; no document is needed for this. The result is
     empty if the template has no mark or cannot be read, or if the preamble needs data other than the level."""
     from derive.render.printing.templates import filled_above

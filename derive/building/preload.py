@@ -31,7 +31,7 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     """
     for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)
-    from derive.page.template import template_folder
+    from derive.page.template import templates_of
     from derive.page.wording import phrases
     from derive.render.printing.templates import compile_templates
 
@@ -41,8 +41,8 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
         with suppress(DeriveError):  # each problem shows the error itself
             reference_of_set(root, set_id)
     with suppress(DeriveError):  # each problem reports such errors itself
-        phrases(template_folder(root))
-        compile_templates(template_folder(root))
+        phrases(templates_of(root))
+        compile_templates(templates_of(root))
     if draws:
         from derive.render.drawing.lettering import letters_of
 

@@ -9,7 +9,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from pathlib import Path
 from typing import Any
 
 from derive.algebra.dimensions import Dimension
@@ -30,7 +29,7 @@ from derive.page.document import document_of
 from derive.page.folding import with_details
 from derive.page.hints import with_hints
 from derive.page.rubric import credits_of, faults_of_rubric
-from derive.page.template import template_folder
+from derive.page.template import Templates, templates_of
 from derive.page.theorems import standalone
 from derive.page.tree import Document
 from derive.page.wording import Phrases, phrases
@@ -128,8 +127,8 @@ class _Printing:
     # --- what the formats share ---
 
     @cached_property
-    def templates(self) -> Path:
-        return template_folder(self.problem.root)
+    def templates(self) -> Templates:
+        return templates_of(self.problem.root)
 
     @cached_property
     def words(self) -> Phrases:

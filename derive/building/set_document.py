@@ -10,10 +10,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.course.names import MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
+from derive.course.names import LOGO, MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.page.wording import Phrases, phrases
 from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
 from derive.render.printing.latex_page import dotted, whole_latex
@@ -80,7 +80,7 @@ def document_on_request(root: Path, heading: ProblemSet, problems: Sequence[Rend
 
 def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
     """Return a document that is made only on request, or the sheet, as one page for a browser."""
-    label = phrases(template_folder(root)).labels["documents"][kind]
+    label = phrases(templates_of(root)).labels["documents"][kind]
     listed = _listed(problems, kind)
     printed = [(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed]
     numbered = equations_numbered(zip([each.number for each in listed], told_once(printed), strict=True))
@@ -123,10 +123,10 @@ def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) ->
 
 
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
-    folder = template_folder(root)
-    font = b64encode((folder / HTML / FONT).read_bytes()).decode()
+    templates = templates_of(root)
+    font = b64encode(templates.file(f"{HTML}/{FONT}").read_bytes()).decode()
     documents = {"documents": heading.documents, "on_a_page": ON_A_PAGE}
-    return filled_html(folder, template, {**_facts(root, heading, problems), **documents, "font": font, **more})
+    return filled_html(templates, template, {**_facts(root, heading, problems), **documents, "font": font, **more})
 
 
 def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
@@ -142,15 +142,17 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
     facts = _facts(root, heading, problems)
     labels = facts["labels"]
     facts["kind_of_document"] = labels["solutions"] if kind == SOLUTIONS else labels["documents"][kind]
-    return whole_latex(template_folder(root), template, facts)
+    return whole_latex(templates_of(root), template, facts)
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
     """Return the data that the template of a whole document can use."""
-    words: Phrases = phrases(template_folder(root))
+    words: Phrases = phrases(templates_of(root))
     return {
         "set_id": Tex(heading.id),
         "heading": heading,
+        "logo_file": Tex(LOGO) if heading.logo else "",
+        "logo_data": b64encode(heading.logo).decode() if heading.logo else "",
         "problems": problems,
         "detail": problems[0].problem.detail if problems else Level.STANDARD.value,
         "total": _total(problems),

@@ -30,7 +30,7 @@ from derive.building.signed import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import INDEX, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -286,10 +286,10 @@ class _Build:
 
     def _prepare(self) -> None:
         """Start a job in which TeX reads the common beginning of all documents, if no job has done this before."""
-        from derive.page.template import template_folder
+        from derive.page.template import templates_of
 
         if self.prepares:
-            begins = partial(beginning, template_folder(self.root), self.options.detail)
+            begins = partial(beginning, templates_of(self.root), self.options.detail)
             work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
             self._put(Job("the beginning of all documents", work, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
@@ -363,6 +363,7 @@ class _Build:
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
+        logo = ((LOGO, self.heading.logo),) if self.heading.logo else ()
         if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
             self._was_made(INDEX)
         for kind, file in self._wanted():
@@ -372,7 +373,7 @@ class _Build:
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
             rank = FIRST if kind == SOLUTIONS else LAST
-            beside = files if kind != REPORT else ()
+            beside = (*(files if kind != REPORT else ()), *logo)
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
@@ -406,7 +407,7 @@ class _Build:
                 self._was_made(name)
             return
         limit = self.options.limit
-        included = [file for file in files if file[0].endswith(".pdf")]
+        included = [file for file in files if file[0].endswith((".pdf", ".png"))]
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
             timeout=limit, numbers=numbers, included=included, formats=replace(self.cache, fresh=False),

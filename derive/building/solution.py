@@ -27,10 +27,11 @@ from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.stock import told_at
 from derive.course.units import misfit, read_unit
+from derive.course.variants import Chosen
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.figures.places import with_places
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
 from derive.render.notation.letters import letter_clashes
@@ -61,18 +62,20 @@ def rendered(
     only: Collection[str] | None = None,
     evidence: EvidenceShown = EvidenceShown.NONE,
     documents: Collection[str] = (),
+    chosen: Chosen | None = None,
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
-    cache   the steps and drawings of earlier builds, which are used and extended
+    cache    the steps and drawings of earlier builds, which are used and extended
+    chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
-    `detail` and the parameters after `cache` are the fields of `Wanted`.
+    `detail` and the parameters between `cache` and `chosen` are the fields of `Wanted`.
     """
     begun = time.time_ns()
-    problem, faults = problem_and_faults(root, problem_id)
+    problem, faults = problem_and_faults(root, problem_id, chosen)
     with faults:
         _check_characters(problem)
-    phrases(template_folder(root))  # raises errors in the phrases before anything is derived
+    phrases(templates_of(root))  # raises errors in the phrases before anything is derived
     problem = with_known_observations(problem, faults)
     with faults:
         solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)
@@ -93,7 +96,7 @@ def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple
     with calls_of(problem.id, cache) as memory:
         derivation, values, known, run = derived(problem, memory, faults)
         with during(lambda: "the comparison with the reference"):
-            compared = comparisons(problem, known, memory)
+            compared = () if problem.is_variant else comparisons(problem, known, memory)
     failures = tuple(c.complaint for c in compared if c.complaint)
     drawings = tuple(with_places(drawing, derivation.steps) for drawing in run.drawings)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), drawings)

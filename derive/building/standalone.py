@@ -10,7 +10,7 @@ from derive.building.scratch import Scratch
 from derive.building.set_names import set_folder
 from derive.building.tex import by_the_clock, chosen_engine, typeset
 from derive.building.workers import Job, done
-from derive.course.names import REPORT
+from derive.course.names import LOGO, REPORT
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.render.rendered import Files, Rendered
 
@@ -40,5 +40,6 @@ def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limi
         name = f"{listed[0].id.rpartition('/')[2]}-{REPORT}" if is_single else REPORT
         outputs = set_folder(root, set_id)
         tex = report_document(root, heading, listed)
-        found[str(outputs / f"{name}.pdf")] = typeset_standalone(outputs, name, tex, (), engine, limit)
+        logo = ((LOGO, heading.logo),) if heading.logo else ()
+        found[str(outputs / f"{name}.pdf")] = typeset_standalone(outputs, name, tex, logo, engine, limit)
     return found

@@ -20,6 +20,7 @@ from derive.building.preload import preload
 from derive.building.set_names import check_asked
 from derive.building.sets import Edits, Ended, Options, Report, Superseded, built_set
 from derive.building.tex import chosen_engine
+from derive.course.problem_set import COURSE
 from derive.errors import BuildFailed, Complaint, DeriveError
 
 __all__ = ["Shown", "watch"]
@@ -67,7 +68,8 @@ class _Watch:
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
         self.own = Path(FOLDER)
-        self.folders = [root / "problems", *(each / "templates" for each in (root, self.own, self.own.parent))]
+        folders = (each / "templates" for each in (root, self.own, self.own.parent))
+        self.folders = [root / COURSE, root / "problems", *folders]
         self.loaded, self.engine = folder_digest(self.own, "*.py"), seen_in([self.own])
         preload(root, derives=True, draws=True)
         self.files: Seen = {}
@@ -119,9 +121,16 @@ class _Watch:
                     self.files = {}
 
 
-def seen_in(folders: Sequence[Path]) -> Seen:
-    """Return the time, size and identity of each file that authors write; temporary files of editors are left out."""
-    found, waiting = {}, [(str(folder), 0) for folder in folders]
+def seen_in(paths: Sequence[Path]) -> Seen:
+    """Return the time, size and identity of each file that authors write, for these files and for all files in these
+    folders; temporary files of editors are left out."""
+    found, waiting = dict[str, tuple[int, int, int]](), list[tuple[str, int]]()
+    for path in paths:
+        if path.is_file():
+            facts = path.stat()
+            found[str(path)] = (facts.st_mtime_ns, facts.st_size, facts.st_ino)
+        else:
+            waiting.append((str(path), 0))
     while waiting:
         folder, depth = waiting.pop()
         try:

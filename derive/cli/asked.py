@@ -1,4 +1,4 @@
-"""The folder of the course, and the ids of the problems that a command line names."""
+"""The folder of the course, the library of derive, and the ids of the problems that a command line names."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from pathlib import Path
 from derive import FOLDER
 from derive.cli.terminal import complain
 from derive.errors import Complaint, Misused
+
+LIBRARY = "library"  # the set of problems that is installed with derive
 
 
 def found_root(named: str | None) -> Path | None:
@@ -40,10 +42,25 @@ def root_of(arguments: argparse.Namespace) -> Path:
     if root is None:
         asked = arguments.root or os.environ.get("DERIVE_ROOT")
         where = f"in `{asked}`" if asked else "here or above"
-        raise Misused(
-            Complaint("no-root", f"no folder `problems` was found {where}", help="name its parent folder with `--root`")
-        )
+        help_line = "`derive init FOLDER` makes a course; or name the folder of your course with `--root`"
+        raise Misused(Complaint("no-root", f"no folder `problems` was found {where}", help=help_line))
     return root
+
+
+def library_root(root: Path | None) -> Path | None:
+    """Return the folder whose `problems` contains the library: the course if it has its own, else derive itself."""
+    package = Path(FOLDER).resolve()
+    for folder in (root, package, package.parent):
+        if folder is not None and (folder / "problems" / LIBRARY / "set.yaml").is_file():
+            return folder
+    return None
+
+
+def root_with(arguments: argparse.Namespace, set_id: str) -> Path:
+    """Return the folder that contains the problems of a set: for the library, the folder from `library_root`; for any
+    other set, the course."""
+    library = library_root(found_root(arguments.root)) if set_id == LIBRARY else None
+    return library or root_of(arguments)
 
 
 def problem_id_of(text: str) -> str:

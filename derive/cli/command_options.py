@@ -28,13 +28,18 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
 # --- each command -----------------------------------------------------------------------------------------------------
 
 
+def _init(init: argparse.ArgumentParser) -> None:
+    init.add_argument("folder", metavar="FOLDER", help="a new or empty folder; . is the working folder")
+    init.add_argument("--title", default="Mechanics", metavar="TITLE", help="name of the course (default Mechanics)")
+
+
 def _new(new: argparse.ArgumentParser) -> None:
     named(new.add_argument("id", metavar="SET/PROBLEM", help="name of the problem; its set may be new"), "new")
     like = new.add_argument(
         "--like",
         default="system",
         metavar="LIKE",
-        help="system (default), body, rotation, script, or a problem: hw9/top",
+        help="system (default), body, rotation, script, or a problem: library/bead",
     )
     named(like, "like")
 
@@ -59,6 +64,30 @@ def _build(build: argparse.ArgumentParser) -> None:
     _engine(build)
     _time_limit(build)
     _jobs_and_messages(build)
+
+
+def _variants(variants: argparse.ArgumentParser) -> None:
+    named(variants.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
+    variants.add_argument("--check", type=_count, default=100, metavar="N", help="draw N variants (default 100)")
+    variants.add_argument("--seed", default="", metavar="TEXT", help="the seed of `derive class`")
+    _time_limit(variants)
+
+
+def _class(of_class: argparse.ArgumentParser) -> None:
+    named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
+    of_class.add_argument("--roster", required=True, metavar="FILE", help="CSV with the column name, and maybe code")
+    of_class.add_argument("--seed", default="", metavar="TEXT", help="another text gives other variants")
+    _engine(of_class)
+    _time_limit(of_class)
+    _jobs_and_messages(of_class)
+
+
+def _export(export: argparse.ArgumentParser) -> None:
+    named(export.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
+    known = ("moodle", "stack", "qti", "prairielearn", "docx")
+    export.add_argument("--format", choices=known, default="moodle", help="default moodle; stack: Moodle with STACK")
+    export.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
+    _time_limit(export)
 
 
 def _check(check: argparse.ArgumentParser) -> None:
@@ -118,7 +147,7 @@ def _list(listed: argparse.ArgumentParser) -> None:
 
 
 def _schema(schema: argparse.ArgumentParser) -> None:
-    sorts = ("problem", "set", "reference")
+    sorts = ("problem", "set", "course", "reference")
     schema.add_argument("sort", nargs="?", choices=sorts, metavar="SORT", help=f"print one only: {', '.join(sorts)}")
 
 
@@ -163,9 +192,13 @@ def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
 
 
 _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
+    "init": _init,
     "new": _new,
     "preview": _preview,
     "build": _build,
+    "variants": _variants,
+    "class": _class,
+    "export": _export,
     "check": _check,
     "audit": _audit,
     "solve": _solve,

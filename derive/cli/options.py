@@ -10,9 +10,13 @@ from collections.abc import Container, Sequence
 
 # Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
-    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like body"),
+    "init": ("begin a course in a new folder", "FOLDER", "mycourse --title Mechanics"),
+    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
+    "variants": ("draw variants of problems, and show their answers", "SET|ID", "hw10 --check 1000"),
+    "class": ("make a sheet, a key and solutions for each student", "SET", "hw10 --roster students.csv"),
+    "export": ("write a set for Moodle or another learning platform", "SET|ID", "hw10 --format qti"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "audit": ("read a worked document, and find the rows that do not follow", "FILE", "solutions.tex"),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
@@ -26,11 +30,14 @@ _COMMANDS = {
     "completion": ("print the script by which a shell completes names", "SHELL", "fish"),
 }
 
+# Commands that are rarely needed; the list of commands names them in one line, so that it fits a screen.
+_ALSO = ("why", "schema", "doctor", "clean", "completion")
+
 _AFTERWARDS = """\
+also: why (is a page old), schema, doctor (what is missing), clean, completion
 example: derive new hw10/wheel --like body, then derive preview hw10/wheel
-options: --version, --root FOLDER (that has problems/; default: here or above)
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
-exit codes: 0 fine, 1 a failure or a difference, 2 wrong usage
+options: --version, --root FOLDER; exit codes: 0 fine, 1 failure, 2 wrong usage
 """
 
 
@@ -61,7 +68,8 @@ class _Screen(argparse.RawDescriptionHelpFormatter):
     def add_argument(self, action: argparse.Action) -> None:
         if isinstance(action, argparse._SubParsersAction):
             for each in action._get_subactions():
-                super().add_argument(each)
+                if each.dest not in _ALSO:
+                    super().add_argument(each)
         elif not isinstance(action, argparse._HelpAction):
             super().add_argument(action)
 
@@ -100,7 +108,7 @@ class _Version(argparse.Action):
         from importlib.metadata import PackageNotFoundError, version
 
         try:
-            print(f"derive {version('derive')}")
+            print(f"derive {version('derive-mechanics')}")
         except PackageNotFoundError:
             print("derive (not installed)")
         parser.exit()

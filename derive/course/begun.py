@@ -7,6 +7,7 @@ most one entry in its list of problems.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from os.path import relpath
 from pathlib import Path
 
@@ -23,20 +24,23 @@ NEW_SET = "course: Mechanics\ntitle: {}\n# date: Fall term\n# instructor: your n
 PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
-def begun(root: Path, templates: Path, schemas: Path, problem_id: str, like: str) -> dict[str, str]:
+def begun(
+    root: Path, template: Callable[[str], Path], schemas: Path, problem_id: str, like: str, pattern_root: Path
+) -> dict[str, str]:
     """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
     `Misused` is raised if the name is not allowed, if a file of the new problem exists already, or if the pattern or
     the problem `like` does not exist.
 
-    templates   the folder that contains the patterns, in `new/`
-    schemas     the folder of the schemas for editors
-    like        a pattern by its name, or the id of a problem
+    template      returns the file of a template; the folder `new` has the patterns
+    schemas       the folder of the schemas for editors
+    like          a pattern by its name, or the id of a problem
+    pattern_root  the folder of the course that has the problem `like`
     """
     set_id, _, name = problem_id.partition("/")
     _check_names(root, set_id, name)
     folder = f"problems/{set_id}"
-    yaml, script = _copied(root, like) if "/" in like else _pattern(templates, like)
+    yaml, script = _copied(pattern_root, like) if "/" in like else _pattern(template, like)
     written_for = f"{name}.py" if script else ""
     if script:
         yaml = SOLVED_BY.sub(lambda found: found[0].replace(found[1], written_for), yaml, count=1)
@@ -60,12 +64,12 @@ def _check_names(root: Path, set_id: str, name: str) -> None:
         raise Misused(Complaint("new-name", message, help="choose another name"))
 
 
-def _pattern(templates: Path, like: str) -> tuple[str, str]:
+def _pattern(template: Callable[[str], Path], like: str) -> tuple[str, str]:
     if like not in PATTERNS:
         help_line = did_you_mean(like, PATTERNS) or f"use {', '.join(PATTERNS)}, or a problem such as `hw9/top`"
         raise Misused(Complaint("new-like", f"`{like}` is not a pattern", help=help_line))
-    script = templates / "new" / f"{like}.py"
-    return _read(templates / "new" / f"{like}.yaml"), _read(script) if script.is_file() else ""
+    script = template(f"new/{like}.py")
+    return _read(template(f"new/{like}.yaml")), _read(script) if script.is_file() else ""
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from derive.course.problem_set import SetKeys
+from derive.course.problem_set import CourseKeys, SetKeys
 from derive.course.reference.keys import DocumentKeys, GroupKeys, OwnKeys
 from derive.course.schema import LEFT_EMPTY, object_schema, schema_for_editors
 from derive.course.stock import stock_names, stock_script
@@ -28,6 +28,11 @@ def set_schema() -> str:
     return schema_for_editors("A set of problems", object_schema(SetKeys))
 
 
+def course_schema() -> str:
+    """Return the schema of `course.yaml`: what all sets of a course share."""
+    return schema_for_editors("A course", object_schema(CourseKeys))
+
+
 def reference_schema() -> str:
     """Return the schema of `reference.yaml`: the statements of a document about the problems of a set."""
     items = {"anyOf": [object_schema(DocumentKeys), object_schema(GroupKeys)]}
@@ -38,13 +43,14 @@ def reference_schema() -> str:
 SCHEMAS = {
     "problem.schema.json": problem_schema,
     "set.schema.json": set_schema,
+    "course.schema.json": course_schema,
     "reference.schema.json": reference_schema,
 }
 
 
 def schema_folder(root: Path) -> Path:
-    """Return the folder of a course's schemas: its `templates` folder if there is one, else `problems/schemas`."""
-    return root / "templates" if (root / "templates").is_dir() else root / "problems" / "schemas"
+    """Return the folder of a course's schemas: in a checkout of derive `templates`, else `problems/schemas`."""
+    return root / "templates" if (root / "templates" / "new").is_dir() else root / "problems" / "schemas"
 
 
 def _given_of(name: str) -> dict[str, Any]:

@@ -16,6 +16,7 @@ SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
+LOGO = "logo.png"  # the name of the logo where TeX runs
 INDEX = "index"  # the page of a set for a browser
 
 

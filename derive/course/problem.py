@@ -37,6 +37,7 @@ from derive.course.schema import THE_KEYS_ARE, read_record
 from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, Methods, StockScript, stock_names, stock_script
 from derive.course.unused import unused_in
+from derive.course.variants import Chosen, Variation
 from derive.course.written import MARKS_OF_BODY, SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
@@ -78,6 +79,8 @@ class Problem:
     uses_natural_quantities: bool = True
     observations: tuple[Word, ...] | None = None
     reference: str = ""
+    variations: tuple[Variation, ...] = ()
+    is_variant: bool = False
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
     @property
@@ -174,19 +177,22 @@ class Problem:
         return self.places[".".join(keys)]
 
 
-def load_problem(root: Path, problem_id: str) -> Problem:
+def load_problem(root: Path, problem_id: str, chosen: Chosen | None = None) -> Problem:
     """Return the problem, or raise one `Rejected` with the errors of its file and its script."""
-    problem, faults = problem_and_faults(root, problem_id)
+    problem, faults = problem_and_faults(root, problem_id, chosen)
     faults.stop()
     return problem
 
 
-def problem_and_faults(root: Path, problem_id: str) -> tuple[Problem, Faults]:
+def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None) -> tuple[Problem, Faults]:
     """Return the problem, and the errors in its `drawings:`, which do not affect any step. If there are other errors,
-    raise them together with the errors in `drawings:`."""
+    raise them together with the errors in `drawings:`.
+
+    chosen   the choices of a variant; by default the values of the file itself
+    """
     faults, of_drawings = Faults(), Faults()
     path = path_of(root, problem_id)
-    written = written_problem(root, problem_id, faults)
+    written = written_problem(root, problem_id, faults, chosen=chosen)
     script_path, script = _script(root, path, written.solve, faults)
     points = written.points_in_all(faults)
     if not all(kind.known for kind in written.symbols.values()):
@@ -230,6 +236,8 @@ def problem_and_faults(root: Path, problem_id: str) -> tuple[Problem, Faults]:
         uses_natural_quantities=written.define.are_used,
         observations=written.observations,
         reference=as_text(written.reference),
+        variations=written.variants,
+        is_variant=bool(chosen),
         warnings=warnings,
     )
     return problem, of_drawings

@@ -1,4 +1,4 @@
-"""The problems and sets that exist, and the contents of a set's own file."""
+"""The problems and sets that exist, and the contents of the files of a course and of a set."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, rea
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
+COURSE = "course.yaml"  # the file in the folder of a course with the keys that all its sets share
+LARGEST_LOGO = 2_000_000  # bytes
+PNG = b"\x89PNG\r\n\x1a\n"  # the first bytes of a PNG file
 _NOT_PROBLEMS = ("set", "reference")
 
 
@@ -27,13 +30,23 @@ class ProblemSet:
     id: str
     course: str
     title: str
-    date: str | None
-    instructor: str | None
     problems: tuple[str, ...]
     inputs: tuple[str, ...]
+    institution: str | None = None
+    instructor: str | None = None
+    term: str | None = None
+    date: str | None = None
+    logo: bytes | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
+    student: str = ""  # the student for whom a document is made
+
+    @property
+    def facts(self) -> list[str]:
+        """What a title page says about the course, in the order in which it is printed."""
+        known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
+        return [fact for fact in known if fact]
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -78,15 +91,24 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 
 
 @dataclass(frozen=True)
-class SetKeys(Record):
-    """The keys of a set's file."""
+class CourseKeys(Record):
+    """The keys of `course.yaml`, which all sets of the course share; a set may have any of them in its own file."""
 
-    course: Word | None = key("the course", TEXT, required=True)
-    title: Word | None = key("the heading of the set", TEXT, required=True)
-    date: Word | None = key("the date as it is to be printed", TEXT)
+    course: Word | None = key("the course", TEXT)
+    institution: Word | None = key("the university, the department or the school", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
+    term: Word | None = key("the term as it is to be printed", TEXT)
+    logo: Word | None = key("a PNG file in the folder of the course, for the title of each document of a set", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
+
+
+@dataclass(frozen=True)
+class SetKeys(CourseKeys):
+    """The keys of a set's file."""
+
+    title: Word | None = key("the heading of the set", TEXT, required=True)
+    date: Word | None = key("the date as it is to be printed", TEXT)
     documents: dict[Word, Word] = key(
         "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
@@ -180,23 +202,61 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     """Return the set; raise `Misused` if it does not exist, and one `Rejected` with all errors of its file."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
-    written = read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults)
+    of_course = _course(root, faults)
+    node = mapping_in(root, path, "a set")
+    written = read_record(SetKeys, node, "a set", faults)
     problems = _listed(written.problems, set_id, problem_ids(root), faults)
+    logo_path = written.logo or of_course.logo
+    logo = _logo(root, logo_path, faults) if logo_path else None
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
+    if not (written.course or of_course.course) and node.get("course") is None:
+        help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
+        faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
     faults.stop()
-    evidence = EvidenceShown(written.evidence or EvidenceShown.NONE)
+
+    def own(name: str) -> str | None:
+        """Return the value of a key of the set or, if the set does not have it, the value of the course."""
+        found: str | None = getattr(written, name) or getattr(of_course, name)
+        return found
+
     return ProblemSet(
         set_id,
-        written.course or "",
+        own("course") or "",
         written.title or "",
-        written.date,
-        written.instructor,
         problems,
-        (path,),
-        evidence,
+        (path, *((COURSE,) if (root / COURSE).is_file() else ()), *((str(logo_path),) if logo_path else ())),
+        own("institution"),
+        own("instructor"),
+        own("term"),
+        written.date,
+        logo,
+        EvidenceShown(own("evidence") or EvidenceShown.NONE),
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
-        Paper(written.paper or Paper.LETTER),
+        Paper(own("paper") or Paper.LETTER),
     )
+
+
+def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
+    """Return the content of a logo; report an error if it is not a PNG file of the course, or too large."""
+    file = root / path
+    help_line = "name a PNG file in the folder of the course, such as `logo.png`"
+    if not file.resolve().is_relative_to(root.resolve()) or not file.is_file():
+        faults.error("logo", f"the course has no file `{path}`", path.place, help=help_line)
+    elif file.stat().st_size > LARGEST_LOGO:
+        message = f"the logo is larger than {LARGEST_LOGO // 1_000_000} MB"
+        faults.error("logo", message, path.place, help="make it smaller: each page for a browser contains it")
+    elif not (content := file.read_bytes()).startswith(PNG):
+        faults.error("logo", f"`{path}` is not a PNG file", path.place, help=help_line)
+    else:
+        return content
+    return None
+
+
+def _course(root: Path, faults: Faults) -> CourseKeys:
+    """Return what `course.yaml` says; without this file, nothing."""
+    if not (root / COURSE).is_file():
+        return CourseKeys({}, {})
+    return read_record(CourseKeys, mapping_in(root, COURSE, "a course"), "a course", faults)
 
 
 def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -> None:

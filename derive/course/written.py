@@ -39,6 +39,7 @@ from derive.course.schema import (
     record_of,
     wrong_type,
 )
+from derive.course.variants import VARIANTS, Chosen, Variation, check_variations, with_choices
 from derive.course.yaml_tree import Formula, Mapping, Scalar, Sequence, Tree, Word, as_text, shape_of
 from derive.errors import Faults, did_you_mean
 
@@ -427,6 +428,11 @@ class ProblemKeys(Record):
         DEFINE,
     )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
+    variants: tuple[Variation, ...] = key(
+        "what differs from student to student: a letter of `values`, or a given value, with a range such as "
+        "`10..30 cm in steps of 2` or a list of values",
+        VARIANTS,
+    )
     statement: Prose | None = key(
         "the problem in prose; `<<mass>>` stands for the given value `mass`, `$x^2$` is a formula", PROSE, required=True
     )
@@ -458,7 +464,16 @@ class ProblemKeys(Record):
         return points_in_all(self.points, self.values_at.get("points"), self.parts, faults)
 
 
-def written_problem(root: Path, problem_id: str, faults: Faults, quickly: bool = False) -> ProblemKeys:
-    """Read the file; `faults` collects the errors in its keys and in the shapes of their values."""
+def written_problem(
+    root: Path, problem_id: str, faults: Faults, quickly: bool = False, chosen: Chosen | None = None
+) -> ProblemKeys:
+    """Read the file; `faults` collects the errors in its keys and in the shapes of their values.
+
+    chosen   the choices of a variant; by default the values of the file itself
+    """
     mapping = mapping_in(root, path_of(root, problem_id), "a problem", quickly)
-    return read_record(ProblemKeys, mapping, "a problem", faults)
+    if chosen and (node := mapping.get("variants")):
+        mapping = with_choices(mapping, VARIANTS.read(node, "variants", Faults()) or (), chosen)
+    written = read_record(ProblemKeys, mapping, "a problem", faults)
+    check_variations(mapping, written.variants, faults)
+    return written

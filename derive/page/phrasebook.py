@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -82,12 +82,17 @@ def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> 
     return Complaint("no-phrase", message, place, help=help_line)
 
 
-def read_phrases(folder: Path) -> PhraseTable:
-    """Return the phrases of all files in a folder, or raise `Rejected` with the line of the error."""
-    page = _phrases_of(folder / OF_EVERY_PAGE)
-    for file in sorted(folder.glob("*.yaml")):
+def read_phrases(folders: Sequence[Path]) -> PhraseTable:
+    """Return the phrases of the last folder, some of them replaced by those of the earlier folders; raise `Rejected`
+    with the line of the error."""
+    *replacing, own = folders
+    page = _phrases_of(own / OF_EVERY_PAGE)
+    for file in sorted(own.glob("*.yaml")):
         if file.name != OF_EVERY_PAGE:
             _add(page, _phrases_of(file))
+    for folder in reversed(replacing):
+        for file in sorted(folder.glob("*.yaml")):
+            _replace(page, _phrases_of(file), ())
     for name in _SHAPE:
         page[name]  # this access raises an error if the table is missing
     if len(page["labels"]["points"]) != 2:
@@ -117,6 +122,19 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
             if name in known:
                 place = _place(topic.source, (sort, name))
                 raise Rejected(Complaint("phrases", f"another file also has `{sort}.{name}`", place))
+            known[name] = phrases
+
+
+def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> None:
+    """Put the phrases of a course in the places of those of derive; a phrase that derive does not use is an error."""
+    for name, phrases in own.items():
+        if name not in known:
+            message = f"derive has no phrase `{'.'.join((*keys, name))}` that this one could replace"
+            place = _place(own.source, (*keys, name))
+            raise Rejected(Complaint("phrases", message, place, help=did_you_mean(name, known)))
+        if isinstance(phrases, PhraseTable):
+            _replace(known[name], phrases, (*keys, name))
+        else:
             known[name] = phrases
 
 

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +15,36 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 from derive import FOLDER
 from derive.errors import Complaint, Rejected
 
+COMPLETE = "new"  # a folder that only the templates of derive itself have
 
-def template_folder(root: Path) -> Path:
-    """Return the course's folder of templates if there is one, else the templates of the installation."""
-    for folder in (each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)):
-        if (folder / "phrases" / "en").is_dir():
-            return folder
-    raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))
+
+@dataclass(frozen=True)
+class Templates:
+    """The folders of templates in order: a file of an earlier folder replaces the file of the same name in a later
+    one."""
+
+    folders: tuple[Path, ...]
+
+    def file(self, name: str) -> Path:
+        """Return the first file of this name; if there is none, the path that it would have in the last folder."""
+        paths = [folder / name for folder in self.folders]
+        return next((path for path in paths if path.is_file()), paths[-1])
+
+    def files(self, pattern: str) -> dict[str, Path]:
+        """Return by name, in the order of the names, the files that match the pattern."""
+        found = {path.name: path for folder in reversed(self.folders) for path in folder.glob(pattern)}
+        return dict(sorted(found.items()))
+
+
+def templates_of(root: Path) -> Templates:
+    """Return the course's folder of templates, if there is one, and then the templates of derive itself. If the course
+    is a checkout of derive, only its own templates are used."""
+    folders = [each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)]
+    complete = next((folder for folder in folders if (folder / COMPLETE).is_dir()), None)
+    if complete is None:
+        raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))
+    own = folders[0]
+    return Templates((own, complete) if own != complete and own.is_dir() else (complete,))
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:

@@ -31,7 +31,7 @@ from derive.course.prose import Mention, TexFormula
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
-from derive.page.template import environment
+from derive.page.template import Templates, environment
 from derive.page.unbroken import unbroken
 from derive.steps.derivation import Derivation
 from derive.steps.numeric import in_radians
@@ -226,15 +226,16 @@ class Phrases:
         return self.sizes.get(id) or id.replace("_", " ")
 
 
-def phrases(folder: Path) -> Phrases:
-    """Return the phrases of a folder of templates; they are read again if the files have changed."""
-    files = sorted((folder / "phrases" / "en").glob("*.yaml"))
-    return _phrases(folder, tuple((file.name, file.stat().st_mtime_ns) for file in files))
+def phrases(templates: Templates) -> Phrases:
+    """Return the phrases of the templates; they are read again if the files have changed."""
+    folders = tuple(folder / "phrases" / "en" for folder in templates.folders)
+    files = (file for folder in folders for file in sorted(folder.glob("*.yaml")))
+    return _phrases(folders, tuple((str(file), file.stat().st_mtime_ns) for file in files))
 
 
 @lru_cache(maxsize=4)
-def _phrases(folder: Path, written: tuple[tuple[str, int], ...]) -> Phrases:
-    return Phrases(**read_phrases(folder / "phrases" / "en"))
+def _phrases(folders: tuple[Path, ...], written: tuple[tuple[str, int], ...]) -> Phrases:
+    return Phrases(**read_phrases(folders))
 
 
 # --- filling ---

@@ -12,9 +12,9 @@ from watchfiles import watch
 
 from derive.building.set_document import live_page
 from derive.building.set_names import check_asked
-from derive.course.problem_set import problem_set
+from derive.course.problem_set import COURSE, problem_set
 from derive.errors import DeriveError
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.preview.asking import Shown, Warm
 from derive.preview.server import HOST, Pages, Server, server
 
@@ -81,7 +81,8 @@ def _edits(root: Path, ending: Ending) -> Iterator[object]:
     """Yield after each edit of a problem or script in any set, of a template or of a phrase."""
     yield from watch(
         root / "problems",
-        template_folder(root),
+        *templates_of(root).folders,
+        *(each for each in (root / COURSE,) if each.is_file()),
         watch_filter=lambda _, path: path.endswith(WRITTEN),
         step=SETTLED,
         debounce=400,

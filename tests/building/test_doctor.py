@@ -21,7 +21,7 @@ def found(course: Course, engine: str | None = None) -> dict[str, Finding]:
 
 
 def test_a_machine_that_can_build_has_nothing_to_mend(course: Course) -> None:
-    names = ["Python", "packages", "TeX", "test page", "problems", "outputs"]
+    names = ["Python", "packages", "templates", "TeX", "test page", "problems", "outputs"]
     assert {name: finding.good for name, finding in found(course).items() if name} == dict.fromkeys(names, True)
     assert found(course)["problems"].found.endswith("problems, with hw1")
 

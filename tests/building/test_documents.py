@@ -15,7 +15,7 @@ OWN = (("solutions", "hw1"), ("problems", "problems"))
 
 
 def heading(*documents: tuple[str, str]) -> ProblemSet:
-    return ProblemSet("hw1", "", "", None, None, (), ("problems/hw1/set.yaml",), documents=documents or OWN)
+    return ProblemSet("hw1", "", "", (), ("problems/hw1/set.yaml",), documents=documents or OWN)
 
 
 def test_a_document_that_is_asked_for_has_its_own_name_unless_the_set_gives_it_one() -> None:

@@ -28,6 +28,7 @@ from derive.errors import Complaint, Place, Rejected
 from derive.figures import drawing, point_mark
 from derive.figures.annotations import Arrow
 from derive.figures.marks import Drawing
+from derive.page.template import templates_of
 from derive.page.wording import Text, phrases
 from derive.render.drawing import lettering
 from derive.render.drawing.lettering import Lettered, letters_of
@@ -86,7 +87,7 @@ def files_of(
     shown = SimpleNamespace(key="vectors", stem="block-vectors", alt=(Text(alt),))
     arrow = Arrow(column(0, 0, 0), column(length, 0, 0), 1, label=label)
     page: Any = SimpleNamespace(illustrations=(shown,))
-    words = phrases(ROOT / "templates")
+    words = phrases(templates_of(ROOT))
     return dict(drawing_files(problem, [Drawing("vectors", (arrow,))], page, words, Notation(kinds or {}), cache))
 
 

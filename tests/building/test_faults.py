@@ -60,7 +60,7 @@ def hostile(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Rendered]:
 
 def test_no_text_field_of_a_set_or_a_problem_is_tex(hostile: tuple[Path, Rendered], tmp_path: Path) -> None:
     root, block = hostile
-    heading = ProblemSet("hw9", EVIL, EVIL, EVIL, EVIL, ("hw9/block",), ())
+    heading = ProblemSet("hw9", EVIL, EVIL, ("hw9/block",), (), EVIL, EVIL, EVIL, EVIL)
     for name, tex in {
         "one": problem_document(root, block, heading),
         "solutions": set_document(root, heading, [block]),

@@ -17,7 +17,7 @@ from derive.building.set_document import COUNTED, problem_document, report_docum
 from derive.building.tex import Engine, chosen_engine, prepare, typeset
 from derive.course.problem_set import ProblemSet
 from derive.errors import BuildFailed
-from derive.page.template import environment
+from derive.page.template import Templates, environment, templates_of
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 from tests.courses import ROOT
@@ -116,12 +116,12 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
 
 @pytest.mark.parametrize("detail", [None, *Level])
 def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_one(detail: Level | None) -> None:
-    begins = beginning(ROOT / "templates", detail)
+    begins = beginning(templates_of(ROOT), detail)
     assert begins.startswith("% Written by derive")
     assert begins.endswith(DIFFERS)
     assert "<<" not in begins
     assert "<%" not in begins
-    heading = ProblemSet("hw1", "Physics", "Homework", None, None, (), ())
+    heading = ProblemSet("hw1", "Physics", "Homework", (), ())
     problems = [replace(PAGE, detail=detail.value)] if detail else []
     kinds: list[Callable[[Path, ProblemSet, list[Rendered]], str]] = [sheet_document]
     if problems:
@@ -131,7 +131,7 @@ def test_what_the_documents_of_the_template_begin_with_is_known_before_there_is_
 
 
 def test_a_brief_page_has_a_class_of_its_own() -> None:
-    brief, *others = (beginning(ROOT / "templates", level) for level in Level)
+    brief, *others = (beginning(templates_of(ROOT), level) for level in Level)
     assert r"\documentclass[10pt]{article}" in brief
     assert all(r"\documentclass[11pt]{article}" in each for each in others)
     assert len({*others}) == 1, "they share a format"
@@ -142,7 +142,7 @@ def test_what_a_template_must_be_filled_for_is_not_known_before(tmp_path: Path, 
     (tmp_path / "latex").mkdir()
     if text:
         (tmp_path / "latex" / "document.tex.j2").write_text(text)
-    assert beginning(tmp_path, Level.STANDARD) == ""
+    assert beginning(Templates((tmp_path,)), Level.STANDARD) == ""
 
 
 def test_a_format_that_is_made_before_is_that_of_the_documents(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,7 +173,7 @@ def test_the_anchor_of_a_problem_is_on_the_page_of_its_heading(target: Path) -> 
         replace(PAGE, id=f"hw1/{name}", title_latex=Tex(f"Heading {name}."), latex=Tex(rule.format(83 + 17 * k)))
         for k, name in enumerate(names)
     ]
-    heading = ProblemSet("hw1", "Physics", "Homework", None, None, tuple(f"hw1/{name}" for name in names), ())
+    heading = ProblemSet("hw1", "Physics", "Homework", tuple(f"hw1/{name}" for name in names), ())
     typeset(set_document(ROOT, heading, pages), target, chosen_engine(None))
     found = PdfReader(target)
     for name in names:

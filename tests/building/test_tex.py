@@ -13,6 +13,7 @@ from derive.building import tex as pdf
 from derive.building.preamble import beginning
 from derive.building.tex import Engine, chosen_engine, engines, typeset
 from derive.errors import BuildFailed, Complaint, Misused
+from derive.page.template import templates_of
 from tests.courses import ROOT
 
 
@@ -238,7 +239,7 @@ def test_a_pdf_that_is_shorter_than_its_log_says_does_not_replace_one(programs: 
 
 
 def pages_of(body: str, target: Path) -> list[str]:
-    preamble = beginning(ROOT / "templates", None)
+    preamble = beginning(templates_of(ROOT), None)
     typeset(rf"{preamble}\begin{{document}}\shortlastpageavoided {body}\end{{document}}", target, chosen_engine(None))
     return [page.extract_text() for page in PdfReader(target).pages]
 

@@ -10,13 +10,14 @@ from derive.building.solution import rendered
 from derive.course.begun import PATTERNS, begun
 from derive.course.problem_set import problem_set
 from derive.errors import Misused, Rejected
+from derive.page.template import templates_of
 from tests.courses import ROOT, course_in
 
 LIKE = [*PATTERNS, "hw9/block"]
 
 
 def written(root: Path, problem_id: str, like: str) -> dict[str, str]:
-    files = begun(root, ROOT / "templates", ROOT / "templates", problem_id, like)
+    files = begun(root, templates_of(ROOT).file, ROOT / "templates", problem_id, like, root)
     for path, content in files.items():
         (root / path).parent.mkdir(exist_ok=True)
         (root / path).write_text(content)
@@ -48,7 +49,7 @@ def test_the_list_of_a_set_grows_by_one_name_and_keeps_the_rest(tmp_path: Path, 
 
 def test_a_file_that_is_there_is_never_written_over(tmp_path: Path) -> None:
     with pytest.raises(Misused, match="already"):
-        begun(course_in(tmp_path), ROOT / "templates", ROOT / "templates", "hw9/block", "body")
+        begun(course_in(tmp_path), templates_of(ROOT).file, ROOT / "templates", "hw9/block", "body", tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -65,11 +66,11 @@ def test_a_file_that_is_there_is_never_written_over(tmp_path: Path) -> None:
 )
 def test_what_cannot_be_begun_is_told_with_what_can(tmp_path: Path, name: str, like: str, said: str) -> None:
     with pytest.raises(Misused, match=said):
-        begun(course_in(tmp_path), ROOT / "templates", ROOT / "templates", name, like)
+        begun(course_in(tmp_path), templates_of(ROOT).file, ROOT / "templates", name, like, tmp_path)
 
 
 def test_the_file_of_a_set_with_a_fault_is_told_and_left_alone(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     (root / "problems" / "hw9" / "set.yaml").write_text("course: M\ntitle: T\nproblems: block\n")
     with pytest.raises(Rejected, match="list of names"):
-        begun(root, ROOT / "templates", ROOT / "templates", "hw9/wheel", "body")
+        begun(root, templates_of(ROOT).file, ROOT / "templates", "hw9/wheel", "body", root)

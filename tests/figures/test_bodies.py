@@ -56,6 +56,7 @@ from derive.mechanics.bodies.equimomental import Particles
 from derive.mechanics.bodies.regions import Point, Region
 from derive.mechanics.bodies.solids import RoundSolid
 from derive.page.depiction import alternative
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.drawing.camera import USUAL
 from derive.render.notation.notation import Notation
@@ -155,7 +156,7 @@ SPHEROID, PYRAMID = Spheroid(R, h, M), Pyramid(a, h, M)
 
 def in_words(body: object, **options: Any) -> str:
     found = drawing("one", outline(body, **options))
-    return inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())
+    return inline_text(alternative(None, found, None, phrases(templates_of(ROOT))), Notation())
 
 
 @pytest.mark.parametrize(
@@ -408,7 +409,7 @@ def test_a_slice_of_a_cone_has_the_radius_that_the_cone_has_there(about: str, ra
     assert 0 < (high - low) / h < Rational(1, 10)
     heights = {str(mark.label): mark.end[2] for mark in marks if isinstance(mark, LengthMark)}
     assert heights == {"h": h, "z": low}
-    told = inline_text(alternative(None, drawing("cut", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    told = inline_text(alternative(None, drawing("cut", marks), None, phrases(templates_of(ROOT))), Notation())  # type: ignore[arg-type]
     assert "a slice at the height z of radius" in told
 
 
@@ -440,7 +441,7 @@ def test_an_ellipsoid_has_its_half_axes_beside_them() -> None:
     marks = outline(Ellipsoid((a, 2 * a, 3 * a), M))
     assert [str(mark.label) for mark in marks if isinstance(mark, Line)] == ["a", "2*a", "3*a"]
     assert [str(mark.label) for mark in marks if isinstance(mark, Axis)] == ["x", "y", "z"]
-    told = inline_text(alternative(None, drawing("egg", marks), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    told = inline_text(alternative(None, drawing("egg", marks), None, phrases(templates_of(ROOT))), Notation())  # type: ignore[arg-type]
     assert "an ellipsoid" in told
 
 

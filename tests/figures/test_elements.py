@@ -40,6 +40,7 @@ from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import PLANE, SPACE, Drawing
 from derive.mechanics import coordinate, point
 from derive.page.depiction import alternative
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
@@ -52,7 +53,7 @@ TOP = point(0, 1)
 
 
 def told(found: Drawing) -> str:
-    return inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    return inline_text(alternative(None, found, None, phrases(templates_of(ROOT))), Notation())  # type: ignore[arg-type]
 
 
 def test_a_pendulum_is_told_in_words() -> None:

@@ -12,6 +12,7 @@ from derive.figures import dashed_at, sketch
 from derive.figures.ghosts import Ghost
 from derive.mechanics import Plate, System, coordinate, point, weight
 from derive.page.depiction import alternative
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
@@ -42,7 +43,7 @@ def test_the_plate_is_dashed_where_it_would_be_level() -> None:
 
 
 def test_it_is_told_where_that_is() -> None:
-    told = inline_text(alternative(None, tilted(), None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    told = inline_text(alternative(None, tilted(), None, phrases(templates_of(ROOT))), Notation())  # type: ignore[arg-type]
     assert "a plate dashed where θ is 0" in told
 
 

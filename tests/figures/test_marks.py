@@ -13,6 +13,7 @@ from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import InWords, Mark, Position
 from derive.figures.pieces import Paper, Piece, Stroke
 from derive.page.depiction import alternative
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.drawing.camera import Numbers, best_stance, stance_from
 from derive.render.notation.notation import Notation
@@ -62,7 +63,7 @@ def test_a_mark_of_ones_own_is_told_and_kept() -> None:
     assert found.keys == ("stretch",)
     assert a in found.letters
     assert Symbol("l") not in found.letters
-    told = inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())
+    told = inline_text(alternative(None, found, None, phrases(templates_of(ROOT))), Notation())
     assert "a spring of length l" in told
 
 

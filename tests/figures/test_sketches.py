@@ -34,6 +34,7 @@ from derive.mechanics import (
     wire,
 )
 from derive.page.depiction import alternative
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.drawing.canvas import sheet_of
 from derive.render.notation.notation import Notation
@@ -59,7 +60,7 @@ def test_every_sketch_is_in_its_room_told_in_words_and_kept(name: str) -> None:
     lines = [spot for piece in seen(found) if isinstance(piece, Stroke) for spot in piece.spots]
     assert max(x for x, _ in lines) - min(x for x, _ in lines) < 5.01 * 72 / 2.54
     assert list(drawings_from_data(json.loads(json.dumps(drawings_to_data([found]))))) == [found]
-    told = inline_text(alternative(None, found, None, phrases(ROOT / "templates")), Notation())  # type: ignore[arg-type]
+    told = inline_text(alternative(None, found, None, phrases(templates_of(ROOT))), Notation())  # type: ignore[arg-type]
     assert told.endswith(".")
 
 

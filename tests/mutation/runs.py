@@ -13,6 +13,7 @@ from typing import Any
 from derive.building.solution import derived
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import page_text
@@ -21,7 +22,7 @@ from derive.steps.step import Level, Step
 from tests.courses import PINNED, ROOT, course_in
 from tests.test_transcripts import PAGES
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,12 @@ from sympy import Matrix, Symbol, sqrt
 
 from derive.page.chain_lines import ChainLine, ChainWriter, Equations, _share_a_sum_or_root
 from derive.page.repeats import results
+from derive.page.template import templates_of
 from derive.page.wording import Ref, phrases
 from derive.steps.step import Level, Step
 from tests.courses import ROOT, course_in, rendered_once, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 x, y = Symbol("x"), Symbol("y")
 
 

@@ -14,6 +14,7 @@ from derive.algebra.expressions import scalar
 from derive.course.names import EvidenceShown
 from derive.course.reference.errata import Erratum
 from derive.page.checks import Checks, checks_of
+from derive.page.template import templates_of
 from derive.page.wording import Phrases, Text, phrases
 from derive.steps.establish import establish
 from derive.steps.rule import CHECK, ROUTE, Rule
@@ -25,7 +26,7 @@ a, b = symbols("a b", positive=True)
 
 @pytest.fixture(scope="module")
 def words() -> Phrases:
-    return phrases(ROOT / "templates")
+    return phrases(templates_of(ROOT))
 
 
 def step(key: str, *claims: str) -> Step:

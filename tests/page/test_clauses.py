@@ -8,12 +8,13 @@ import pytest
 
 from derive.building.solution import rendered
 from derive.page.clauses import Clauses
+from derive.page.template import templates_of
 from derive.page.wording import Inline, Math, Text, phrases
 from derive.steps.step import Step
 from tests.courses import ROOT, course_in, solved_once
 from tests.stock.described import course_with
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from derive.building.solution import derived
 from derive.page.closing import limiting_cases
+from derive.page.template import templates_of
 from derive.page.wording import Math, Ref, Text, filled, names_of_step, phrases
 from derive.steps.step import Step
 from tests.courses import ROOT
 from tests.stock.described import edited, loaded
 from tests.stock.keys.test_limits import CART
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 def test_a_number_stands_in_the_line_with_its_sign_and_what_is_added(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from derive.course.prose import EQUATION, FIGURE, PROBLEM, Mention
 from derive.errors import Complaint, Place
 from derive.page.cross_references import References, each_number_once, found_before
 from derive.page.numbering import Number
+from derive.page.template import templates_of
 from derive.page.wording import FigureRef, Inline, Math, Phrases, ProblemRef, Ref, Text, phrases
 from tests.courses import ROOT
 
@@ -20,7 +21,7 @@ HERE = Place("problems/hw9/block.yaml", 7, 3, "<<eq torque>>")
 
 @pytest.fixture(scope="module")
 def words() -> Phrases:
-    return phrases(ROOT / "templates")
+    return phrases(templates_of(ROOT))
 
 
 @pytest.fixture

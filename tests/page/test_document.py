@@ -15,12 +15,13 @@ from derive.errors import Complaint
 from derive.page.chain_lines import Equations
 from derive.page.document import document_of
 from derive.page.numbering import Number
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Illustration, Paragraph
 from derive.page.wording import Math, Text, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 Block = tuple[Problem, Solved]
 
 

@@ -12,10 +12,11 @@ from derive.algebra.equality import Compared, Evidence, Grade
 from derive.building.solved import Solved
 from derive.course.problem import Problem
 from derive.page.explanation import Explanation, explanation_of, told_of
+from derive.page.template import templates_of
 from derive.page.wording import Text, phrases
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 OWN = "wording: {torque: {generic: Hold it., zero: Let it.}}\nshow: {spin: result}\n"
 
 

@@ -6,13 +6,14 @@ from sympy import Symbol
 
 from derive.figures.marks import Drawing, Plot
 from derive.page.figures_named import figures_mentioned
+from derive.page.template import templates_of
 from derive.page.tree import Block, Illustration, Paragraph
 from derive.page.wording import Text, phrases
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from tests.courses import ROOT
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 FORCES = {key: Drawing(key, (), forces_on=Symbol("m")) for key in ("left", "right")}
 CURVE = Plot("curve", Symbol("U"), Symbol("x") ** 2, Symbol("x"), 0, 1, "energy", "length")
 KNOWN = {**FORCES, "curve": CURVE}

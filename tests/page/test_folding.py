@@ -6,6 +6,7 @@ import pytest
 
 from derive.page.document import document_of
 from derive.page.folding import sentences, with_details
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Folded
 from derive.page.wording import phrases
 from derive.steps.level import Level
@@ -17,7 +18,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory, name: str) -> tuple[Document
     from tests.courses import course_in
 
     problem, solved = solved_once(course_in(tmp_path_factory.mktemp(name), problem=name), f"hw9/{name}")
-    known = problem, solved.derivation, solved.values, phrases(ROOT / "templates")
+    known = problem, solved.derivation, solved.values, phrases(templates_of(ROOT))
     standard, _ = document_of(*known, Level.STANDARD)
     full, _ = document_of(*known, Level.FULL, like=standard)
     return standard, full

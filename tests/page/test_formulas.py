@@ -21,6 +21,7 @@ from derive.errors import Complaint, DeriveError
 from derive.page.document import document_of
 from derive.page.formulas import Formulas
 from derive.page.hints import with_hints
+from derive.page.template import templates_of
 from derive.page.tree import Document, Folded, Paragraph
 from derive.page.wording import Math, Text, phrases
 from derive.render.notation.latex import latex
@@ -33,7 +34,7 @@ from derive.steps.step import Level
 from tests.courses import ROOT, course_in, rendered_once, solved_once
 from tests.stock.described import course_with, edited
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 TOP = load_problem(ROOT, "hw9/top")
 FORCE = Symbol("N", real=True)  # a constraint force, whose dimension is unknown
 KNOWN_HERE = {

@@ -9,6 +9,7 @@ import pytest
 from derive.building.solution import rendered
 from derive.errors import Rejected
 from derive.page.document import document_of
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
@@ -46,7 +47,7 @@ def repeated(document: Document) -> list[Formula]:
 @pytest.mark.parametrize("name", ["block", "cone", "euler", "slab", "top"])
 def test_no_framed_formula_repeats_one_above_it(name: str, level: Level, tmp_path: Path) -> None:
     problem, solved = solved_once(course_in(tmp_path, problem=name), f"hw9/{name}")
-    words = phrases(ROOT / "templates")
+    words = phrases(templates_of(ROOT))
     document, _ = document_of(problem, solved.derivation, solved.values, words, level, drawings=solved.drawings)
     assert any(framed for framed, _ in formulas(document))
     assert repeated(document) == []

@@ -19,13 +19,14 @@ from derive.page.chain_lines import ChainLine, Equations
 from derive.page.document import document_of
 from derive.page.hints import TO_BE_DONE, with_hints
 from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Folded, Paragraph
 from derive.page.wording import Math, Text, phrases
 from derive.steps.level import Level
 from derive.steps.step import Step
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 PINNED = tuple(f"hw9/{name}" for name in ("euler", "block", "top", "cone", "slab"))
 BEGUN = ("new/body", "new/rotation", "new/system")
 LIBRARY = tuple(f"library/{name}" for name in ("kepler", "turning_hoop", "bullet", "half_disc"))

@@ -9,10 +9,11 @@ from sympy import Symbol
 from derive.algebra.expressions import component_names, scalar, vector
 from derive.course.problem import load_problem
 from derive.page.introduced import letters_in, letters_of, references_in, wanting
+from derive.page.template import templates_of
 from derive.page.wording import Math, Ref, Text, phrases
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 def test_the_letters_of_a_step_are_its_symbol_and_the_components_of_a_vector() -> None:

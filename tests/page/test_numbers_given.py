@@ -9,6 +9,7 @@ import pytest
 from derive.building.solved import Solved
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
+from derive.page.template import templates_of
 from derive.page.tree import Document
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
@@ -16,7 +17,7 @@ from derive.render.printing.text_page import inline_text
 from derive.steps.level import Level
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 @pytest.fixture(scope="module")

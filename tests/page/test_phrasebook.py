@@ -9,6 +9,7 @@ import pytest
 
 from derive.errors import Rejected
 from derive.page.phrasebook import read_phrases
+from derive.page.template import Templates, templates_of
 from derive.page.wording import phrases
 from tests.courses import ROOT
 
@@ -43,7 +44,7 @@ def with_page(folder: Path, text: str) -> Path:
 def test_broken_phrases_are_told_with_their_file(tmp_path: Path, old: str, new: str, message: str) -> None:
     with_page(tmp_path, PAGE.replace(old, new, 1))
     with pytest.raises(Rejected) as caught:
-        read_phrases(tmp_path / "phrases" / "en")
+        read_phrases([tmp_path / "phrases" / "en"])
     complaint = caught.value.complaints[0]
     assert message in complaint.message
     assert complaint.place
@@ -56,7 +57,7 @@ def test_a_phrase_that_cannot_be_filled_is_told_at_its_line(tmp_path: Path, phra
 
     with_page(tmp_path, PAGE.replace("along: along", f"along: {json.dumps(phrase)}", 1))
     with pytest.raises(Rejected) as caught:
-        filled(phrases(tmp_path).labels["along"], {"symbol": 1})
+        filled(phrases(Templates((tmp_path,))).labels["along"], {"symbol": 1})
     place = caught.value.complaints[0].place
     assert place
     assert (place.path, place.text.strip()) == ("templates/phrases/en/page.yaml", f"along: {json.dumps(phrase)}")
@@ -65,10 +66,34 @@ def test_a_phrase_that_cannot_be_filled_is_told_at_its_line(tmp_path: Path, phra
 def test_a_phrase_that_two_files_have_is_told(tmp_path: Path) -> None:
     with_page(tmp_path, PAGE + "routes:\n  rotation.torque:\n    carried_round: once more\n")
     with pytest.raises(Rejected, match=r"another file also has `routes\.rotation\.torque`"):
-        read_phrases(tmp_path / "phrases" / "en")
+        read_phrases([tmp_path / "phrases" / "en"])
 
 
 def test_a_label_that_is_missing_is_told_and_not_a_key_error(tmp_path: Path) -> None:
     with_page(tmp_path, PAGE.replace("  second_route: second route\n", ""))
     with pytest.raises(Rejected, match="the phrases have no `second_route` under `labels`"):
-        phrases(tmp_path).labels["second_route"]
+        phrases(Templates((tmp_path,))).labels["second_route"]
+
+
+def course_with(folder: Path, text: str) -> Templates:
+    """Return the templates of derive with one file of phrases of a course."""
+    own = folder / "templates" / "phrases" / "en"
+    own.mkdir(parents=True)
+    (own / "own.yaml").write_text(text)
+    found = templates_of(folder)
+    assert found.folders == (folder / "templates", ROOT / "templates")
+    return found
+
+
+def test_a_course_can_replace_single_phrases(tmp_path: Path) -> None:
+    own = phrases(course_with(tmp_path, "labels:\n  problem: Exercise\n"))
+    assert own.labels["problem"] == "Exercise"
+    assert own.labels["part"] == phrases(templates_of(ROOT)).labels["part"]
+
+
+def test_a_phrase_that_replaces_nothing_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(Rejected) as caught:
+        phrases(course_with(tmp_path, "labels:\n  probelm: Exercise\n"))
+    complaint = caught.value.complaints[0]
+    assert complaint.help == "did you mean `problem`?"
+    assert complaint.place and (complaint.place.path, complaint.place.line) == ("templates/phrases/en/own.yaml", 2)

@@ -13,12 +13,13 @@ from derive.course.problem import Problem
 from derive.page.document import document_of
 from derive.page.pointers import pointed_out, that_have_it
 from derive.page.selection import OWN, POINTED_OUT, Selection
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Paragraph
 from derive.page.wording import Chain, Math, Ref, Text, phrases
 from derive.steps.step import Form, Level
 from tests.courses import ROOT, course_in, solved_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 Known = tuple[Problem, Solved]
 
 

@@ -14,6 +14,7 @@ from derive.errors import Rejected
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.numbering import Number
 from derive.page.rubric import ANSWER, NUMBER, STEP, Credit, Weighed, _shared, _weighed
+from derive.page.template import templates_of
 from derive.page.tree import Display, PartPage
 from derive.page.wording import phrases
 from tests.courses import ROOT, course_in, rendered_once
@@ -81,7 +82,7 @@ def test_a_row_has_every_value_of_its_step_each_with_its_left_side() -> None:
 
 def test_each_rule_has_words_for_a_rubric_and_no_words_are_left_over() -> None:
     own = {rule.name for *_, rule in records() if not rule.name.startswith("observations.")}  # they have no points
-    assert set(phrases(ROOT / "templates").tasks) == own
+    assert set(phrases(templates_of(ROOT)).tasks) == own
 
 
 def rubric(tmp_path: Path, said: str) -> str:

@@ -19,6 +19,7 @@ from derive.page.selection import (
     TOLD,
     Selection,
 )
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Paragraph
 from derive.page.wording import Text, phrases
 from derive.steps.rule import RULES
@@ -26,7 +27,7 @@ from derive.steps.step import Level
 from tests.courses import ROOT, course_in, rendered_once, solved_once
 from tests.rules import records
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 Known = tuple[Problem, Solved]
 
 

@@ -12,6 +12,7 @@ from sympy import Symbol, cos, sin, symbols
 from derive.algebra.expressions import Relation
 from derive.errors import Rejected
 from derive.mechanics import Particle, System, constraint, coordinate, equation_of_motion, lagrangian, point, weight
+from derive.page.template import templates_of
 from derive.page.theorems import Theorems, standalone
 from derive.page.tree import Folded, Paragraph, PartPage
 from derive.page.wording import Math, Text, ToldIn, ToldOnce, phrases
@@ -22,7 +23,7 @@ from tests.courses import ROOT
 from tests.render.pages import WHOLE
 from tests.rules import made_up, theorems
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 
 
 def a_step(rule: str, outcome: str = "generic", between: str = "coordinates") -> Any:

@@ -13,6 +13,7 @@ from derive.algebra.expressions import Relation
 from derive.algebra.kinds import dimension_of_kind
 from derive.course.prose import Mention
 from derive.errors import Place, Rejected
+from derive.page.template import templates_of
 from derive.page.wording import (
     AXIS_NAMES,
     Chain,
@@ -34,7 +35,7 @@ from derive.stock.keys.bodies import shapes
 from tests.courses import ROOT
 from tests.mechanics.block import a, b, c, known_block, omega
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 ONE, NIL = Integer(1), Integer(0)
 VARIANTS: list[dict[str, Any]] = [
     {},

@@ -16,13 +16,14 @@ from derive.errors import DeriveError
 from derive.mechanics.lagrange import applied_forces, claims
 from derive.mechanics.motion import energy_integral
 from derive.page.chain_lines import conditions_of
+from derive.page.template import templates_of
 from derive.page.wording import Text, phrases
 from derive.render.rendered import Rendered
 from derive.steps.level import Display
 from tests.courses import ROOT, rendered_once, solved_once
 from tests.stock.described import course_with, edited, solved
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 LIBRARY = ROOT / "problems" / "library"
 REJECTED = (  # each was on a page, and was wrong, misleading or no help
     "For Lagrange's equation",

@@ -15,7 +15,7 @@ from pathlib import Path
 from derive.building.solution import derived
 from derive.course.problem import load_problem
 from derive.page.document import document_of
-from derive.page.template import template_folder
+from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.notation import Notation
 from derive.steps.step import Level, Step
@@ -144,7 +144,7 @@ def steps_of(variant: Variant) -> tuple[list[Step], Notation]:
         root = course_in(Path(folder), yaml_of(variant), problem=variant.problem)
         problem = load_problem(root, f"hw9/{variant.problem}")
         derivation, values, known, _ = derived(problem)
-        document, _ = document_of(problem, derivation, values, phrases(template_folder(ROOT)), Level.FULL)
+        document, _ = document_of(problem, derivation, values, phrases(templates_of(ROOT)), Level.FULL)
     steps = {step.key: step for step in [*(q.step for q in known.values()), *values.values()]}
     return list(steps.values()), Notation(document.dimensions)
 

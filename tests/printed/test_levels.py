@@ -12,12 +12,13 @@ from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document
 from derive.page.wording import Math, Text, ToldOnce, phrases
 from derive.steps.step import Level
 from tests.courses import ROOT, kept, rendered_once
 
-WORDS = phrases(ROOT / "templates")
+WORDS = phrases(templates_of(ROOT))
 SETS = [f"{path.parent.name}/{path.stem}" for path in sorted((ROOT / "problems" / "hw9").glob("*.yaml"))]
 SETS += [f"library/{path.stem}" for path in sorted((ROOT / "problems" / "library").rglob("*.yaml"))]
 PROBLEMS = [name for name in SETS if name.rpartition("/")[2] not in ("set", "reference")]

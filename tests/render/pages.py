@@ -11,12 +11,13 @@ from derive.algebra.equality import Grade
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.checks import Checks
+from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import Math, ProblemRef, Ref, Text, phrases
 from derive.render.notation.notation import Notation
 from tests.courses import ROOT
 
-WORDS, NOTATION = phrases(ROOT / "templates"), Notation({})
+WORDS, NOTATION = phrases(templates_of(ROOT)), Notation({})
 T, M, a = (Symbol(name, positive=True) for name in ("T", "M", "a"))
 
 LINES = (

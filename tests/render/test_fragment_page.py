@@ -10,14 +10,15 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building.tex import chosen_engine, typeset
+from derive.page.template import templates_of
 from derive.page.tree import Paragraph
 from derive.page.wording import FigureRef, Text
 from derive.render.printing.fragment_page import fragment
 from tests.courses import ROOT, rendered_once
 from tests.render.pages import AXES, NOTATION, VECTORS, WHOLE, WORDS, page
 
-FOLDER = ROOT / "templates"
-ALONG = WORDS, NOTATION, FOLDER
+TEMPLATES = templates_of(ROOT)
+ALONG = WORDS, NOTATION, TEMPLATES
 TEXT = fragment(WHOLE, *ALONG)
 
 
@@ -28,7 +29,7 @@ def needed(text: str) -> list[str]:
 def test_it_lists_the_packages_and_the_drawings_that_it_needs() -> None:
     assert needed(TEXT) == [r"\usepackage{amsmath}", r"\usepackage{graphicx}"]
     assert re.findall(r"^%   (\S+\.pdf)$", TEXT, re.MULTILINE) == ["one-axes.pdf"]
-    plain = fragment(page(Paragraph((Text("A «word»"),)), illustrations=()), WORDS, NOTATION, FOLDER)
+    plain = fragment(page(Paragraph((Text("A «word»"),)), illustrations=()), WORDS, NOTATION, TEMPLATES)
     assert needed(plain) == [r"\usepackage[T1]{fontenc}", r"\usepackage{amsmath}"]
 
 

@@ -13,13 +13,14 @@ from derive.algebra.dimensions import Dimension
 from derive.algebra.expressions import column
 from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
+from derive.page.template import Templates, templates_of
 from derive.page.tree import Document, Paragraph
 from derive.page.wording import DimensionMark, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
 from tests.courses import ROOT
 from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
 
-TEMPLATES = ROOT / "templates"
+TEMPLATES = templates_of(ROOT)
 
 
 def fragments(document: Document) -> Fragments:
@@ -208,7 +209,7 @@ def test_a_whole_document_has_the_facts_that_its_template_asks_for(tmp_path: Pat
         def title(self) -> str:
             return "50%"
 
-    assert whole_latex(tmp_path, "own.tex.j2", {"name": "A_B", "page": Titled()}) == r"A{\_}B of 50{\%}"
+    assert whole_latex(Templates((tmp_path,)), "own.tex.j2", {"name": "A_B", "page": Titled()}) == r"A{\_}B of 50{\%}"
 
 
 def test_a_theorem_ends_its_paragraph_where_it_is_told_and_begins_one_where_it_is_told_again() -> None:

@@ -10,14 +10,16 @@ import pytest
 
 from derive.course.parts import points_text
 from derive.errors import Complaint, Rejected
+from derive.page.template import Templates, templates_of
 from derive.render.printing.templates import bookmark_text, filled_template
 from derive.render.rendered import Tex
+from tests.courses import ROOT
 
 
 def filled(folder: Path, text: str, **facts: Any) -> Tex:
     (folder / "templates" / "latex").mkdir(parents=True)
     (folder / "templates" / "latex" / "set.tex.j2").write_text(text, encoding="utf-8")
-    return filled_template(folder / "templates", "set.tex.j2", facts)
+    return filled_template(Templates((folder / "templates",)), "set.tex.j2", facts)
 
 
 def refusal(folder: Path, text: str, **facts: Any) -> Complaint:
@@ -59,7 +61,7 @@ def test_a_broken_template_is_told_at_its_line(tmp_path: Path, text: str, messag
 
 def test_a_template_that_is_not_there_is_told_with_its_folder(tmp_path: Path) -> None:
     with pytest.raises(Rejected) as caught:
-        filled_template(tmp_path / "templates", "cover.tex.j2", {})
+        filled_template(Templates((tmp_path / "templates",)), "cover.tex.j2", {})
     assert caught.value.complaints[0].help == "it belongs in `templates/latex`"
 
 
@@ -70,3 +72,19 @@ def test_a_fault_of_what_a_template_asks_for_is_ours_and_not_the_templates(tmp_p
 
 def test_a_bookmark_has_no_mathematics_and_no_letters_that_its_viewer_lacks() -> None:
     assert bookmark_text("50% ω") == r"50{\%} \unichar{969}"
+
+
+def test_a_template_of_the_course_replaces_the_one_of_the_same_name(tmp_path: Path) -> None:
+    """The other templates are those of derive, and an error names the file of the course."""
+    own = tmp_path / "templates" / "latex"
+    own.mkdir(parents=True)
+    (own / "heading.tex.j2").write_text("Course: << heading.course >>")
+    templates = templates_of(tmp_path)
+    heading = {"course": "A_B"}
+    assert filled_template(templates, "heading.tex.j2", {"heading": heading}) == r"Course: A{\_}B"
+    assert templates.file("latex/set.tex.j2") == ROOT / "templates" / "latex" / "set.tex.j2"
+    (own / "heading.tex.j2").write_text("\n<< heading.course ")
+    with pytest.raises(Rejected) as caught:
+        filled_template(templates, "heading.tex.j2", {"heading": heading})
+    place = caught.value.complaints[0].place
+    assert place and (place.path, place.line) == ("templates/latex/heading.tex.j2", 2)

@@ -27,7 +27,7 @@ def test_it_is_up_to_date() -> None:
     assert MADE["document"]() == TEXT, "run `python -P -m tools.yaml_reference`"
 
 
-@pytest.mark.parametrize("file", ["problem", "set", "reference"])
+@pytest.mark.parametrize("file", ["problem", "set", "course", "reference"])
 def test_it_has_every_key(file: str) -> None:
     keys = set(keys_in(json.loads((ROOT / "templates" / f"{file}.schema.json").read_text(encoding="utf-8"))))
     assert len(keys) > 5

@@ -1,11 +1,47 @@
-"""`derive new` and `derive schema`: files for an author who begins a problem, and for the author's editor."""
+"""`derive init`, `derive new` and `derive schema`: files for an author who begins a course or a problem, and for the
+author's editor."""
 
 from __future__ import annotations
 
 import argparse
+import sys
+from pathlib import Path
 
-from derive.cli.asked import new_id_of, root_of
+from derive.cli.asked import found_root, new_id_of, root_of, root_with
 from derive.errors import Complaint, Misused
+
+
+def init(arguments: argparse.Namespace) -> int:
+    """Write the files of a new course, and print what to do next."""
+    folder = Path(arguments.folder)
+    _write_course(folder, arguments.title)
+    inside = "" if folder.resolve() == Path.cwd() else f"cd {arguments.folder}; "
+    print(f"next: `{inside}derive preview week1/bead` shows the first problem, `derive new week1/NAME` begins another")
+    return 0
+
+
+def _write_course(folder: Path, title: str) -> None:
+    from derive.building.files import shown_path, write
+    from derive.course.begun_course import begun_course
+    from derive.course.editors import SCHEMAS, schema_folder
+    from derive.page.template import templates_of
+
+    texts = begun_course(folder, title, templates_of(folder).file)
+    schemas = {f"{schema_folder(folder).relative_to(folder)}/{name}": made() for name, made in SCHEMAS.items()}
+    for path, text in {**texts, **schemas}.items():
+        write(folder / path, text)
+        print(f"wrote {shown_path(folder / path)}")
+
+
+def _offered_course() -> bool:
+    """Ask the user at a terminal whether to make a course in the working folder, and make it."""
+    if not (sys.stdin.isatty() and sys.stderr.isatty()):
+        return False
+    print("No course was found here or above. Make one in this folder? [y/N] ", end="", file=sys.stderr, flush=True)
+    if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+        return False
+    _write_course(Path.cwd(), "Mechanics")
+    return True
 
 
 def new(arguments: argparse.Namespace) -> int:
@@ -14,15 +50,18 @@ def new(arguments: argparse.Namespace) -> int:
     from derive.building.set_names import wrong_set_name
     from derive.course.begun import begun
     from derive.course.editors import SCHEMAS, schema_folder
-    from derive.page.template import template_folder
+    from derive.page.template import templates_of
 
+    if found_root(arguments.root) is None and not arguments.root:
+        _offered_course()
     root = root_of(arguments)
     schemas = schema_folder(root)
     problem_id = new_id_of(arguments.id)
     set_id = problem_id.partition("/")[0]
     if set_id and (why := wrong_set_name(set_id)):
         raise Misused(Complaint("new-name", f"a set cannot be called `{set_id}`: {why}", help="such as `hw10/wheel`"))
-    files = begun(root, template_folder(root), schemas, problem_id, arguments.like)
+    like_root = root_with(arguments, new_id_of(arguments.like).partition("/")[0])
+    files = begun(root, templates_of(root).file, schemas, problem_id, arguments.like, like_root)
     if not (schemas / "problem.schema.json").exists():
         for name, made in SCHEMAS.items():
             write(schemas / name, made())

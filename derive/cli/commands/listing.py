@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from derive.cli.asked import new_id_of, problem_id_of, root_of, warn_of_names
+from derive.cli.asked import new_id_of, problem_id_of, root_of, root_with, warn_of_names
 from derive.cli.running import waiting
 from derive.cli.terminal import table
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
@@ -16,7 +16,7 @@ from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 def list_problems(arguments: argparse.Namespace) -> int:
     from derive.course.problem_set import known_set, problem_paths, topic_of
 
-    root = root_of(arguments)
+    root = root_with(arguments, new_id_of(arguments.set).partition("/")[0]) if arguments.set else root_of(arguments)
     if arguments.answers:
         return _list_answers(arguments, root)
     warn_of_names(root)

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.asked import found_root, problem_id_of, root_with
 from derive.cli.output import check_output, deliver
 from derive.cli.running import delivered, waiting
 from derive.cli.terminal import complain, table
@@ -26,7 +26,8 @@ def solve(arguments: argparse.Namespace) -> int:
     from derive.course.names import EvidenceShown
     from derive.course.problem_set import path_of, problem_set
 
-    root, problem_id, limit = root_of(arguments), problem_id_of(arguments.id), arguments.time_limit
+    problem_id, limit = problem_id_of(arguments.id), arguments.time_limit
+    root = root_with(arguments, problem_id.partition("/")[0])
     check_output(arguments.output, root)
     path_of(root, problem_id)
     set_id, form = problem_id.partition("/")[0], arguments.format
@@ -45,7 +46,7 @@ def solve(arguments: argparse.Namespace) -> int:
     if arguments.format in TYPESET:
         text = problem_document(root, solved, heading)
     if arguments.format == "pdf":
-        return _solve_pdf(arguments, root, problem_id, text, solved.files)
+        return _solve_pdf(arguments, problem_id, text, solved.files)
     deliver(text.rstrip("\n").encode() + b"\n", arguments.output)
     if beside:
         _deliver_drawings(arguments.output, tuple(file for file in solved.files if file[0].endswith(f".{beside}")))
@@ -62,7 +63,8 @@ def explain(arguments: argparse.Namespace) -> int:
     from derive.building.explain import explain
     from derive.building.workers import done, job_of
 
-    root, problem_id = root_of(arguments), problem_id_of(arguments.id)
+    problem_id = problem_id_of(arguments.id)
+    root = root_with(arguments, problem_id.partition("/")[0])
     with waiting(f"deriving {problem_id}"):
         work = partial(explain, root, problem_id, arguments.key, arguments.format == "json")
         found = done(job_of(root, problem_id, work, arguments.time_limit))
@@ -70,13 +72,13 @@ def explain(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _solve_pdf(arguments: argparse.Namespace, root: Path, problem_id: str, tex: str, files: Files) -> int:
+def _solve_pdf(arguments: argparse.Namespace, problem_id: str, tex: str, files: Files) -> int:
     from derive.building.set_names import set_folder
     from derive.building.standalone import typeset_standalone
 
     set_id, _, name = problem_id.partition("/")
     suffix = f"-{arguments.detail}" if arguments.detail else ""
-    outputs = set_folder(root, set_id)
+    outputs = set_folder(found_root(arguments.root) or Path.cwd(), set_id)  # never in the folder of derive itself
     with waiting(f"typesetting {problem_id}"):
         pdf = typeset_standalone(outputs, name, tex, files, arguments.engine, arguments.time_limit)
     delivered(pdf, arguments.output or str(outputs / f"{name}{suffix}.pdf"))

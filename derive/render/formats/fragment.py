@@ -6,11 +6,11 @@ from derive.render.formats import Format, Solution
 
 
 def _rendered(solution: Solution) -> str:
-    from derive.page.template import template_folder
+    from derive.page.template import templates_of
     from derive.render.printing.fragment_page import fragment
 
-    folder = template_folder(solution.problem.root)
-    return fragment(solution.document, solution.words, solution.notation, folder)
+    templates = templates_of(solution.problem.root)
+    return fragment(solution.document, solution.words, solution.notation, templates)
 
 
 FORMAT = Format("fragment", "tex", _rendered, built=False, drawings="pdf")

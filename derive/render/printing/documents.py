@@ -6,10 +6,10 @@ This module also makes the sheet in HTML.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from pathlib import Path
 
 from derive.course.names import HINTS, KEY, RUBRIC, SHEET
 from derive.page.rubric import Credit
+from derive.page.template import Templates
 from derive.page.tree import Document
 from derive.page.wording import Phrases
 from derive.render.notation.notation import Notation
@@ -27,7 +27,7 @@ def document_fragments(
     rubric: Credits,
     words: Phrases,
     notation: Notation,
-    folder: Path,
+    templates: Templates,
     drawings: Files,
 ) -> dict[str, str]:
     """Return each document in TeX by its name and in HTML by `name.html`, but the sheet only in HTML.
@@ -38,15 +38,15 @@ def document_fragments(
     for kind in wanted:
         if kind == SHEET:
             questions = HtmlQuestions(pages(kind), words, notation, drawings, top=2)
-            found[f"{kind}.html"] = filled_html(folder, "questions.html.j2", {"page": questions})
+            found[f"{kind}.html"] = filled_html(templates, "questions.html.j2", {"page": questions})
         if kind not in TEMPLATES:
             continue
         document, template = pages(kind), TEMPLATES[kind]
         credited = rubric if kind != HINTS else {}
         tex = LatexPage(document, words, notation, credited)
         html = HtmlPage(document, words, notation, drawings, credited, top=2)
-        found[kind] = filled_template(folder, f"{template}.tex.j2", {"page": tex})
-        found[f"{kind}.html"] = filled_html(folder, f"{template}.html.j2", {"page": html})
+        found[kind] = filled_template(templates, f"{template}.tex.j2", {"page": tex})
+        found[f"{kind}.html"] = filled_html(templates, f"{template}.html.j2", {"page": html})
     return found
 
 

@@ -6,9 +6,9 @@ A drawing does not float. If the drawing has a caption, it also has a figure num
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from derive.page.numbering import Number
+from derive.page.template import Templates
 from derive.page.tree import Display, Document, Illustration
 from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef
 from derive.render.notation.latex import escaped
@@ -29,12 +29,12 @@ PACKAGES = {
 }
 
 
-def fragment(document: Document, words: Phrases, notation: Notation, folder: Path) -> Tex:
+def fragment(document: Document, words: Phrases, notation: Notation, templates: Templates) -> Tex:
     page = FragmentPage(document, words, notation)
-    body = filled_template(folder, "fragment.tex.j2", {"page": page})
+    body = filled_template(templates, "fragment.tex.j2", {"page": page})
     needed = [package for package, signs in PACKAGES.items() if any(sign in body for sign in signs)]
     return filled_template(
-        folder, "fragment_head.tex.j2", {"page": page, "packages": [Tex(each) for each in needed], "body": body}
+        templates, "fragment_head.tex.j2", {"page": page, "packages": [Tex(each) for each in needed], "body": body}
     )
 
 

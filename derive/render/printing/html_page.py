@@ -10,13 +10,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from pathlib import Path
 
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import ChainLine
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
+from derive.page.template import Templates
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import (
@@ -65,14 +65,14 @@ NO_HTML = HtmlFragments(*[Html("")] * 3)
 
 
 def problem_html(
-    document: Document, words: Phrases, notation: Notation, folder: Path, drawings: Files
+    document: Document, words: Phrases, notation: Notation, templates: Templates, drawings: Files
 ) -> HtmlFragments:
     page = HtmlPage(document, words, notation, drawings)
     among_others = HtmlQuestions(document, words, notation, drawings, top=2)
     return HtmlFragments(
         page.title(),
-        filled_html(folder, "problem.html.j2", {"page": page}),
-        filled_html(folder, "card.html.j2", {"page": among_others}),
+        filled_html(templates, "problem.html.j2", {"page": page}),
+        filled_html(templates, "card.html.j2", {"page": among_others}),
     )
 
 

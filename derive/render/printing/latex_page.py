@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 from derive.course.names import EvidenceShown
@@ -16,6 +15,7 @@ from derive.course.placement import STATEMENT
 from derive.page.folding import groups_in, sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
+from derive.page.template import Templates
 from derive.page.tree import Block, Display, Document, Illustration, PartPage
 from derive.page.wording import (
     DimensionMark,
@@ -74,12 +74,12 @@ class Passage:
 NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 
-def problem_latex(document: Document, words: Phrases, notation: Notation, folder: Path) -> Fragments:
+def problem_latex(document: Document, words: Phrases, notation: Notation, templates: Templates) -> Fragments:
     page, questions = LatexPage(document, words, notation), _Questions(document, words, notation)
     reported = ReportPage(document, words, notation)
 
     def fragment(template: str, what: LatexPage | ReportPage) -> Tex:
-        return filled_template(folder, template, {"page": what})
+        return filled_template(templates, template, {"page": what})
 
     return Fragments(
         page.title(),
@@ -90,9 +90,9 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, folder
     )
 
 
-def whole_latex(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
+def whole_latex(templates: Templates, template: str, facts: Mapping[str, Any]) -> Tex:
     """Return a complete LaTeX document."""
-    return filled_template(folder, template, facts)
+    return filled_template(templates, template, facts)
 
 
 class LatexPage:

@@ -14,7 +14,7 @@ from jinja2 import Environment, FileSystemLoader, TemplateError, TemplateNotFoun
 
 from derive import FOLDER
 from derive.errors import Complaint, DeriveError, Place, Rejected
-from derive.page.template import environment
+from derive.page.template import Templates, environment
 from derive.render.notation.latex import escaped
 from derive.render.rendered import Html, Tex
 
@@ -22,24 +22,25 @@ LATEX, HTML = "latex", "html"  # folders of templates; each has one kind of text
 ESCAPED: Mapping[str, tuple[type[str], Callable[[str], str]]] = {LATEX: (Tex, escaped), HTML: (Html, escape)}
 
 
-def filled_template(folder: Path, template: str, facts: Mapping[str, Any]) -> Tex:
+def filled_template(templates: Templates, template: str, facts: Mapping[str, Any]) -> Tex:
     """Fill a template of the folder `latex`; an error in the template is reported with its line."""
-    return Tex(_filled(folder, LATEX, template, facts))
+    return Tex(_filled(templates, LATEX, template, facts))
 
 
-def filled_html(folder: Path, template: str, facts: Mapping[str, Any]) -> Html:
+def filled_html(templates: Templates, template: str, facts: Mapping[str, Any]) -> Html:
     """Fill a template of the folder `html`."""
-    return Html(_filled(folder, HTML, template, facts))
+    return Html(_filled(templates, HTML, template, facts))
 
 
-def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) -> str:
+def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, Any]) -> str:
     try:
-        return _environment(folder, kind).get_template(template).render(facts)
+        return _environment(templates, kind).get_template(template).render(facts)
     except TemplateNotFound as error:
         message = f"the template `{error.name}` does not exist"
-        raise Rejected(Complaint("template", message, help=f"it belongs in `{_shown(folder / kind)}`")) from error
+        help_line = f"it belongs in `{_shown(templates.folders[0] / kind)}`"
+        raise Rejected(Complaint("template", message, help=help_line)) from error
     except TemplateSyntaxError as error:
-        file = folder / kind / (error.name or template)
+        file = templates.file(f"{kind}/{error.name or template}")
         complaint = Complaint("template", f"the template cannot be read: {_said(error)}", _line(file, error.lineno))
         raise Rejected(complaint) from error
     except (OSError, UnicodeError) as error:
@@ -47,33 +48,33 @@ def _filled(folder: Path, kind: str, template: str, facts: Mapping[str, Any]) ->
     except DeriveError:
         raise
     except Exception as error:
-        place = _failing_line(error, folder / kind)
+        place = _failing_line(error, templates.files(f"{kind}/*.j2"))
         if place is None:
             raise
         raise Rejected(Complaint("template", f"the template fails: {_said(error)}", place)) from error
 
 
-def filled_above(folder: Path, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
+def filled_above(templates: Templates, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
     """Fill the text of a template above a certain line. The result is empty if the line or a fact is missing, or if the
     template cannot be read."""
     with suppress(TemplateError, OSError, UnicodeError):
-        above, found, _ = (folder / "latex" / template).read_text(encoding="utf-8").partition(line)
+        above, found, _ = templates.file(f"{LATEX}/{template}").read_text(encoding="utf-8").partition(line)
         if found:
-            return Tex(_environment(folder, LATEX).from_string(above).render(facts))
+            return Tex(_environment(templates, LATEX).from_string(above).render(facts))
     return Tex("")
 
 
-def compile_templates(folder: Path) -> None:
+def compile_templates(templates: Templates) -> None:
     """Compile all templates before processes fill them; an error in a template is reported when it is filled."""
-    for loaded in (_environment(folder, kind) for kind in ESCAPED):
+    for loaded in (_environment(templates, kind) for kind in ESCAPED):
         for name in loaded.list_templates(["j2"]):
             with suppress(TemplateError, OSError, UnicodeError):
                 loaded.get_template(name)
 
 
-def _failing_line(error: Exception, folder: Path) -> Place | None:
+def _failing_line(error: Exception, templates: Mapping[str, Path]) -> Place | None:
     """Return the line of the template that raised the error; None if code of derive raised it."""
-    files = {str(file): file for file in folder.glob("*.j2")}
+    files = {str(file): file for file in templates.values()}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
     below = frames[theirs[-1] + 1 :] if theirs else []
@@ -101,7 +102,7 @@ def _shown(file: Path) -> str:
 
 
 @cache
-def _environment(folder: Path, kind: str) -> Environment:
+def _environment(templates: Templates, kind: str) -> Environment:
     ours, safe = ESCAPED[kind]
 
     def printed(value: Any) -> Any:
@@ -109,7 +110,7 @@ def _environment(folder: Path, kind: str) -> Environment:
         return value if isinstance(value, ours | Undefined) else ours(safe(str(value)))
 
     made = environment(
-        loader=FileSystemLoader(folder / kind),
+        loader=FileSystemLoader([folder / kind for folder in templates.folders]),
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,

@@ -1,0 +1,258 @@
+"""Many draws of the variants of a problem: how its answers are distributed, and which draws are degenerate.
+
+The derivation is made once for each structure, that is, for each choice of the given values that are not numbers of
+letters. The numbers of a draw are then put into the derived answers. A few draws are also derived from the beginning,
+and their numbers are compared with those of the quick way.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mpmath import mp
+from sympy import Symbol
+from sympy.matrices.matrixbase import MatrixBase
+
+from derive.algebra.dimensions import Dimension
+from derive.algebra.expressions import Amount, Relation, explicit
+from derive.algebra.kinds import unit_of_dimension, unit_of_kind
+from derive.algebra.rounding import Rounded
+from derive.algebra.samples import NoNumber, Undefined, Values
+from derive.building.solution import derived
+from derive.course.problem import Problem, load_problem
+from derive.course.variants import Chosen, Variation, chosen_for
+from derive.errors import Complaint, DeriveError
+from derive.steps.homogeneity import dimension_table
+from derive.steps.numeric import WholeSwing
+from derive.steps.step import Quantity
+
+COMPARED = 3  # draws that are also derived from the beginning
+BARS = " ▁▂▃▄▅▆▇█"
+WIDTH = 24  # bars of a distribution
+CLOSE = 1e-9  # relative difference of two values that count as equal
+
+
+@dataclass
+class OfAnswer:
+    """The values of one answer in all draws, in the coherent SI unit."""
+
+    key: str
+    unit: str
+    values: list[float] = field(default_factory=list)
+
+
+@dataclass
+class OfProblem:
+    """What the draws of one problem gave.
+
+    structures  the number of different derivations
+    same        pairs of draws with the same choices
+    equal       for each answer, pairs of draws with different choices but the same value
+    degenerate  what is wrong with a draw -> the draws, each in words
+    outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
+    compared    draws that were also derived from the beginning
+    """
+
+    id: str
+    variations: tuple[Variation, ...]
+    draws: int = 0
+    structures: int = 0
+    same: int = 0
+    answers: dict[str, OfAnswer] = field(default_factory=dict)
+    equal: dict[str, int] = field(default_factory=dict)
+    degenerate: dict[str, list[str]] = field(default_factory=dict)
+    outcomes: dict[str, Counter[str]] = field(default_factory=dict)
+    compared: int = 0
+    complaints: list[Complaint] = field(default_factory=list)
+
+    @property
+    def possible(self) -> int:
+        """The number of different variants."""
+        number = 1
+        for each in self.variations:
+            number *= len(each.choices)
+        return number
+
+
+def told(variations: Sequence[Variation], chosen: Chosen) -> str:
+    return ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
+
+
+def checked(root: Path, problem_id: str, draws: int, seed: str) -> OfProblem:
+    """Draw variants for students with the codes 1, 2, and so on, and evaluate the answers of each draw."""
+    problem = load_problem(root, problem_id)
+    set_id, _, name = problem_id.partition("/")
+    found = OfProblem(problem_id, problem.variations, draws)
+    chosen = [chosen_for(set_id, name, problem.variations, str(number), seed) for number in range(1, draws + 1)]
+    found.same = _pairs(Counter(tuple(each.items()) for each in chosen))
+    letters = {measured.symbol.name for measured in problem.measured}
+    of_letters = [each for each in problem.variations if each.name in letters]
+    numbers = _numbers_of(root, problem_id, of_letters, found)
+    if found.complaints:
+        return found
+    structures: dict[tuple[tuple[str, int], ...], _Structure | None] = {}
+    by_value: dict[str, dict[str, set[tuple[tuple[str, int], ...]]]] = {}
+    for number, draw in enumerate(chosen):
+        given = tuple((name, choice) for name, choice in draw.items() if name not in letters)
+        if given not in structures:
+            structures[given] = _structure(root, problem_id, dict(given), problem.variations, found)
+        structure = structures[given]
+        if structure is None:
+            continue
+        point = {**structure.point} | {
+            letter: value for each in of_letters for letter, value in numbers[each.name, draw[each.name]].items()
+        }
+        values = structure.values(point, told(problem.variations, draw), found)
+        for key, value in values.items():
+            found.answers.setdefault(key, OfAnswer(key, structure.units[key])).values.append(value)
+            by_value.setdefault(key, {}).setdefault(f"{value:.9g}", set()).add(tuple(draw.items()))
+        if number < COMPARED:
+            _compare(root, problem_id, draw, values, told(problem.variations, draw), found)
+    found.structures = len(structures)
+    found.equal = {key: _pairs({value: len(draws) for value, draws in each.items()}) for key, each in by_value.items()}
+    return found
+
+
+def _pairs(counted: Mapping[Any, int]) -> int:
+    return sum(number * (number - 1) // 2 for number in counted.values())
+
+
+def _numbers_of(
+    root: Path, problem_id: str, variations: Sequence[Variation], found: OfProblem
+) -> dict[tuple[str, int], dict[Symbol, Any]]:
+    """Return the number of the letter for each choice of each variation, in the coherent SI unit; add the errors of the
+    choices to the result of the problem."""
+    numbers: dict[tuple[str, int], dict[Symbol, Any]] = {}
+    for variation in variations:
+        for choice in range(len(variation.choices)):
+            try:
+                read = load_problem(root, problem_id, {str(variation.name): choice})
+            except DeriveError as error:
+                found.complaints += error.complaints
+                continue
+            measured = (each for each in read.measured if each.symbol.name == variation.name)
+            numbers[variation.name, choice] = {each.symbol: each.si for each in measured}
+    return numbers
+
+
+@dataclass(frozen=True)
+class _Structure:
+    """The derived answers of one structure, and the numbers of the letters that do not vary."""
+
+    problem: Problem
+    answers: Mapping[str, Quantity]
+    units: Mapping[str, str]
+    point: Mapping[Symbol, Any]
+    assumed: Sequence[Any]
+
+    def values(self, point: Mapping[Symbol, Any], draw: str, found: OfProblem) -> dict[str, float]:
+        """Return the value of each answer that has one; note an answer that has none, although all its letters have
+        numbers, and a condition that fails."""
+        with mp.workdps(30):
+            at = Values(dict(point))
+            for condition in self.assumed:
+                if condition.free_symbols <= set(point) and not _holds(condition, at):
+                    found.degenerate.setdefault("a condition of the derivation fails", []).append(draw)
+                    return {}
+            values = {}
+            for key, answer in self.answers.items():
+                found.outcomes.setdefault(key, Counter())[answer.step.outcome] += 1
+                try:
+                    value = at(explicit(answer.value))
+                except (Undefined, NoNumber, ZeroDivisionError):
+                    found.degenerate.setdefault(f"`{key}` has no value", []).append(draw)
+                    continue
+                if abs(mp.im(value)) > CLOSE * abs(value):
+                    found.degenerate.setdefault(f"`{key}` is not real", []).append(draw)
+                else:
+                    values[key] = float(mp.re(value))
+        return values
+
+
+def _holds(condition: Relation, at: Values) -> bool:
+    try:
+        difference = mp.re(at(explicit(condition.left - condition.right)))
+    except (Undefined, NoNumber):
+        return False
+    return bool({">": difference > 0, "<": difference < 0, ">=": difference >= 0, "<=": difference <= 0}.get(
+        condition.operator, True
+    ))  # fmt: skip
+
+
+def _structure(
+    root: Path, problem_id: str, given: Chosen, variations: Sequence[Variation], found: OfProblem
+) -> _Structure | None:
+    """Derive one structure; if this fails, its draws are degenerate, and the errors are reported."""
+    try:
+        problem = load_problem(root, problem_id, given or None)
+        derivation, _, known, _ = derived(problem)
+    except DeriveError as error:
+        words = ", ".join(f"{each.name} = {each.told(given[each.name])}" for each in variations if each.name in given)
+        found.degenerate.setdefault("the derivation fails", []).append(words or "every draw")
+        found.complaints += error.complaints
+        return None
+    letters = {measured.symbol for measured in problem.measured}
+    answers = {}
+    for part in problem.parts:
+        for key in derivation.answering(part.answers):
+            quantity = known[key.key]
+            if _has_number(quantity, letters):
+                answers[key.key] = quantity
+    dimensions, _ = dimension_table(problem.dimensions, derivation.steps, problem.script.returns)
+    units = {key: _unit(quantity, dimensions) for key, quantity in answers.items()}
+    point = {each.symbol: each.si for each in problem.measured}
+    return _Structure(problem, answers, units, point, derivation.assumed)
+
+
+def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
+    """Whether an answer is a scalar whose letters have numbers, and not the beginning of a series."""
+    value = quantity.value
+    if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
+        return False
+    return bool(value.free_symbols <= letters)
+
+
+def _unit(quantity: Quantity, dimensions: Mapping[Any, Dimension | None]) -> str:
+    kind, dimension = quantity.step.kind, dimensions.get(quantity.step.symbol)
+    return unit_of_kind(kind) if kind else unit_of_dimension(dimension) if dimension is not None else ""
+
+
+def _compare(
+    root: Path, problem_id: str, draw: Chosen, values: Mapping[str, float], words: str, found: OfProblem
+) -> None:
+    """Derive a draw from the beginning, and compare the numbers that its page prints with the quick values."""
+    try:
+        _, printed, _, _ = derived(load_problem(root, problem_id, draw))
+    except DeriveError as error:
+        found.degenerate.setdefault("the derivation fails", []).append(words)
+        found.complaints += error.complaints
+        return
+    found.compared += 1
+    for key, value in values.items():
+        for number, figures in _printed(printed[key].result) if key in printed else ():
+            if abs(number - value) > 10.0 ** (1 - figures) * abs(value):
+                message = f"`{key}` is {value:.9g} by the derived formula, but the page prints {number:.9g}: {words}"
+                found.complaints.append(Complaint("variants", message))
+
+
+def _printed(value: Any) -> Iterator[tuple[float, int]]:
+    """Yield a printed number in the coherent SI unit, with its number of significant figures."""
+
+    if isinstance(value, Amount) and isinstance(value.args[0], Rounded):
+        yield float(value.args[0].args[0] * value.args[2]), int(value.args[0].args[1])
+
+
+def bars(values: Sequence[float]) -> str:
+    """Return the distribution of values as a row of bars, from the least to the greatest value."""
+    least, greatest = min(values), max(values)
+    if greatest == least:
+        return BARS[-1]
+    counts = [0] * WIDTH
+    for value in values:
+        counts[min(WIDTH - 1, int((value - least) / (greatest - least) * WIDTH))] += 1
+    most = max(counts)
+    return "".join(BARS[-(-count * (len(BARS) - 1) // most)] for count in counts)

@@ -1,0 +1,35 @@
+"""`derive class`: a sheet, a key and solutions for each student of a class."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from derive.cli.asked import new_id_of, root_of
+from derive.cli.commands.building import Voice
+from derive.cli.running import internal
+from derive.cli.terminal import complain
+
+
+def make_class(arguments: argparse.Namespace) -> int:
+    from derive.building.classes import CLASS, STUDENTS, made_class, read_roster
+    from derive.building.files import shown_path
+    from derive.building.set_names import check_asked, set_folder
+
+    root, set_id = root_of(arguments), new_id_of(arguments.set)
+    check_asked(root, set_id)
+    students = read_roster(Path(arguments.roster))
+    voice = Voice(arguments.quiet, arguments.verbose)
+    report = made_class(
+        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, arguments.time_limit, voice.tell
+    )
+    voice.tell("")
+    complain([*report.warnings, *report.complaints])
+    for bug in report.bugs:
+        internal(str(bug), bug.trace)
+    outputs = shown_path(set_folder(root, set_id))
+    voice.say(
+        f"{set_id}: documents of {report.made} of {report.students} students made, the sheets in {outputs}/{STUDENTS}, "
+        f"solutions, keys and answers in {outputs}/{CLASS} ({report.seconds:.1f} s)"
+    )
+    return 1 if report.failed else 0

@@ -1,0 +1,58 @@
+"""`derive export`: a set of problems for a learning platform."""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+
+from derive.cli.asked import problem_id_of, root_of
+from derive.cli.output import check_output, deliver
+from derive.cli.running import waiting
+from derive.cli.terminal import complain
+
+SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "docx": "docx", "prairielearn": "zip"}
+
+
+def export(arguments: argparse.Namespace) -> int:
+    from derive.building.files import shown_path
+    from derive.building.set_names import set_folder
+    from derive.building.solution import rendered
+    from derive.building.workers import done, job_of
+    from derive.course.problem_set import path_of, problem_set
+    from derive.exporting.questions import questions_of
+
+    root, asked = root_of(arguments), problem_id_of(arguments.id)
+    set_id, _, name = asked.partition("/")
+    file = f"{name or set_id}-{arguments.format}.{SUFFIX[arguments.format]}"
+    output = arguments.output or str(set_folder(root, set_id) / file)
+    check_output(output, root)
+    heading = problem_set(root, set_id)
+    if name:
+        path_of(root, asked)
+    pages = []
+    for problem_id in [asked] if name else heading.problems:
+        with waiting(f"deriving {problem_id}"):
+            work = partial(rendered, root, problem_id, draws=True, only=("questions",))
+            pages.append(done(job_of(root, problem_id, work, arguments.time_limit)))
+    complain(warning for page in pages for warning in page.warnings)
+    questions = questions_of(pages)
+    if arguments.format in ("moodle", "stack"):
+        from derive.exporting.moodle import moodle_xml
+
+        content = moodle_xml(heading.course, heading.title, questions, arguments.format == "stack").encode()
+    elif arguments.format == "prairielearn":
+        from derive.exporting.prairielearn import prairielearn_package
+
+        content = prairielearn_package(set_id, heading.title, questions)
+    elif arguments.format == "docx":
+        from derive.exporting.word import word_document
+
+        content = word_document(heading.title, questions)
+    else:
+        from derive.exporting.qti import qti_package
+
+        content = qti_package(set_id, heading.title, questions)
+    deliver(content, output)
+    if output != "-":
+        print(f"wrote {shown_path(root / output)}: {sum(len(each.parts) for each in questions)} questions")
+    return 0

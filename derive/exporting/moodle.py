@@ -1,0 +1,160 @@
+"""Moodle XML: a category with one question for each part of each problem.
+
+With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima
+whether the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with
+several answers, a cloze question; the tolerance is what rounding to the printed figures can change. Any other part
+becomes an essay. The general feedback of each question is the worked solution.
+
+Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
+"""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from collections.abc import Sequence
+from xml.sax.saxutils import escape, quoteattr
+
+from derive.exporting.questions import Answer, Part, Question, with_files
+from derive.render.printing.tex_in_html import formula_html
+
+
+def moodle_xml(course: str, title: str, questions: Sequence[Question], stack: bool = False) -> str:
+    """Return the questions of a set as Moodle XML."""
+    category = _element("category", _text(f"$course$/top/{_path(course)}/{_path(title)}"))
+    made = [f'<question type="category">{category}</question>']
+    for question in questions:
+        made += [_question(question, part, stack) for part in question.parts]
+    return '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n' + "\n".join(made) + "\n</quiz>\n"
+
+
+def _path(name: str) -> str:
+    return name.replace("/", "//")  # a single slash would begin a category within the category
+
+
+def _question(question: Question, part: Part, stack: bool) -> str:
+    if stack and part.answers and all(answer.letters and answer.value is None for answer in part.answers):
+        return _typed("stack", question, part, _stack(part.answers), _inputs(part.answers))
+    if not part.is_numerical:
+        return _typed("essay", question, part, _ESSAY)
+    if len(part.answers) == 1:
+        return _typed("numerical", question, part, _numerical(part.answers[0]))
+    return _typed("cloze", question, part, "", _gaps(part.answers))
+
+
+_ESSAY = (
+    "<responseformat>editor</responseformat><responserequired>1</responserequired>"
+    "<responsefieldlines>15</responsefieldlines><attachments>3</attachments>"
+    "<attachmentsrequired>0</attachmentsrequired>"
+    '<graderinfo format="html"><text></text></graderinfo>'
+    '<responsetemplate format="html"><text></text></responsetemplate>'
+)
+
+
+def _typed(sort: str, question: Question, part: Part, more: str, gaps: str = "") -> str:
+    feedback = part.solution if part is not question.parts[-1] else f"{part.solution}\n{question.remarks}"
+    pieces = [
+        _element("name", _text(question.heading(part))),
+        _html("questiontext", "\n".join(filter(None, [question.statement, part.question, gaps])), question),
+        _html("generalfeedback", feedback, question),
+        "" if sort == "cloze" else f"<defaultgrade>{part.points or 1:g}</defaultgrade>",
+        "<penalty>0</penalty><hidden>0</hidden>",
+        more,
+    ]
+    return f'<question type="{sort}">\n' + "\n".join(filter(None, pieces)) + "\n</question>"
+
+
+def _numerical(answer: Answer) -> str:
+    unit = f"<unit><multiplier>1</multiplier><unit_name>{escape(answer.unit)}</unit_name></unit>" if answer.unit else ""
+    return (
+        '<answer fraction="100" format="moodle_auto_format">'
+        f"<text>{answer.value:.12g}</text><tolerance>{answer.tolerance:.12g}</tolerance>"
+        '<feedback format="html"><text></text></feedback></answer>'
+        f"{_element('units', unit) if unit else ''}"
+        f"<unitgradingtype>{1 if unit else 0}</unitgradingtype><unitpenalty>0.5</unitpenalty>"
+        f"<showunits>{0 if unit else 3}</showunits><unitsleft>0</unitsleft>"
+    )
+
+
+def _gaps(answers: Sequence[Answer]) -> str:
+    """Return a line with a gap for each answer, in the notation of cloze questions."""
+    return "\n".join(
+        f"<p>{formula_html(answer.symbol or answer.latex)} = "
+        f"{{1:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
+        for answer in answers
+    )
+
+
+def _inputs(answers: Sequence[Answer]) -> str:
+    """Return a line with a field of STACK for each answer."""
+    return "\n".join(
+        f"<p>{formula_html(answer.symbol or answer.key)} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
+        for number, answer in enumerate(answers, 1)
+    )
+
+
+def _stack(answers: Sequence[Answer]) -> str:
+    """Return the rest of a question of STACK: the right answers, the fields, and a comparison for each."""
+    numbered = list(enumerate(answers, 1))
+    variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
+    feedback = " ".join(f"[[feedback:prt{number}]]" for number, _ in numbered)
+    return "\n".join(
+        [
+            "<stackversion><text></text></stackversion>",
+            _element("questionvariables", _text(variables)),
+            f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
+            "<questionnote><text></text></questionnote>",
+            # the letters of a problem are real, and those of positive kinds positive
+            "<questionsimplify>1</questionsimplify><assumepositive>1</assumepositive><assumereal>1</assumereal>",
+            *(_input(number) for number, _ in numbered),
+            *(_comparison(number, len(numbered)) for number, _ in numbered),
+        ]
+    )
+
+
+def maxima(sympy: str) -> str:
+    """Return a formula of letters and common functions in the syntax of Maxima."""
+    return re.sub(r"\bpi\b", "%pi", sympy.replace("**", "^"))
+
+
+def _input(number: int) -> str:
+    return (
+        f"<input><name>ans{number}</name><type>algebraic</type><tans>ta{number}</tans><boxsize>30</boxsize>"
+        "<strictsyntax>0</strictsyntax><insertstars>1</insertstars><syntaxhint></syntaxhint>"
+        "<syntaxattribute>0</syntaxattribute><forbidwords></forbidwords><allowwords></allowwords>"
+        "<forbidfloat>0</forbidfloat><requirelowestterms>0</requirelowestterms><checkanswertype>0</checkanswertype>"
+        "<mustverify>1</mustverify><showvalidation>1</showvalidation><options></options></input>"
+    )
+
+
+def _comparison(number: int, count: int) -> str:
+    """Return a response tree with one node: is the student's formula algebraically equal to the right one?"""
+    results = "".join(
+        f"<{sort}scoremode>=</{sort}scoremode><{sort}score>{score}</{sort}score><{sort}penalty></{sort}penalty>"
+        f"<{sort}nextnode>-1</{sort}nextnode><{sort}answernote>prt{number}-1-{sort[0].upper()}</{sort}answernote>"
+        f'<{sort}feedback format="html"><text></text></{sort}feedback>'
+        for sort, score in (("true", 1), ("false", 0))
+    )
+    return (
+        f"<prt><name>prt{number}</name><value>{1 / count:.7f}</value><autosimplify>1</autosimplify>"
+        "<feedbackstyle>1</feedbackstyle><feedbackvariables><text></text></feedbackvariables>"
+        f"<node><name>0</name><answertest>AlgEquiv</answertest><sans>ans{number}</sans><tans>ta{number}</tans>"
+        f"<testoptions></testoptions><quiet>0</quiet>{results}</node></prt>"
+    )
+
+
+def _html(tag: str, html: str, question: Question) -> str:
+    shown, used = with_files(html, lambda name: f"@@PLUGINFILE@@/{name}", question.files)
+    files = "".join(
+        f'<file name={quoteattr(name)} path="/" encoding="base64">{b64encode(question.files[name]).decode()}</file>'
+        for name in used
+    )
+    return f'<{tag} format="html">{_text(shown)}{files}</{tag}>'
+
+
+def _text(text: str) -> str:
+    return f"<text>{escape(text)}</text>"
+
+
+def _element(tag: str, inside: str) -> str:
+    return f"<{tag}>{inside}</{tag}>"

@@ -1,0 +1,91 @@
+"""Questions of PrairieLearn: a folder for each part, with `info.json`, `question.html` and `server.py`, in a ZIP file.
+
+A number has a field that compares significant figures. A formula in letters has a field for symbolic input if its
+letters are plain names; then PrairieLearn itself decides whether the student's formula is equal. Any other answer is a
+text that a person grades.
+
+Source of the format: PrairieLearn documentation, "Question configuration" and "Elements".
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import uuid
+import zipfile
+from collections.abc import Sequence
+from html import escape
+
+from derive.exporting.questions import Answer, Part, Question, with_files
+from derive.render.printing.tex_in_html import formula_html
+
+
+def prairielearn_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes:
+    """Return the questions of a set as the bytes of a ZIP file; equal input gives equal bytes."""
+    files: dict[str, bytes] = {}
+    for question in questions:
+        for part in question.parts:
+            files |= _folder(set_id, title, question, part)
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as package:
+        for name in sorted(files):
+            package.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED)
+    return made.getvalue()
+
+
+def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str, bytes]:
+    name = f"questions/{set_id}/{question.name}{f'-{part.label}' if part.label else ''}"
+    address = "{{ options.client_files_question_url }}/"
+    texts = _without_tags(f"{question.statement}\n{part.question}"), _without_tags(part.solution)
+    (asked, used), (solution, also) = (with_files(each, lambda file: address + file, question.files) for each in texts)
+    fields = [_field(number, answer) for number, answer in enumerate(part.answers, 1)]
+    graded = all(fields) and bool(fields)
+    shown = "\n".join(each for each in fields if each) if graded else '<pl-rich-text-editor file-name="answer.html"/>'
+    page = (
+        f"<pl-question-panel>\n{asked}\n</pl-question-panel>\n{shown}\n"
+        f"<pl-answer-panel>\n{solution}\n</pl-answer-panel>\n"
+    )
+    info = {
+        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"derive:{set_id}/{question.name}/{part.label}")),
+        "title": question.heading(part),
+        "topic": title,
+        "tags": ["derive"],
+        "type": "v3",
+        "singleVariant": True,
+        **({} if graded else {"gradingMethod": "Manual"}),
+    }
+    files = {
+        "info.json": json.dumps(info, ensure_ascii=False, indent=2) + "\n",
+        "question.html": page,
+        "server.py": _server(part.answers if graded else ()),
+    }
+    drawings = {f"clientFilesQuestion/{each}": question.files[each] for each in dict.fromkeys([*used, *also])}
+    contents = {**{file: text.encode() for file, text in files.items()}, **drawings}
+    return {f"{name}/{file}": content for file, content in contents.items()}
+
+
+def _without_tags(html: str) -> str:
+    """Return text in which no braces of TeX are tags of Mustache: `{{` becomes `{ {`."""
+    return re.sub(r"\}(?=\})", "} ", re.sub(r"\{(?=\{)", "{ ", html))
+
+
+def _field(number: int, answer: Answer) -> str:
+    """Return the field for an answer; empty if PrairieLearn cannot compare the answer."""
+    label = f"<p>{_without_tags(formula_html(answer.symbol or answer.key))} =</p>"
+    if answer.value is not None:
+        unit = f' suffix="{escape(answer.unit)}"' if answer.unit else ""
+        figures = answer.figures or 4
+        return f'{label}\n<pl-number-input answers-name="answer{number}" comparison="sigfig" digits="{figures}"{unit}/>'
+    if (letters := answer.letters) is None:
+        return ""
+    return f'{label}\n<pl-symbolic-input answers-name="answer{number}" variables="{", ".join(sorted(letters))}"/>'
+
+
+def _server(answers: Sequence[Answer]) -> str:
+    lines = [
+        f'    data["correct_answers"]["answer{number}"] = '
+        f"{answer.value if answer.value is not None else json.dumps(answer.sympy)}"
+        for number, answer in enumerate(answers, 1)
+    ]
+    return "def generate(data):\n" + ("\n".join(lines) or "    pass") + "\n"

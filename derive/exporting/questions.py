@@ -1,0 +1,130 @@
+"""The questions of a set, as every export needs them: from the format `questions` of each problem, and its drawings."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from derive.render.printing.tex_in_html import IMAGE
+from derive.render.rendered import Rendered
+
+# Functions in formulas that learning platforms compare.
+FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt"}
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One answer of a part.
+
+    sympy    the formula in plain SymPy text
+    latex    the formula in TeX
+    value    the number, or None; `unit` is its unit, and `figures` the number of its significant figures
+    """
+
+    key: str
+    symbol: str
+    sympy: str
+    latex: str
+    value: float | None
+    unit: str
+    figures: int | None
+
+    @property
+    def tolerance(self) -> float:
+        """Half a unit of the last printed figure: what rounding to these figures can change."""
+        if self.value is None or not self.value:
+            return 0.0
+        exponent = f"{self.value:.{(self.figures or 4) - 1}e}".partition("e")[2]
+        return 0.5 * 10.0 ** (int(exponent) - (self.figures or 4) + 1)
+
+    @property
+    def letters(self) -> set[str] | None:
+        """The letters of a formula; None if it has anything but letters, numbers and common functions."""
+        names = set(_NAME.findall(self.sympy))
+        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
+            return None
+        letters = names - FUNCTIONS - {"pi"}
+        called = {name for name in letters if re.search(rf"\b{name}\(", self.sympy)}
+        return None if called or not letters else letters
+
+
+@dataclass(frozen=True)
+class Part:
+    """A question with its answers; the texts are HTML with formulas in TeX between `\\\\(` and `\\\\)`."""
+
+    label: str
+    points: float | None
+    question: str
+    solution: str
+    answers: tuple[Answer, ...]
+
+    @property
+    def is_numerical(self) -> bool:
+        return bool(self.answers) and all(isinstance(answer.value, float) for answer in self.answers)
+
+
+@dataclass(frozen=True)
+class Question:
+    """A problem: its statement, remarks and parts, and the files of its drawings by their names."""
+
+    id: str
+    number: int
+    title: str
+    statement: str
+    remarks: str
+    parts: tuple[Part, ...]
+    files: dict[str, bytes]
+
+    @property
+    def name(self) -> str:
+        return self.id.rpartition("/")[2]
+
+    def heading(self, part: Part) -> str:
+        return f"{self.number}{f' ({part.label})' if part.label else ''} {self.title}"
+
+
+def questions_of(problems: Sequence[Rendered]) -> list[Question]:
+    """Return the questions of problems that were printed in the format `questions`."""
+    return [_question(number, problem) for number, problem in enumerate(problems, 1)]
+
+
+def _question(number: int, problem: Rendered) -> Question:
+    told = json.loads(problem.texts["questions"])
+    files = {name: content for name, content in problem.files if name.endswith(".svg")}
+    parts = tuple(
+        Part(
+            part["label"],
+            part["points"],
+            part["question"],
+            part["solution"],
+            tuple(_answer(each) for each in part["answers"]),
+        )
+        for part in told["parts"]
+    )
+    return Question(problem.id, number, problem.title, told["statement"], told["remarks"], parts, files)
+
+
+def _answer(told: dict[str, Any]) -> Answer:
+    number = told["number"] or {}
+    value = number.get("value")
+    return Answer(
+        told["key"],
+        told["symbol"],
+        told["sympy"],
+        told["latex"],
+        float(value) if isinstance(value, int | float) else None,
+        number.get("unit", told["unit"]) or "",
+        number.get("figures"),
+    )
+
+
+def with_files(html: str, address: Callable[[str], str], files: dict[str, bytes]) -> tuple[str, list[str]]:
+    """Return the text with an address for each of its files, and the names of these files."""
+    used = [name for name in files if f"{IMAGE}{name}" in html]
+    for name in used:
+        html = html.replace(f"{IMAGE}{name}", address(name))
+    return html, used

@@ -1,0 +1,91 @@
+"""The pieces of a page as plain HTML with formulas in TeX between `\\(` and `\\)`, for learning platforms.
+
+These platforms keep only simple tags, and show formulas with MathJax, which reads TeX.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from derive.course.placement import STATEMENT
+from derive.page.tree import Display, Illustration, PartPage
+from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, ProblemRef, Ref, Text, UnitMark
+from derive.render.notation.latex import dimension_latex, latex, unit_latex
+from derive.render.printing.amsmath import aligned, display_rows
+from derive.render.printing.lines import TEXT_WIDTH
+from derive.render.printing.markdown_page import MarkdownPage
+from derive.render.printing.text_page import inline_text
+
+IMAGE = "@@FILE@@/"  # stands for the address of a file, which the platform inserts
+
+
+class TexInHtml(MarkdownPage):
+    """A document as HTML; a drawing is an image whose file the platform stores."""
+
+    def statement(self) -> str:
+        """Return the statement with its drawings."""
+        drawings = (self.drawing(each) for each in self.document.illustrations if each.at == STATEMENT)
+        return "\n".join([self.paragraph(self.document.statement), *drawings])
+
+    def question(self, part: PartPage) -> str:
+        """Return the question of a part."""
+        return self.paragraph(part.ask)
+
+    def solution(self, part: PartPage) -> str:
+        """Return the solution of a part."""
+        return self._joined(self._blocks(part.blocks))
+
+    def remarks(self) -> str:
+        """Return the strategy and the note; empty if there are none."""
+        texts = ((self.words.labels[name], getattr(self.document, name)) for name in ("strategy", "note"))
+        return "\n".join(f"<p><b>{escape(label)}</b></p>\n{self.paragraph(text)}" for label, text in texts if text)
+
+    def _joined(self, pieces: Iterable[str | Illustration]) -> str:
+        return "\n".join(piece if isinstance(piece, str) else self.drawing(piece) for piece in pieces)
+
+    def drawing(self, drawing: Illustration) -> str:
+        alt = escape(inline_text(drawing.alt, self.notation, self.document.numbers))
+        image = f'<p><img src="{IMAGE}{drawing.stem}.svg" alt="{alt}"></p>'
+        return "\n".join(filter(None, [image, self.caption(drawing)]))
+
+    def caption(self, drawing: Illustration) -> str:
+        if drawing.number is None:
+            return ""
+        label = escape(f"{self.words.labels['figure']} {drawing.number}.")
+        return f"<p><b>{label}</b> {self.inline(drawing.caption)}</p>"
+
+    def paragraph(self, nodes: Sequence[Inline]) -> str:
+        return f"<p>{self.inline(nodes).strip()}</p>"
+
+    def _node(self, node: Inline) -> str:
+        match node:
+            case NewParagraph():
+                return "</p>\n<p>"
+            case Text(text):
+                return escape(text, quote=False)
+            case Math(expr):
+                return formula_html(latex(self.notation.result(expr), inline=True))
+            case DimensionMark(dimension):
+                return formula_html(dimension_latex(dimension))
+            case UnitMark(text):
+                return formula_html(unit_latex(text))
+            case Ref(key):
+                return f"({self.document.numbers[key]})"
+            case ProblemRef(_, text):
+                return escape(text, quote=False)
+        raise TypeError(f"nothing prints {type(node).__name__}")
+
+    def _display(self, display: Display) -> str:
+        rows = display_rows(display, self.notation, TEXT_WIDTH, self._ending)
+        return rf"<p>\[{_for_mathjax(aligned(rows))}\]</p>"
+
+
+def formula_html(tex: str) -> str:
+    """Return a formula in TeX for a line of HTML."""
+    return rf"\({_for_mathjax(tex)}\)"
+
+
+def _for_mathjax(tex: str) -> str:
+    """Return a formula with commands of MathJax only, and without characters that HTML reads as tags."""
+    return escape(" ".join(tex.replace(r"\bm", r"\boldsymbol").split()), quote=False)

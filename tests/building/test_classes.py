@@ -1,0 +1,114 @@
+"""The documents of a class: each student's own numbers, what is kept, and what students never see."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import pytest
+from pypdf import PdfReader
+
+from derive.building import classes
+from derive.building.classes import Student, code_of, made_class, plain, read_roster
+from derive.errors import Rejected
+from tests.course.test_variants import bead
+
+NAMES = ("Ada Lovelace", "Emmy Noether")
+
+
+def roster(folder: Path, text: str) -> Path:
+    file = folder / "students.csv"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "name,code\nAda Lovelace,A1\nEmmy Noether,E2\n",
+        "\ufeffcode;name\r\nA1;Ada Lovelace\r\nE2;Emmy  Noether\r\n",
+        'Code,Name,group\nA1,"Ada Lovelace",x\nE2, Emmy Noether ,y\n',
+    ],
+)
+def test_a_roster_of_any_spreadsheet_is_read(tmp_path: Path, text: str) -> None:
+    assert read_roster(roster(tmp_path, text)) == (Student("Ada Lovelace", "A1"), Student("Emmy Noether", "E2"))
+
+
+def test_without_codes_the_name_gives_the_code(tmp_path: Path) -> None:
+    students = read_roster(roster(tmp_path, "name\nAda\nEmmy\n"))
+    assert [each.code for each in students] == [code_of("Ada"), code_of("Emmy")]
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("student\nAda\n", [1]),
+        ("", [1]),
+        ("name\n", [1]),
+        ("name\nAda\n\nAda\n", [4]),
+        ("name,code\nAda,A1\nEmmy,a1\n,C\nLise,../x\n", [3, 4, 5]),
+    ],
+)
+def test_all_errors_of_a_roster_are_reported(tmp_path: Path, text: str, lines: list[int]) -> None:
+    with pytest.raises(Rejected) as caught:
+        read_roster(roster(tmp_path, text))
+    assert [each.place.line for each in caught.value.complaints if each.place] == lines
+
+
+def test_a_roster_that_is_missing_or_not_text_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "binary.csv").write_bytes(b"\xff\xfe\x00")
+    for name in ("none.csv", "binary.csv", "."):
+        with pytest.raises(Rejected):
+            read_roster(tmp_path / name)
+
+
+def text_of(pdf: Path) -> str:
+    return " ".join(page.extract_text() for page in PdfReader(pdf).pages)
+
+
+def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bead(tmp_path, "{b: [10 cm, 16 cm, 27 cm, 33 cm, 48 cm, 54 cm]}")
+    students = [Student(name, code) for name, code in zip(NAMES, ("A1", "E2"), strict=True)]
+    report = made_class(tmp_path, "week1", students, seed="3", jobs=1)
+    assert (report.made, report.complaints, report.bugs) == (2, [], [])
+    build = tmp_path / "build" / "week1"
+    with (build / "class" / "answers.csv").open() as file:
+        rows = {row["student"]: row for row in csv.DictReader(file)}
+    for student in students:
+        sheet, solutions = (
+            text_of(build / "students" / f"{student.code}.pdf"),
+            text_of(build / "class" / f"{student.code}-solutions.pdf"),
+        )
+        page = (build / "students" / f"{student.code}.html").read_text()
+        (length,) = re.findall(r"=\s*(\d+)\s*cm", sheet)
+        value = rows[student.code]["value"]
+        assert float(value) == pytest.approx((9.81 / (int(length) / 100)) ** 0.5, rel=1e-3)
+        assert student.name in sheet and student.name in page and value in solutions
+        assert value not in sheet and value not in page
+        assert (build / "class" / f"{student.code}-key.pdf").exists()
+    assert {file.suffix for file in (build / "students").iterdir()} == {".pdf", ".html"}
+
+    monkeypatch.setattr(classes, "_documents_of", lambda *_: pytest.fail("nothing changed"))
+    assert made_class(tmp_path, "week1", students, seed="3", jobs=1).made == 0
+    made_class(tmp_path, "week1", students[:1], seed="3", jobs=1)
+    assert not list((build / "students").glob("E2*")) and not list((build / "class").glob("E2*"))
+    assert list((build / "students").glob("A1*"))
+
+
+def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
+    bead(tmp_path, "{b: [20 cm, 3 s]}")
+    students = [Student(f"Student {number}", f"S{number}") for number in range(4)]
+    report = made_class(tmp_path, "week1", students, jobs=1)
+    assert report.failed and 0 < report.made < 4
+    assert any(note.startswith("in the variant of Student ") for note in report.complaints[0].notes)
+    assert len(list((tmp_path / "build" / "week1" / "students").glob("*.pdf"))) == report.made
+
+
+@pytest.mark.parametrize(
+    ("cell", "shown"), [("=1+1", "'=1+1"), ("-2.5", "-2.5"), ("-a", "'-a"), ("@x", "'@x"), ("a", "a"), ("", "")]
+)
+def test_no_cell_of_the_table_is_a_formula_of_a_spreadsheet(cell: str, shown: str) -> None:
+    assert plain(cell) == shown

@@ -1,0 +1,92 @@
+"""`course.yaml`: what all sets of a course share, and what a set says differently."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from derive.course.names import EvidenceShown, Paper
+from derive.course.problem_set import PNG, ProblemSet, problem_set
+from derive.errors import Rejected
+
+
+def read(root: Path, of_course: str | None, of_set: str) -> ProblemSet:
+    folder = root / "problems" / "week1"
+    folder.mkdir(parents=True)
+    (folder / "bead.yaml").write_text("title: A bead\n")
+    (folder / "set.yaml").write_text(f"title: Week 1\n{of_set}problems: [bead]\n")
+    if of_course is not None:
+        (root / "course.yaml").write_text(of_course)
+    return problem_set(root, "week1")
+
+
+def test_a_set_has_the_keys_of_its_course(tmp_path: Path) -> None:
+    found = read(
+        tmp_path, "course: Mechanics\ninstitution: Physics\nterm: Fall\npaper: a4\nevidence: end\n", "date: 3 May\n"
+    )
+    assert found.facts == ["Mechanics", "Physics", "Fall", "3 May"]
+    assert (found.paper, found.evidence) == (Paper.A4, EvidenceShown.END)
+    assert found.inputs == ("problems/week1/set.yaml", "course.yaml"), "an edit of the course makes the pages old"
+
+
+def test_a_key_of_the_set_overrides_the_key_of_its_course(tmp_path: Path) -> None:
+    found = read(tmp_path, "course: Mechanics\npaper: a4\n", "course: Waves\npaper: letter\n")
+    assert (found.course, found.paper) == ("Waves", Paper.LETTER)
+
+
+def test_without_the_file_of_a_course_the_set_names_the_course(tmp_path: Path) -> None:
+    found = read(tmp_path, None, "course: Waves\n")
+    assert (found.course, found.inputs) == ("Waves", ("problems/week1/set.yaml",))
+
+
+@pytest.mark.parametrize(
+    ("of_course", "of_set", "codes"),
+    [
+        (None, "", [("missing-key", "problems/week1/set.yaml")]),
+        ("term: Fall\n", "", [("missing-key", "problems/week1/set.yaml")]),
+        ("course: [\n", "", [("yaml", "course.yaml")]),
+        ("- course\n", "", [("wrong-type", "course.yaml")]),
+        (
+            "course: A\npaper: a5\ncourze: B\n",
+            "paper: b\n",
+            [("wrong-type", "course.yaml"), ("unknown-key", "course.yaml"), ("wrong-type", "problems/week1/set.yaml")],
+        ),
+    ],
+)
+def test_all_errors_of_both_files_are_reported(
+    tmp_path: Path, of_course: str | None, of_set: str, codes: list[tuple[str, str]]
+) -> None:
+    with pytest.raises(Rejected) as caught:
+        read(tmp_path, of_course, of_set)
+    assert sorted((each.code, each.place.path) for each in caught.value.complaints if each.place) == sorted(codes)
+
+
+def test_a_logo_is_a_png_file_of_the_course(tmp_path: Path) -> None:
+    (tmp_path / "logo.png").write_bytes(PNG + b"more")
+    found = read(tmp_path, "course: A\nlogo: logo.png\n", "")
+    assert found.logo == PNG + b"more"
+    assert "logo.png" in found.inputs
+
+
+@pytest.mark.parametrize(
+    ("path", "content", "message"),
+    [
+        ("none.png", PNG, "the course has no file `none.png`"),
+        ("../secret.png", PNG, "the course has no file"),
+        ("linked.png", PNG, "the course has no file"),
+        ("logo.png", b"%PDF-1.5", "is not a PNG file"),
+        ("logo.png", PNG + bytes(2_000_000), "larger than 2 MB"),
+        ("problems", PNG, "the course has no file"),
+    ],
+)
+def test_any_other_logo_is_an_error_at_its_line(tmp_path: Path, path: str, content: bytes, message: str) -> None:
+    course = tmp_path / "course"
+    course.mkdir()
+    (course / "logo.png").write_bytes(content)
+    (tmp_path / "secret.png").write_bytes(PNG)
+    (course / "linked.png").symlink_to(tmp_path / "secret.png")
+    with pytest.raises(Rejected, match=message) as caught:
+        read(course, f"course: A\nlogo: {path}\n", "")
+    (complaint,) = caught.value.complaints
+    assert complaint.place and (complaint.place.path, complaint.place.line) == ("course.yaml", 2)

@@ -1,0 +1,260 @@
+"""Sets for learning platforms: the numbers and tolerances are those of the page, and the files are well-formed."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+import zipfile
+from base64 import b64decode
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from derive.building.solution import rendered
+from derive.errors import BuildFailed, Misused
+from derive.exporting.moodle import moodle_xml
+from derive.exporting.prairielearn import prairielearn_package
+from derive.exporting.qti import PACKAGE, QTI, qti_package
+from derive.exporting.questions import Answer, Question, questions_of
+from derive.exporting.word import word_document
+
+PROBLEM = """\
+title: A bead & a <wire>
+solve: system
+symbols: {m: mass, g: acceleration, b: length}
+values: {b: 20 cm, g: 9.81 m/s^2}
+given:
+  coordinates: {x: length}
+  particles:
+    bead: {mass: m, at: [x, x**2/(2*b)]}
+  gravity: g
+statement: A bead of mass <<m>> on a wire, bent to $y = x^2/(2b)$ with <<b>> < 1 m & more; it falls with <<g>>.
+parts:
+  - ask: Find the equation of motion.
+    answer: equations_of_motion
+    points: 2
+  - ask: Find the angular frequency.
+    answer: frequency
+    points: 3
+    form: {unit: rad/s, figures: 4}
+  - ask: Find the frequency and the period.
+    answer: [frequency, period]
+    points: 4
+    form: {period: {unit: s, figures: 2}, frequency: {unit: rad/s, figures: 4}}
+"""
+
+
+@pytest.fixture(scope="module")
+def questions(tmp_path_factory: pytest.TempPathFactory) -> list[Question]:
+    root = tmp_path_factory.mktemp("course")
+    folder = root / "problems" / "week1"
+    folder.mkdir(parents=True)
+    (folder / "bead.yaml").write_text(PROBLEM)
+    (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    return questions_of([rendered(root, "week1/bead", draws=True, only=("questions",))])
+
+
+def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Question]) -> None:
+    quiz = ElementTree.fromstring(moodle_xml("Physics/A", "Week <1>", questions).encode())
+    category, *asked = quiz
+    assert category.findtext("category/text") == "$course$/top/Physics//A/Week <1>"
+    assert [each.get("type") for each in asked] == ["essay", "numerical", "cloze"]
+    assert asked[0].findtext("name/text") == "1 (a) A bead & a <wire>"
+    assert [each.findtext("defaultgrade") for each in asked] == ["2", "3", None]
+    answer = asked[1].find("answer")
+    assert answer is not None
+    assert (answer.get("fraction"), answer.findtext("text"), answer.findtext("tolerance")) == ("100", "7.004", "0.0005")
+    assert asked[1].findtext("units/unit/unit_name") == "rad/s"
+    cloze = asked[2].findtext("questiontext/text") or ""
+    assert "{1:NUMERICAL:=7.004:0.0005} rad/s" in cloze
+    assert "{1:NUMERICAL:=0.9:0.005} s" in cloze
+    for each in asked:
+        text = each.findtext("questiontext/text") or ""
+        assert "&lt; 1\xa0m &amp; more" in text, "the text is HTML"
+        assert r"\(" in text
+        assert r"\[" in (each.findtext("generalfeedback/text") or "") or each is asked[2]
+        (file,) = each.findall("questiontext/file")
+        assert f'src="@@PLUGINFILE@@/{file.get("name")}"' in text
+        assert b64decode(file.text or "") == questions[0].files[file.get("name") or ""]
+
+
+def test_the_numerical_answer_is_that_of_the_formula(questions: list[Question]) -> None:
+    """sqrt(9.81/0.2) = 7.00357, and 2 pi/7.00357 = 0.89714, worked out by hand."""
+    values = {(part.label, each.key): each.value for part in questions[0].parts for each in part.answers}
+    assert values["b", "frequency"] == 7.004
+    assert values["c", "period"] == 0.9
+
+
+@pytest.mark.parametrize(
+    ("value", "figures", "tolerance"),
+    [
+        (7.0, 3, 0.005),
+        (0.9, 2, 0.005),
+        (123.4, 4, 0.05),
+        (-123.4, 4, 0.05),
+        (1e-5, 3, 0.5e-7),
+        (12300.0, 3, 50.0),
+        (0.0, 3, 0.0),
+    ],
+)
+def test_the_tolerance_is_half_a_unit_of_the_last_figure(value: float, figures: int, tolerance: float) -> None:
+    assert Answer("", "", "", "", value, "", figures).tolerance == pytest.approx(tolerance)
+
+
+def test_a_package_of_qti_is_complete(questions: list[Question]) -> None:
+    content = qti_package("week1", "Week <1>", questions)
+    assert content == qti_package("week1", "Week <1>", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    manifest = ElementTree.fromstring(files["imsmanifest.xml"])
+    listed = {each.get("href") for each in manifest.iter(f"{{{PACKAGE}}}file")}
+    assert listed == files.keys() - {"imsmanifest.xml"}
+    items = [ElementTree.fromstring(files[name]) for name in sorted(files) if name.startswith("Q")]
+    test = ElementTree.fromstring(files["test.xml"])
+    assert {each.get("href") for each in test.iter(f"{{{QTI}}}assessmentItemRef")} == {n for n in files if n[0] == "Q"}
+    fields = [len(list(item.iter(f"{{{QTI}}}textEntryInteraction"))) for item in items]
+    assert fields == [0, 1, 2]
+    for item, number in zip(items, fields, strict=True):
+        values = [each.text for each in item.iter(f"{{{QTI}}}value")]
+        equal = list(item.iter(f"{{{QTI}}}equal"))
+        assert len(equal) == number
+        for image in item.iter(f"{{{QTI}}}img"):
+            assert image.get("src") in files
+        if number == 2:
+            assert "7.004" in values and "0.9" in values
+            assert [each.get("tolerance") for each in equal] == ["0.0005 0.0005", "0.005 0.005"]
+            added = [each.text for each in item.iter(f"{{{QTI}}}baseValue") if each.get("baseType") == "float"]
+            assert added == ["2", "2"], "the four points are shared"
+
+
+def test_hostile_titles_stay_text(questions: list[Question]) -> None:
+    evil = [replace(questions[0], title=']]><script>"&amp;</name>')]
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", evil).encode())
+    assert not list(quiz.iter("script"))
+    with zipfile.ZipFile(io.BytesIO(qti_package("w", '"><x>', evil))) as package:
+        for name in package.namelist():
+            if name.endswith(".xml"):
+                assert not list(ElementTree.fromstring(package.read(name)).iter(f"{{{QTI}}}x"))
+
+
+def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    from derive.cli.options import main
+
+    folder = tmp_path / "problems" / "week1"
+    folder.mkdir(parents=True)
+    (folder / "bead.yaml").write_text(PROBLEM)
+    (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
+    assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
+    assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0
+    assert "<quiz>" in capfd.readouterr().out
+    assert main(["--root", str(tmp_path), "export", "week2"]) == 2
+
+
+def test_every_formula_and_drawing_arrives_in_a_document_of_word(questions: list[Question]) -> None:
+    content = word_document("Week <1>", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        text = package.read("word/document.xml").decode()
+        pictures = [name for name in package.namelist() if name.endswith(".png")]
+    (question,) = questions
+    html = [question.statement, question.remarks, *(part.question + part.solution for part in question.parts)]
+    displays, inline = (sum(each.count(sign) for each in html) for sign in (r"\[", r"\("))
+    assert displays > 5 and inline > 5
+    assert text.count("<m:oMathPara>") == displays
+    assert text.count("<m:oMath>") == displays + inline
+    assert text.count("<pic:pic") == len(pictures) == len(question.files) == 1
+    width = int(re.findall(r'<wp:extent cx="(\d+)"', text)[0]) / 12700  # in points
+    assert f'width="{width:.1f}' in question.files["bead-system.svg"].decode()[:200]
+    assert "Week &lt;1&gt;" in text
+    sheet = zipfile.ZipFile(io.BytesIO(word_document("Week 1", questions, solutions=False)))
+    assert "<m:oMathPara>" not in sheet.read("word/document.xml").decode()
+
+
+def test_a_formula_that_pandoc_cannot_read_is_an_error(questions: list[Question]) -> None:
+    wrong = replace(questions[0], statement=r"<p>\(\nosuchcommand{a\)</p>")
+    with pytest.raises(BuildFailed, match="nosuchcommand"):
+        word_document("Week 1", [wrong])
+
+
+def test_without_pandoc_the_error_says_what_to_install(
+    questions: list[Question], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setitem(sys.modules, "pypandoc", None)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(BuildFailed) as caught:
+        word_document("Week 1", questions)
+    assert "derive-mechanics[docx]" in (caught.value.complaints[0].help or "")
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    with pytest.raises(Misused) as missing:
+        word_document("Week 1", questions)
+    assert "derive-mechanics[docx]" in (missing.value.complaints[0].help or "")
+
+
+def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(questions: list[Question]) -> None:
+    content = prairielearn_package("week1", "Week 1", questions)
+    assert content == prairielearn_package("week1", "Week 1", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    folders = {name.split("/")[2] for name in files}
+    assert folders == {"bead-a", "bead-b", "bead-c"}
+    ids = set()
+    for folder in folders:
+        of = {name.split("/", 3)[3]: text for name, text in files.items() if name.split("/")[2] == folder}
+        assert {"info.json", "question.html", "server.py", "clientFilesQuestion/bead-system.svg"} == of.keys()
+        info, page = json.loads(of["info.json"]), of["question.html"].decode()
+        ids.add(info["uuid"])
+        tags = set(re.findall(r"\{\{[^}]*\}\}", page))
+        assert tags == {"{{ options.client_files_question_url }}"}, "no formula has a tag of Mustache"
+        data: dict[str, dict[str, object]] = {"correct_answers": {}}
+        names: dict[str, object] = {}
+        exec(compile(of["server.py"], folder, "exec"), names)  # noqa: S102  the file that was just written
+        names["generate"](data)  # type: ignore[operator]
+        asked = re.findall(r'answers-name="(\w+)"', page)
+        assert asked == list(data["correct_answers"])
+        assert ("gradingMethod" in info) == (folder == "bead-a") == ("pl-rich-text-editor" in page)
+        if folder == "bead-c":
+            assert data["correct_answers"] == {"answer1": 7.004, "answer2": 0.9}
+            assert 'digits="2" suffix="s"' in page
+    assert len(ids) == 3
+
+
+@pytest.mark.parametrize(
+    ("formula", "letters"),
+    [
+        ("sqrt(g/b)", {"g", "b"}),
+        ("2*pi*sqrt(b)/sqrt(g)", {"b", "g"}),
+        ("M*a**2*omega**2*sin(2*theta)/4", {"M", "a", "omega", "theta"}),
+        ("Eq(a, b)", None),
+        ("f(t)*a", None),
+        ("x.y__class__[0]", None),
+        ("3/4", None),
+    ],
+)
+def test_only_plain_formulas_have_a_field_for_symbols(formula: str, letters: set[str] | None) -> None:
+    assert Answer("", "", formula, "", None, "", None).letters == letters
+
+
+def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) -> None:
+    first, *_ = questions[0].parts
+    formulas = (
+        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None),
+        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None),
+    )
+    changed = replace(questions[0], parts=(replace(first, answers=formulas), *questions[0].parts))
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", [changed], stack=True).encode())
+    _, stack, *others = quiz
+    assert [each.get("type") for each in (stack, *others)] == ["stack", "essay", "numerical", "cloze"]
+    assert stack.findtext("questionvariables/text") == "ta1: sqrt(g/b);\nta2: 2*%pi*sqrt(b)/sqrt(g)^3;"
+    text = stack.findtext("questiontext/text") or ""
+    for number in (1, 2):
+        assert f"[[input:ans{number}]] [[validation:ans{number}]]" in text
+        assert f"[[feedback:prt{number}]]" in (stack.findtext("specificfeedback/text") or "")
+    assert [each.findtext("tans") for each in stack.findall("input")] == ["ta1", "ta2"]
+    trees = stack.findall("prt")
+    assert [each.findtext("node/answertest") for each in trees] == ["AlgEquiv"] * 2
+    assert sum(float(each.findtext("value") or 0) for each in trees) == pytest.approx(1)
+    assert [(each.findtext("node/truescore"), each.findtext("node/falsescore")) for each in trees] == [("1", "0")] * 2
