@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
@@ -171,19 +171,24 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries a surface that moves with coordinates, unless the surface is at rest in given axes.
+    """Require that a body carries a surface that moves with coordinates, on its own or with the axes in which it is at
+    rest.
 
-    The same is required if the contact has friction and the surface rotates with time.
+    The same is required if the contact has friction and the surface rotates with time, unless axes state this rotation.
     """
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
-    moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
-    if surface.of is None and moving and not isinstance(surface.moves, Axes):
+    axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()
+    moving = coordinates_in(ImmutableDenseMatrix([*axes, *surface.place.components, *turning, Integer(0)]))
+    if surface.of is None and moving:
         message = (
             f"the surface moves with {next(iter(moving))}, but no body carries it, "
             "so the contact force on the surface would act on nothing"
         )
-        raise Rejected(Complaint("which-body", message, help="name the body that carries the surface, `of: wedge`"))
+        help_line = "in place of `in`, name the body that carries the surface, `of: disc`" if axes else (
+            "name the body that carries the surface, `of: wedge`"
+        )
+        raise Rejected(Complaint("which-body", message, help=help_line))
     if rough and surface.of is None and any(depends_on_time(c) for c in turning):
         message = "the surface rotates, so the velocity of its material is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: plate`"))
@@ -365,17 +370,37 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
     if touch.surface.is_two_sided:
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
+    slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
+    slip = slip - dot(touch.normal, slip) * touch.normal  # the contact lasts, so no other component is left
+    is_free = direction is None and len(slip.components) == 3
+    along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
+    force = tuple(-mu * scalar(letter) * c for c in along.components)
+    by = touch.surface.of if touch.surface.of is not None else GROUND
+    return GivenForce(force, touch.at.components, touch.of, by)
+
+
+def _way_of_slip(slip: Location) -> Location:
+    """Return the unit vector along a velocity of slip in space; assume that this velocity is not zero."""
+    ways = [tidied(c) for c in slip.components]
+    square = tidied(Add(*(c**2 for c in ways)))
+    assume(Relation(square, "!=", ZERO))
+    return Location(tuple(c / sqrt(square) for c in ways))
+
+
+def _along_slip(touch: Contact, direction: Any, slip: Location) -> Location:
+    """Return the unit vector along a given direction; assume that the body slips in this direction."""
     if direction is None:
         message = "sliding friction needs the direction in which the body slips over the surface"
         raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
     along = _along(touch, direction)
-    slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
     speed = tidied(dot(along, slip))
+    if any(tidied(c) != 0 for c in (slip - speed * along).components):
+        message = "the coordinates also allow the body to slip across `direction`, so the friction may be oblique to it"
+        help_line = "leave `direction` out: the friction is then opposite to the velocity of slip"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     signed = Mul(*(factor for factor in Mul.make_args(speed) if not factor.is_positive))
     assume(Relation(signed, ">", ZERO))  # otherwise the friction has the opposite direction
-    force = tuple(-mu * scalar(letter) * c for c in along.components)
-    by = touch.surface.of if touch.surface.of is not None else GROUND
-    return GivenForce(force, touch.at.components, touch.of, by)
+    return along
 
 
 def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
