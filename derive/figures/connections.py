@@ -192,16 +192,19 @@ class Connections:
     def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:
         """Values of the Cartesian coordinates of a body that touches a circle: the body is drawn at a fixed angle from
         the vertical."""
-        body = touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
-        x, y = body.components
         circle: Any = touch.surface
+        if touch.of is None:  # a round body on a fixed corner
+            centre, body = touch.at, circle.of.hub
+        else:
+            centre, body = circle.centre, touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
+        x, y = body.components
         if not all(c in self.system.coordinates for c in (x, y)):
             return {}
-        distance = tidied(touch.gap - dot(touch.normal, body - circle.centre))
+        distance = tidied(touch.gap - dot(touch.normal, body - circle.centre)) if touch.of is not None else -circle.radius
         far = distance if circle.inside else -distance
         up = -1 if circle.inside else 1
         along = Location((far * sin(ROUND), up * far * cos(ROUND)))
-        return dict(zip((x, y), (circle.centre + along).components, strict=True))
+        return dict(zip((x, y), (centre + along).components, strict=True))
 
     def _over_corners(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
         """Values of coordinates at which a rod lies over a fixed corner, with the corner at a third of the length of

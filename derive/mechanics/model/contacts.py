@@ -267,13 +267,15 @@ def _reject_normal(letter: str, touch: Contact) -> None:
 
 
 def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Part]:
-    ground = touch.surface.ground
-    if not isinstance(touch.of, PlacedBody):
+    rolls, ground = touch.of, touch.surface.ground
+    if touch.of is None and isinstance(touch.surface.of, PlacedBody):
+        rolls, ground = touch.surface.of, None  # a body whose surface touches a fixed corner
+    if not isinstance(rolls, PlacedBody):
         raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
     if touch.is_kept and rolling is True:
-        if not any(contact_velocity(touch.of, touch.at, ground)):
+        if not any(contact_velocity(rolls, touch.at, ground)):
             return []  # the coordinates already satisfy the condition of rolling
-        found = no_slip(touch.of, touch.at, ground)
+        found = no_slip(rolls, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so rolling needs a friction force with a symbol"
