@@ -130,9 +130,11 @@ def contact(
                surface that has the free side on its left. In space, the friction has two components along axes in the
                surface, such as F_x and F_y. If only one horizontal axis is in the surface, the component named after
                the other horizontal axis is perpendicular to the first axis
-    sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
+    sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
+               points. In space it is -mu N s/|s|, where s is not zero
     direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
-               this direction. With `rolling` or `static`, the friction on the body is positive in this direction
+               this direction; in space it may be left out, and must be if the coordinates allow other directions of
+               slip. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
