@@ -200,7 +200,9 @@ class Connections:
         x, y = body.components
         if not all(c in self.system.coordinates for c in (x, y)):
             return {}
-        distance = tidied(touch.gap - dot(touch.normal, body - circle.centre)) if touch.of is not None else -circle.radius
+        distance = (
+            tidied(touch.gap - dot(touch.normal, body - circle.centre)) if touch.of is not None else -circle.radius
+        )
         far = distance if circle.inside else -distance
         up = -1 if circle.inside else 1
         along = Location((far * sin(ROUND), up * far * cos(ROUND)))

@@ -187,8 +187,10 @@ def _check_carried(touch: Contact, rough: bool) -> None:
             f"the surface moves with {next(iter(moving))}, but no body carries it, "
             "so the contact force on the surface would act on nothing"
         )
-        help_line = "in place of `in`, name the body that carries the surface, `of: disc`" if axes else (
-            "name the body that carries the surface, `of: wedge`"
+        help_line = (
+            "in place of `in`, name the body that carries the surface, `of: disc`"
+            if axes
+            else ("name the body that carries the surface, `of: wedge`")
         )
         raise Rejected(Complaint("which-body", message, help=help_line))
     if rough and surface.of is None and any(depends_on_time(c) for c in turning):

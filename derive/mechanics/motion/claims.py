@@ -609,7 +609,10 @@ def spins_as_it_rolled(facts: Judged) -> bool:
     """Whether the angular velocity is constant, and satisfies the condition of rolling at the departure."""
     speed, turn, q = facts.quantities["speed"], facts.inputs["turn"], facts.inputs["coordinate"]
     held = dict(facts.inputs["held"])
-    rates = {turn: explicit(facts.result), rate(q): facts.inputs["sense"] * explicit(speed.value) / facts.inputs["speed_at"]}
+    rates = {
+        turn: explicit(facts.result),
+        rate(q): facts.inputs["sense"] * explicit(speed.value) / facts.inputs["speed_at"],
+    }
     left = explicit(facts.inputs["friction"]).subs({**held, **{rate(s): 0 for s in held}}).subs(rates)
     return not depends_on_time(explicit(facts.result)) and is_zero(tidied(left.subs(q, facts.inputs["place"])))
 

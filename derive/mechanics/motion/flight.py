@@ -74,7 +74,9 @@ class Flyer:
         """The radius of a round body whose centre of mass is its centre, 0 for a particle; None for other bodies."""
         if not isinstance(self.part, PlacedBody):
             return ZERO
-        is_round = has_radius(self.part) and is_zero(ImmutableDenseMatrix((self.part.hub - self.part.centre).components))
+        is_round = has_radius(self.part) and is_zero(
+            ImmutableDenseMatrix((self.part.hub - self.part.centre).components)
+        )
         return radius_of(self.part) if is_round else None
 
     @property
@@ -164,7 +166,9 @@ class Departure:
         others = [each for each in self.flyer.coordinates if each != self.q]
         found = solved_for_letter(explicit(self.kept.residual), others[0]) if len(others) == 1 else None
         if found is None or found.has(self.q):
-            message = f"`flight` needs a motion in which the constraint fixes all coordinates of the place except {self.q}"
+            message = (
+                f"`flight` needs a motion in which the constraint fixes all coordinates of the place except {self.q}"
+            )
             help_line = "use polar coordinates: the distance from the centre, and the angle"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
         return {others[0]: found}

@@ -184,7 +184,9 @@ def _friction_beside(force: Quantity) -> Constraint | None:
             continue
         if each.limit is not None:
             most = f"{each.limit.coefficient}*{each.limit.normal}"
-            message = f"`leaves_contact`: static friction is at most {most}, so the body slips before the force vanishes"
+            message = (
+                f"`leaves_contact`: static friction is at most {most}, so the body slips before the force vanishes"
+            )
             help_line = "ask where it slips with `slips`, or describe a contact that prevents slipping, `{rolling: F}`"
             raise Rejected(Complaint("contradiction", message, help=help_line))
         return each
