@@ -164,7 +164,8 @@ BALL = edited(
     ("coordinates: {r: positive length, theta: angle}", "coordinates: {r: positive length, theta: angle, phi: angle}"),
     ("g: acceleration}", "g: acceleration, a: length}"),
     ("  particles:\n    particle: {mass: m, at: [r*sin(theta), r*cos(theta)]}",
-     "  assume: a < R\n  bodies:\n    ball: {shape: ball, radius: a, mass: m, turned: -phi, centre: [r*sin(theta), r*cos(theta)]}"),
+     "  assume: a < R\n  bodies:\n    ball:\n"
+     "      {shape: ball, radius: a, mass: m, turned: -phi, centre: [r*sin(theta), r*cos(theta)]}"),
     ("{of: particle, on: sphere, normal: N}", "{of: ball, on: sphere, normal: N, friction: {rolling: F}}"),
     ("{put_in: energy_function, values: {r: R, r_dot: 0}}",
      "{put_in: energy_function, values: {r: R + a, r_dot: 0, phi_dot: (R + a)*theta_dot/a}}"),
@@ -188,8 +189,9 @@ BESIDE_A_CART = edited(
     ("coordinates: {r: positive length, theta: angle}", "coordinates: {r: positive length, theta: angle, x: length}"),
     ("g: acceleration}", "g: acceleration, M: mass, k: spring constant}"),
     ("at: [r*sin(theta), r*cos(theta)]}",
-     "at: [r*sin(theta), r*cos(theta)]}\n    cart: {mass: M, at: [x, -R]}\n  springs: {constant: k, from: [0, -R], to: cart}"),
-    ("{put_in: energy_function, values: {r: R, r_dot: 0}}", "{put_in: energy_function, values: {r: R, r_dot: 0, x: 0, x_dot: 0}}"),
+     "at: [r*sin(theta), r*cos(theta)]}\n    cart: {mass: M, at: [x, -R]}\n"
+     "  springs: {constant: k, from: [0, -R], to: cart}"),
+    ("energy_function, values: {r: R, r_dot: 0}}", "energy_function, values: {r: R, r_dot: 0, x: 0, x_dot: 0}}"),
     ("contacts: {of: particle, on: sphere, normal: N}",
      "contacts:\n    - {of: particle, on: sphere, normal: N}\n    - {of: cart, on: floor}"),
 )  # fmt: skip

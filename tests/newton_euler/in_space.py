@@ -138,7 +138,8 @@ def sliding_in_space() -> Iterator[Trial]:
             axes = {"floor": [], "turntable": ["table: [{z: Omega*t}]"], "free disc": ["table: [{z: chi}]"]}[ground]
             axes = [*axes, *(["body: [{z: phi}, {x: theta}, {z: psi}]"] if shape == "ball" else [])]
             bodies = ["one: {shape: ball, radius: a, mass: m, centre: [x, y, z], turned: body}"] * (shape == "ball")
-            bodies += ["disc: {shape: disc, radius: R, mass: M, centre: [0, 0, 0], turned: table}"] * (ground == "free disc")
+            if ground == "free disc":
+                bodies.append("disc: {shape: disc, radius: R, mass: M, centre: [0, 0, 0], turned: table}")
             parts = [f"bodies: {{{', '.join(bodies)}}}"] if bodies else []
             parts += ["particles: {one: {mass: m, at: [x, y, z]}}"] if shape == "particle" else []
             turns = [", phi: angle, theta: 'angle in (0, pi)', psi: angle"] * (shape == "ball")

@@ -154,8 +154,8 @@ CURVES: dict[str, tuple[str, Callable[[float, float], tuple[float, float, float]
 
 
 def on_a_curve() -> Iterator[Trial]:
-    """A particle on a curve y = f(x), which may be carried by another particle; smooth, sliding to the right, or held by
-    static friction."""
+    """A particle on a curve y = f(x), which may be carried by another particle; smooth, sliding to the right, or held
+    by static friction."""
     frictions = {
         "none": "none",
         "sliding": "{sliding: mu, direction: right}",

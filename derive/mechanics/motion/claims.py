@@ -27,7 +27,6 @@ from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import half_swing
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
-from derive.mechanics.model.dalembert import Load
 from derive.mechanics.motion.facts import Arrival, ByEnergy, InFlight, SignedRate, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers

@@ -1,4 +1,4 @@
-"""Free flight of a particle or a body that leaves a surface, or whose string goes slack: its motion, and where it ends."""
+"""Free flight of a particle or a body that leaves a surface, or whose string goes slack: its motion and its end."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from derive.algebra.ranges import sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.arguments import checked
-from derive.mechanics.in_results import Letter, PlaceIn, SurfaceNamed, in_results
 from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.in_results import Letter, PlaceIn, SurfaceNamed, in_results
 from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.facts import ForceOf
@@ -408,7 +408,8 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
     Errors: contact is not lost; the flight is in space, or another force acts during the flight; the other constraints
-    do not fix the place; the force was derived without conservation of energy; `at` is not a symbol, or its range does not contain the value at the departure.
+    do not fix the place; the force was derived without conservation of energy; `at` is not a symbol, or its range does
+    not contain the value at the departure.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
@@ -635,8 +636,9 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
 
 
 def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "landing") -> tuple[Quantity, ...]:
-    """Time, place and speed at which a free flight ends: on a plane, or on the circle that the particle left. For a round
-    body, the place and the speed are those of its centre.
+    """Time, place and speed at which a free flight ends: on a plane, or on the circle that the particle left.
+
+    For a round body, the place and the speed are those of its centre.
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
@@ -651,8 +653,8 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
-    Errors: the plane moves; a body that is not round flies; the particle may depart below the plane; a sign is unknown; the particle may meet the
-    circle before the plane; `on` is omitted, and the particle was not on a circle.
+    Errors: the plane moves; a body that is not round flies; the particle may depart below the plane; a sign is unknown;
+    the particle may meet the circle before the plane; `on` is omitted, and the particle was not on a circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)

@@ -82,8 +82,9 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back). For a body that rolls without slipping, the
     page states that it rolls until then.
-    Errors: static friction with a coefficient, which ends before the normal force vanishes; the force may have either sign, as on a rail; it is not positive at the start, or not linear in the unknown;
-    the motion may turn back before the place, or does not begin at `start`.
+    Errors: static friction with a coefficient, which ends before the normal force vanishes; the force may have either
+    sign, as on a rail; it is not positive at the start, or not linear in the unknown; the motion may turn back before
+    the place, or does not begin at `start`.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
