@@ -380,6 +380,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
     slip = slip - dot(touch.normal, slip) * touch.normal  # the contact lasts, so no other component is left
     is_free = direction is None and len(slip.components) == 3
     along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
+    _check_rubbing(touch, along, is_free)
     force = tuple(-mu * scalar(letter) * c for c in along.components)
     by = touch.surface.of if touch.surface.of is not None else GROUND
     return GivenForce(force, touch.at.components, touch.of, by)
@@ -389,8 +390,22 @@ def _way_of_slip(slip: Location) -> Location:
     """Return the unit vector along a velocity of slip in space; assume that this velocity is not zero."""
     ways = [tidied(c) for c in slip.components]
     square = tidied(Add(*(c**2 for c in ways)))
-    assume(Relation(square, "!=", ZERO))
+    unsure = (each for each in Mul.make_args(square) if not each.is_positive)
+    assume(Relation(Mul(*unsure), "!=", ZERO))
     return Location(tuple(c / sqrt(square) for c in ways))
+
+
+def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
+    """Check by the velocities of the particles in contact that they slip along a unit vector, which `_way_of_slip`
+    gives if `is_free`, and in its sense."""
+    rubbing = Location(tuple(velocity_of_particle(touch.of, touch.at, touch.surface.ground, touch.foot)))
+    rubbing = rubbing - dot(touch.normal, rubbing) * touch.normal
+    speed = tidied(dot(along, rubbing))
+    wrong = [rubbing - speed * along, dot(along, along) * along - along]
+    is_along = all(is_zero(tidied(c)) for each in wrong for c in each.components)
+    if not is_along or is_free and not is_zero(tidied(speed - sqrt(tidied(dot(rubbing, rubbing))))):
+        message = "the friction is not opposite to the relative velocity of the particles in contact"
+        raise Unverified(Complaint("unverified", message))
 
 
 def _along_slip(touch: Contact, direction: Any, slip: Location) -> Location:
