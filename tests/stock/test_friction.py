@@ -158,3 +158,26 @@ parts:
     numbers = {"alpha": 0.3, "mu_s": 0.4, "g": 9.8}
     wanted = 9.8 * (sin(0.3) + 0.4 * cos(0.3)) / (cos(0.3) - 0.4 * sin(0.3))
     assert float(found.subs({s: numbers[s.name] for s in found.free_symbols})) == pytest.approx(float(wanted))
+
+
+def test_a_block_may_lie_in_a_bowl_on_both_sides_of_the_lowest_point(tmp_path: Path) -> None:
+    """In the bowl y = x^2/(2 b) the block does not slip as long as |x| <= mu_s b."""
+    text = """\
+title: A block at rest in a bowl
+solve: system
+symbols: {m: mass, b: length, g: acceleration, mu_s: positive number}
+given:
+  coordinates: {x: length, y: length}
+  particles: {block: {mass: m, at: [x, y]}}
+  gravity: g
+  surfaces: {bowl: {y: x**2/(2*b)}}
+  contacts: {of: block, on: bowl, normal: N, friction: {static: mu_s, force: F, direction: right}}
+  results: {far: {slips: rest_F, for: x}}
+statement: A block lies in a bowl.
+parts:
+  - ask: How far from the lowest point?
+    answer: [equilibria, far]
+"""
+    steps = solved(tmp_path, text)
+    assert [str(steps[f"far_{i}"].value) for i in (1, 2)] == ["x <= b*mu_s", "x >= -b*mu_s"]
+    assert [dict(steps[f"far_{i}"].step.words)["sense"] for i in (1, 2)] == ["left", "right"]

@@ -291,8 +291,8 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
     x, y = next(each for each in constraint.forces if each.of is not None).direction
     side = facts.inputs["side"]
     across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
-    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
-    return is_level and sign_found(side * across) == wanted
+    has_height = sign_found(y) in (1, -1)  # otherwise the sentence states the horizontal component
+    return (facts.words["sense"] in ("up", "down")) == has_height and sign_found(side * across) == wanted
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
