@@ -35,7 +35,7 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact", "landing_surface"]
 
-ZERO, ONE = Integer(0), Integer(1)
+ZERO = Integer(0)
 Part: TypeAlias = Constraint | GivenForce | Quantity
 
 
@@ -46,9 +46,8 @@ class Contact(Connection):
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface that the body touches
-    gap      the distance between the body and the surface, or the height of a point above a curve, m
+    gap      the distance between the body and the surface, or the height of the body above a curve, m
     normal   the unit vector from the surface to the body
-    gradient the length of the gradient of `gap`: 1 for a distance
     """
 
     of: Any
@@ -56,7 +55,6 @@ class Contact(Connection):
     surface: Surface
     gap: Expr
     normal: Location
-    gradient: Expr = ONE
 
     @property
     def is_kept(self) -> bool:
@@ -81,7 +79,6 @@ class Contact(Connection):
             at=self.at.with_values(known),
             surface=self.surface.moved(known),
             gap=self.gap.subs(known),
-            gradient=self.gradient.subs(known),
             normal=self.normal.with_values(known),
         )
 
@@ -207,7 +204,7 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    enforcer, gradient = "rail" if touch.surface.is_two_sided else "surface", touch.gradient
+    enforcer, gradient = "rail" if touch.surface.is_two_sided else "surface", touch.surface.gradient(touch.at)
     pair = touch.pair(force, touch.normal)
     return Constraint(touch.gap, ZERO, force, forces=pair, enforcer=enforcer, gradient=gradient)
 
@@ -229,10 +226,10 @@ def _contact(of: Any, on: Any) -> Contact:
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
         place, gap, away = touching(of, surface)
-        found = Contact((), body, place, surface, gap, away)
     else:
-        found = Contact((), body, at, surface, surface.distance(at), surface.normal(at), surface.gradient(at))
-    _check(found, isinstance(of, PlacedBody))
+        place, gap, away = at, surface.distance(at), surface.normal(at)
+    found = Contact((), body, place, surface, gap, away)
+    _check(found)
     _check_reached(found)
     return found
 
@@ -246,21 +243,13 @@ def _check_reached(touch: Contact) -> None:
         raise Rejected(Complaint("no-contact", message, help="change the place of the body, its size or the surface"))
 
 
-def _check(touch: Contact, is_round: bool) -> None:
+def _check(touch: Contact) -> None:
     """Check that the normal is a unit vector, and that the place of contact and the body have the same distance from
-    the surface along this normal.
-
-    If a round body touches a curve, check that the foot of the normal is on the curve, and that the normal is there
-    that of the curve.
-    """
+    the surface along this normal."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
-    if is_round and isinstance(touch.surface, Curve):
-        foot = touch.at - touch.gap * touch.normal
-        apart = [touch.surface.distance(foot), *(touch.surface.normal(foot) - touch.normal).components]
-    else:
-        apart = [touch.surface.height(touch.at, touch.normal) - touch.gap / touch.gradient]
-    if not all(is_zero(tidied(each)) for each in apart):
+    gap = touch.gap / touch.surface.gradient(touch.at)
+    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - gap)):
         raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
 
 
@@ -444,5 +433,9 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     if touch.is_kept:
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
         help_line = f"give the body a coordinate for its distance from the surface, and the contact `normal: {letter}`"
+        if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
+            help_line = (
+                "only coordinates can keep a round body on a curve, so leave out the coefficient: `{rolling: F}`"
+            )
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return mu

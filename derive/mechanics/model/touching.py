@@ -26,9 +26,9 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
         message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
     if isinstance(surface, Curve):
-        foot, away, gap = _foot(placed, surface)
+        foot = _foot(placed, surface)
         _assume_that_it_fits(placed, surface, foot)
-        return foot + gap * away, gap, away
+        return foot, ZERO, surface.normal(foot)
     hub = placed.hub
     away = surface.normal(hub)
     if _has_rims(placed):
@@ -39,18 +39,15 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     return Location(tuple(tidied(c) for c in place.components)), tidied(gap), away
 
 
-def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Location, Expr]:
-    """Return the foot of the normal of a curve through the centre of a round body, this normal, and the distance of the
-    body from the curve along it. The horizontal distance of the foot from the origin of the curve must be a coordinate
-    of the system; the distance of the centre from the curve is one radius, or another coordinate."""
+def _foot(placed: PlacedBody, curve: Curve) -> Location:
+    """Return the place where a round body touches a curve: the centre of the body is on the normal of the curve at this
+    place, one radius from the curve. The horizontal distance of this place from the origin of the curve must be a
+    coordinate of the system."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
         foot = curve.point(q)
-        away = curve.normal(foot)
-        far = tidied(dot(placed.hub - foot, away))
-        is_known = is_zero(far - radius) or far in coordinates_in(far)
-        if is_known and is_zero(column_of(placed.hub - foot - far * away)):
-            return foot, away, tidied(far - radius)
+        if is_zero(column_of(placed.hub - foot - radius * curve.normal(foot))):
+            return foot
     message = f"the coordinates do not keep {placed.body.name} on the curve, so the point where it touches is unknown"
     help_line = (
         "let a coordinate x be the horizontal distance of the point of contact: the centre is at "
