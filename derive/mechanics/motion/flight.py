@@ -544,7 +544,7 @@ def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quant
     )
 
 
-SPIN = Rule(
+SPIN_IN_FLIGHT = Rule(
     "motion.spin_in_flight",
     source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.7",
     outcomes={"steady": claims.spins_as_it_rolled},
@@ -582,7 +582,7 @@ def _spin(departure: Departure, speed: Quantity, turn: Symbol, key: str) -> Quan
         return explicit(own.value).residual.xreplace(ended).xreplace({rate(q, 2): diff(found, TIME)}), ZERO
 
     return establish(
-        SPIN,
+        SPIN_IN_FLIGHT,
         turn,
         lambda V: factor * V,
         {"speed": speed},
@@ -687,7 +687,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
 
 def _both(flight: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
     found = [each for each in flight if each.fact(InFlight) is not None]
-    if len(found) != 2 or any(each not in found and each.step.rule != SPIN.name for each in flight):
+    if len(found) != 2 or any(each not in found and each.step.rule != SPIN_IN_FLIGHT.name for each in flight):
         names = ", ".join(f"`{each.key}`" for each in flight)
         message = f"`lands` and `passes` need both components of a flight, not {names}"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `flight`"))
