@@ -56,6 +56,7 @@ from derive.mechanics.model.joints import Dashpot, Motor, Pin
 from derive.mechanics.model.strings import Line, Pulley, Wire
 from derive.mechanics.model.surfaces import Circle, Curve, Plane, Surface, dot
 from derive.mechanics.model.system import Particle, System
+from derive.steps.signs import sign_known
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
@@ -66,6 +67,7 @@ WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_spa
 HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
+SPHERE = 2  # the radius of a fixed circle that a round body touches from outside, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
 TABLE = Rational(5, 2)  # the radius of a table in space, relative to `ball_size`
 BEYOND = Rational(6, 5)  # the radius of a table, relative to the greatest distance of a contact from its middle
@@ -115,6 +117,9 @@ class Connections:
         for circle in (each.surface for each in self.contacts if isinstance(each.surface, Circle)):
             if circle.inside and circle.radius.is_Symbol and self.size != ONE:
                 found[circle.radius] = BOWL * self.size
+            elif circle.of is None and circle.radius.is_Symbol and self.size.is_Symbol:
+                if sign_known(circle.radius - self.size) != -1:
+                    found[circle.radius] = SPHERE * self.size
         for each in self.contacts:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
@@ -192,16 +197,21 @@ class Connections:
     def _on_circle(self, touch: Contact) -> dict[Symbol, Any]:
         """Values of the Cartesian coordinates of a body that touches a circle: the body is drawn at a fixed angle from
         the vertical."""
-        body = touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
-        x, y = body.components
         circle: Any = touch.surface
+        if touch.of is None:  # a round body on a fixed corner
+            centre, body = touch.at, circle.of.hub
+        else:
+            centre, body = circle.centre, touch.of.hub if isinstance(touch.of, PlacedBody) else touch.of.at
+        x, y = body.components
         if not all(c in self.system.coordinates for c in (x, y)):
             return {}
-        distance = tidied(touch.gap - dot(touch.normal, body - circle.centre))
+        distance = (
+            tidied(touch.gap - dot(touch.normal, body - circle.centre)) if touch.of is not None else -circle.radius
+        )
         far = distance if circle.inside else -distance
         up = -1 if circle.inside else 1
         along = Location((far * sin(ROUND), up * far * cos(ROUND)))
-        return dict(zip((x, y), (circle.centre + along).components, strict=True))
+        return dict(zip((x, y), (centre + along).components, strict=True))
 
     def _over_corners(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
         """Values of coordinates at which a rod lies over a fixed corner, with the corner at a third of the length of

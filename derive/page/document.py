@@ -277,7 +277,7 @@ class _Writer:
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:
             return ()
-        units = {letter.symbol: unit_of_kind(letter.kind) for letter in self.problem.letters}
+        units = {letter.symbol: unit_of_kind(letter.kind) for letter in self.problem.letters if letter.kind}
         stated = [with_units(each, units) for each in between_bounds(assumed)]
         conditions = joined([(Math(each),) for each in stated], self.words.labels["and"])
         return (Text(" "), *filled(self.words.labels["assumed"], {"conditions": conditions}))

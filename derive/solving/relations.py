@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import Any, NamedTuple
 
 from sympy import Add, Expr, Integer, Mul, Pow, Symbol, expand, factor_list, sqrt
@@ -67,6 +68,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b
+    core = _without_sums_of_known_sign(core)
     chosen = [letter] if letter is not None else [s for s in sorted(core.free_symbols, key=str) if core.has(s**2)]
     if len(chosen) == 1 and (solved := _solved(core, chosen[0])) is not None:
         return solved
@@ -74,6 +76,19 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     if less == 0 or not (more == 0 or more.is_Add or less.is_Add):
         return Relation(spread(more), ">", spread(less))
     return Relation(_in_factors(core), ">", 0)
+
+
+def _without_sums_of_known_sign(core: Expr) -> Expr:
+    """Divide by the factors that are sums of known sign, such as (g R + v^2); a negative factor changes the sign."""
+    if length(core) > LONGEST_PRODUCT or not core.is_polynomial():
+        return core
+    number, factors = factor_list(core)
+    signs = {factor: sign_known(factor) for factor, _ in factors if isinstance(factor, Add)}
+    known = {factor for factor, sign in signs.items() if sign in (1, -1)}
+    if not known or len(known) == len(factors):
+        return core
+    turned = prod(sign**times for factor, times in factors if (sign := signs.get(factor)) in (1, -1))
+    return expand(turned * number * Mul(*(factor**times for factor, times in factors if factor not in known)))
 
 
 def _in_factors(core: Expr) -> Expr:

@@ -270,7 +270,7 @@ def flight(claim: Claim) -> Verdict | None:
         run = followed(trial, start, length, free=free)
         if run is None:
             continue
-        formulas = trial.formulas([fact.in_given_letters(claim.value), claim.blueprint.of.particles[0].place[i]])
+        formulas = trial.formulas([fact.in_given_letters(claim.value), fact.point.place[i]])
         for each in run.states:
             stated = float(formulas.at(replace(each, t=each.t - start.t))[0])
             found = float(formulas.at(each)[1])
@@ -284,10 +284,10 @@ def landing(claim: Claim) -> Verdict | None:
     """Test the time at which a free flight ends: the flight is simulated without constraints until the particle meets
     the surface."""
     fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
-    x, y = claim.blueprint.of.particles[0].place
+    x, y = fact.point.place
     if target is not None:
         (px, py), (nx, ny) = target.through.components, target.unit_normal.components
-        away = nx * (x - px) + ny * (y - py)
+        away = nx * (x - px) + ny * (y - py) - fact.radius
     else:
         (cx, cy), radius = fact.orbit.centre, fact.orbit.radius
         away = radius**2 - (x - cx) ** 2 - (y - cy) ** 2
@@ -310,12 +310,13 @@ def landing(claim: Claim) -> Verdict | None:
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """Yield trials, each with a state in which the force of the constraint vanishes and with the dynamics of the system
-    without constraints.
+    without this constraint and without the friction of the same contact.
 
     fact   the flight: the position where it begins, and the motion before it
     """
     q, end = fact.coordinate
-    free = Blueprint(replace(claim.blueprint.of, conditions=()))
+    conditions = tuple(each for each in claim.blueprint.of.conditions if each.multiplier not in fact.ended)
+    free = Blueprint(replace(claim.blueprint.of, conditions=conditions))
     for trial in claim.trials(FLIGHTS, also=fact.conditions):
         if any(abs(trial.value(each.residual)) < CLEAR for each in fact.conditions):
             continue

@@ -19,7 +19,7 @@ from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.surfaces import Curve
 from derive.steps.record import Run
 from tests.courses import ROOT
-from tests.newton_euler.in_space import in_space
+from tests.newton_euler.in_space import in_space, sliding_in_space
 from tests.newton_euler.laws import solved as newton
 from tests.newton_euler.random_systems import Trial, key_of, on_a_curve, on_a_surface, problem, with_strings
 from tests.stock.described import complaints, edited, loaded, messages, solved
@@ -29,7 +29,7 @@ def on_a_surface_called(name: str) -> Trial:
     return next(trial for trial in on_a_surface() if trial.name == name)
 
 
-TRIALS = [*on_a_surface(), *on_a_curve(), *with_strings(), *in_space()]
+TRIALS = [*on_a_surface(), *on_a_curve(), *with_strings(), *in_space(), *sliding_in_space()]
 STATES = 4
 
 

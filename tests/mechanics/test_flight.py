@@ -157,6 +157,89 @@ def test_the_flight_from_a_sphere_never_meets_the_sphere(tmp_path: Path) -> None
     assert found.step.outcome == "clear" and found.value.operator == ">"
 
 
+# --- bodies, and other parts of the system ---
+
+BALL = edited(
+    SPHERE,
+    ("coordinates: {r: positive length, theta: angle}", "coordinates: {r: positive length, theta: angle, phi: angle}"),
+    ("g: acceleration}", "g: acceleration, a: length}"),
+    ("  particles:\n    particle: {mass: m, at: [r*sin(theta), r*cos(theta)]}",
+     "  assume: a < R\n  bodies:\n    ball:\n"
+     "      {shape: ball, radius: a, mass: m, turned: -phi, centre: [r*sin(theta), r*cos(theta)]}"),
+    ("{of: particle, on: sphere, normal: N}", "{of: ball, on: sphere, normal: N, friction: {rolling: F}}"),
+    ("{put_in: energy_function, values: {r: R, r_dot: 0}}",
+     "{put_in: energy_function, values: {r: R + a, r_dot: 0, phi_dot: (R + a)*theta_dot/a}}"),
+    ("    slide: {put_in: motion_theta, values: {r: R, r_dot: 0}}\n", ""),
+    ("results: slide", "results: acceleration_theta"),
+    ("    rate: {square_root: speed}\n    v: {value: R*rate, symbol: v}\n", ""),
+    ("method: newton\n", ""),
+    ("answer: v\n", "answer: speed\n"),
+    (", rate: hidden, squared_speed: hidden}", "}"),
+)  # fmt: skip
+EDGE = edited(
+    BALL,
+    ("sphere: {centre: [0, 0], radius: R}\n    ", ""),
+    ("floor: {through: [0, -R]", "floor: {through: [0, -R]"),
+    ("{of: ball, on: sphere", "{of: [0, 0], on: ball"),
+    ("{r: R + a, r_dot: 0, phi_dot: (R + a)*theta_dot/a}", "{r: a, r_dot: 0, phi_dot: theta_dot}"),
+)
+CART = "  - {of: cart, on: floor}"
+BESIDE_A_CART = edited(
+    SPHERE,
+    ("coordinates: {r: positive length, theta: angle}", "coordinates: {r: positive length, theta: angle, x: length}"),
+    ("g: acceleration}", "g: acceleration, M: mass, k: spring constant}"),
+    ("at: [r*sin(theta), r*cos(theta)]}",
+     "at: [r*sin(theta), r*cos(theta)]}\n    cart: {mass: M, at: [x, -R]}\n"
+     "  springs: {constant: k, from: [0, -R], to: cart}"),
+    ("energy_function, values: {r: R, r_dot: 0}}", "energy_function, values: {r: R, r_dot: 0, x: 0, x_dot: 0}}"),
+    ("contacts: {of: particle, on: sphere, normal: N}",
+     "contacts:\n    - {of: particle, on: sphere, normal: N}\n    - {of: cart, on: floor}"),
+)  # fmt: skip
+
+
+def test_a_ball_that_rolls_off_a_sphere_lands_on_its_rim(tmp_path: Path) -> None:
+    """It leaves at cos(theta) = 10/17 with v^2 = 10 g (R + a)/17 and the angular velocity v/a; its centre ends at the
+    height a above the floor."""
+    steps = solved(tmp_path, BALL)
+    size, a = 1.25, 0.25
+    angle = acos(10 / 17)
+    v = sqrt(10 / 17 * size)
+    down, height = v * sin(angle), 10 / 17 * size - (a - 1)
+    time = -down + sqrt(down**2 + 2 * height)
+    assert numbers(steps["flight_spin"].value, a=a) == pytest.approx(v / a)
+    assert numbers(steps["landing_time"].value, a=a) == pytest.approx(time)
+    assert numbers(steps["landing_x"].value, a=a) == pytest.approx(size * sin(angle) + v * cos(angle) * time)
+    assert numbers(steps["landing_speed"].value, a=a) == pytest.approx(sqrt(v**2 + 2 * height))
+    assert {each.claim for each in steps["flight_spin"].step.evidence} >= {"rolling", "torque"}
+
+
+@pytest.mark.long
+def test_a_ball_that_rolls_over_an_edge_keeps_the_energy_of_its_rotation(tmp_path: Path) -> None:
+    """From rest: m g (h + ...) = m v^2/2 + (1/5) m v_1^2 on the floor, with v_1^2 = 10 g a/17."""
+    steps = solved(tmp_path, EDGE)
+    a = 0.25
+    fallen = 2 * (1 - a + a) - 2 / 5 * 10 / 17 * a
+    assert numbers(steps["landing_speed"].value, a=a) == pytest.approx(sqrt(fallen))
+
+
+def test_another_body_of_the_system_does_not_change_the_flight(tmp_path: Path) -> None:
+    steps = solved(tmp_path, BESIDE_A_CART)
+    assert numbers(steps["landing_x"].value) == pytest.approx(5 * (sqrt(5) + 4 * sqrt(2)) / 27)
+
+
+def test_a_body_with_a_coefficient_of_static_friction_slips_before_it_leaves(tmp_path: Path) -> None:
+    text = edited(
+        BALL, ("{rolling: F}", "{static: mu_s, force: F}"), ("a: length}", "a: length, mu_s: positive number}")
+    )
+    (found,) = complaints(tmp_path, text)
+    assert found.code == "contradiction" and "slips before the force vanishes" in found.message
+
+
+def test_a_spring_that_acts_during_the_flight_is_refused(tmp_path: Path) -> None:
+    found = complaints(tmp_path, edited(BESIDE_A_CART, ("from: [0, -R], to: cart", "from: [0, 0], to: particle")))
+    assert any("a force other than its weight acts on the particle" in each.message for each in found)
+
+
 # --- wrong laws ---
 
 
@@ -218,6 +301,29 @@ def test_a_wrong_law_is_refused(law: str, text: str, tmp_path: Path, monkeypatch
     LAWS[law](monkeypatch)
     with pytest.raises(DeriveError) as refused:
         described.solved(tmp_path, text)
+    assert {each.code for each in refused.value.complaints} & {"unverified", "contradicts-motion"}
+
+
+def spinning(factor: Any) -> Any:
+    def patch(monkeypatch: pytest.MonkeyPatch) -> None:
+        right = flight.Departure.held_rates.func
+        wrong = property(lambda self: {q: factor * each for q, each in right(self).items()})
+        monkeypatch.setattr(flight.Departure, "held_rates", wrong)
+
+    return patch
+
+
+def landing_on_its_centre(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flight, "_gap", lambda place, known, target: flight._distance(place, target))
+
+
+@pytest.mark.parametrize(
+    "law", [spinning(2), spinning(-1), landing_on_its_centre], ids=["twice", "backwards", "centre"]
+)
+def test_a_wrong_law_of_a_body_is_refused(law: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    law(monkeypatch)
+    with pytest.raises(DeriveError) as refused:
+        described.solved(tmp_path, BALL)
     assert {each.code for each in refused.value.complaints} & {"unverified", "contradicts-motion"}
 
 

@@ -119,3 +119,65 @@ def times(factor: float, u: Sequence[float]) -> Vector:
 
 def cross(u: Sequence[float], w: Sequence[float]) -> Vector:
     return (u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0])
+
+
+SLIDING = """\
+  coordinates: {x: length, y: length, z: lengthTURNS}
+  axes: {AXES}
+  PARTS
+  gravity: g
+  surfaces: {ground: GROUND}
+  contacts: {of: one, on: ground, normal: N, friction: {sliding: mu}}
+  forces: {components: [P, 0, 0], at: WHERE}"""
+
+
+def sliding_in_space() -> Iterator[Trial]:
+    """A particle or a ball that slides in any direction: on a floor, on a turntable, on a disc that may turn freely."""
+    for shape in ("particle", "ball"):
+        for ground in ("floor", "turntable", "free disc"):
+            axes = {"floor": [], "turntable": ["table: [{z: Omega*t}]"], "free disc": ["table: [{z: chi}]"]}[ground]
+            axes = [*axes, *(["body: [{z: phi}, {x: theta}, {z: psi}]"] if shape == "ball" else [])]
+            bodies = ["one: {shape: ball, radius: a, mass: m, centre: [x, y, z], turned: body}"] * (shape == "ball")
+            if ground == "free disc":
+                bodies.append("disc: {shape: disc, radius: R, mass: M, centre: [0, 0, 0], turned: table}")
+            parts = [f"bodies: {{{', '.join(bodies)}}}"] if bodies else []
+            parts += ["particles: {one: {mass: m, at: [x, y, z]}}"] if shape == "particle" else []
+            turns = [", phi: angle, theta: 'angle in (0, pi)', psi: angle"] * (shape == "ball")
+            turns += [", chi: angle"] * (ground == "free disc")
+            carried = {"floor": "", "turntable": ", in: table", "free disc": ", of: disc"}[ground]
+            given = (
+                SLIDING.replace("TURNS", "".join(turns))
+                .replace("  axes: {AXES}\n", f"  axes: {{{', '.join(axes)}}}\n" if axes else "")
+                .replace("PARTS", "\n  ".join(parts))
+                .replace("GROUND", f"{{through: [0, 0, 0], normal: [0, 0, 1]{carried}}}")
+                .replace("WHERE", "one" if shape == "ball" else "[x, y, z]")
+            )
+            unknowns = ("x_ddot", "y_ddot", "N", *(["chi_ddot"] if ground == "free disc" else []))
+            yield Trial(f"{shape}-{ground}-sliding in space", given, unknowns, _slides(shape, ground))
+
+
+def _slides(shape: str, ground: str) -> Callable[[Random], tuple[Numbers, Numbers]]:
+    def state(random: Random) -> tuple[Numbers, Numbers]:
+        v = {name: random.uniform(0.5, 2.0) for name in ("m", "M", "R", "a", "g", "P", "Omega", "mu")}
+        v |= {name: random.uniform(-1.5, 1.5) for name in ("x", "y", "phi", "psi", "chi", "x_dot", "y_dot", "chi_dot")}
+        v |= {name: random.uniform(-1.5, 1.5) for name in ("phi_dot", "theta_dot", "psi_dot")}
+        v |= {"theta": random.uniform(0.3, 2.8), "z_dot": 0.0}
+        a = v["a"] if shape == "ball" else 0.0
+        v["z"] = a
+        p, q = v["phi"], v["theta"]
+        spin = plus(times(v["phi_dot"], Z), times(v["theta_dot"], (cos(p), sin(p), 0.0)))
+        spin = plus(spin, times(v["psi_dot"], (sin(p) * sin(q), -cos(p) * sin(q), cos(q))))
+        arm, foot = times(-a, Z), (v["x"], v["y"], 0.0)
+        turn = {"floor": 0.0, "turntable": v["Omega"], "free disc": v["chi_dot"]}[ground]
+        slip = plus((v["x_dot"], v["y_dot"], 0.0), plus(cross(spin, arm), times(-turn, cross(Z, foot))))
+        rubbing = times(-v["mu"] / sqrt(dot(slip, slip)), slip)  # per normal force
+        laws: list[Equation] = [
+            {"x_ddot": -v["m"], "N": rubbing[0], KNOWN: v["P"]},
+            {"y_ddot": -v["m"], "N": rubbing[1]},
+            {"N": 1.0, KNOWN: -v["m"] * v["g"]},
+        ]
+        if ground == "free disc":
+            laws.append({"chi_ddot": -v["M"] * v["R"] ** 2 / 2, "N": -cross(foot, rubbing)[2]})
+        return v, solved(laws)
+
+    return state

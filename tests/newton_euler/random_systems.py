@@ -154,9 +154,15 @@ CURVES: dict[str, tuple[str, Callable[[float, float], tuple[float, float, float]
 
 
 def on_a_curve() -> Iterator[Trial]:
-    """A particle on a curve y = f(x), which may be carried by another particle; smooth, or sliding to the right."""
-    for name, friction in product(CURVES, ("none", "{sliding: mu, direction: right}")):
-        is_carried, is_rough = name == "track", friction != "none"
+    """A particle on a curve y = f(x), which may be carried by another particle; smooth, sliding to the right, or held
+    by static friction."""
+    frictions = {
+        "none": "none",
+        "sliding": "{sliding: mu, direction: right}",
+        "static": "{static: mu, force: F, direction: right}",
+    }
+    for name, (sort, friction) in product(CURVES, frictions.items()):
+        is_carried = name == "track"
         wedge = ("X: length, ", "wedge: {mass: M, at: [X, 0]}, ") if is_carried else ("", "")
         given = (
             f"  coordinates: {{{wedge[0]}x: length, y: length}}\n"
@@ -164,29 +170,34 @@ def on_a_curve() -> Iterator[Trial]:
             f"  surfaces: {{ground: {{{CURVES[name][0]}}}}}\n"
             f"  contacts: {{of: one, on: ground, normal: N, friction: {friction}}}"
         )
-        unknowns = ("x_ddot", "y_ddot", "N", *(["X_ddot"] if is_carried else []))
-        yield Trial(f"{name}-{'sliding' if is_rough else 'none'}", given, unknowns, _on_curve(name, is_rough))
+        given += "\n  forces: {components: [P, 0], at: [X, 0]}" if is_carried else ""
+        unknowns = ("x_ddot", "y_ddot", "N", *(["X_ddot"] if is_carried else []), *(["F"] if sort == "static" else []))
+        yield Trial(f"{name}-{sort}", given, unknowns, _on_curve(name, sort))
 
 
-def _on_curve(name: str, is_rough: bool) -> Callable[[Random], tuple[Numbers, Numbers]]:
+def _on_curve(name: str, sort: str) -> Callable[[Random], tuple[Numbers, Numbers]]:
     def state(random: Random) -> tuple[Numbers, Numbers]:
         v = _letters(random) | {"X": random.uniform(-1, 1), "X_dot": random.uniform(-1, 1)}
         if name != "track":
             v |= {"X": 0.0, "X_dot": 0.0}
-        u, speed = random.uniform(-0.4, 1.2), random.uniform(0.5, 2.0)
+        u, speed = random.uniform(-0.4, 1.2), 0.0 if sort == "static" else random.uniform(0.5, 2.0)
         height, slope, bend = CURVES[name][1](u, v["R"])
         length = hypot(1, slope)
         t, up = (1 / length, slope / length), -1 if name == "arch" else 1
         n = (-up * slope / length, up / length)
         v |= {"x": v["X"] + u, "y": height, "x_dot": v["X_dot"] + speed, "y_dot": slope * speed}
         touch = [Force(n, unknown="N")]
-        if is_rough:
+        if sort == "sliding":
             touch.append(Force((-v["mu"] * t[0], -v["mu"] * t[1]), unknown="N"))
+        if sort == "static":
+            touch.append(Force(t, unknown="F"))
         laws = Body(v["m"], "x_ddot", "y_ddot").equations([*touch, _down(v["m"], v)])
+        if sort == "static":
+            laws.append({"x_ddot": t[0], "y_ddot": t[1], **({"X_ddot": -t[0]} if name == "track" else {})})
         relative = {"x_ddot": slope, "y_ddot": -1.0, KNOWN: bend * speed**2}
         if name == "track":
             back = [Force((-f.direction[0], -f.direction[1]), unknown=f.unknown) for f in touch]
-            laws += Body(v["M"], "X_ddot").equations(back)
+            laws += Body(v["M"], "X_ddot").equations([*back, Force((v["P"], 0.0))])
             relative["X_ddot"] = -slope
         return v, solved([*laws, relative])
 

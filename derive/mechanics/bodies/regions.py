@@ -23,12 +23,12 @@ OTHERS = {  # coordinate -> alternative names
     "x": ("xi",),
     "y": ("eta",),
     "z": ("zeta",),
-    "r": ("s", "q"),
+    "r": ("s", "q", "w"),
     "theta": ("phi", "chi", "beta"),
     "phi": ("chi", "psi", "beta"),
     "u": ("w",),
     "v": ("nu",),
-    "s": ("q",),
+    "s": ("q", "w"),
 }
 
 COORDINATES = ("cartesian", "cylindrical")

@@ -85,12 +85,12 @@ class Constraint(Part):
     def sense(self, side: int) -> str:
         """Return the direction of the force on the first body, if the symbol of the force has the sign `side`.
 
-        The result is "up" or "down" if the force has a vertical component, otherwise "right" or "left". The result is
-        empty if no force on a body is known, if the force is not in a plane, or if the sign of the component is
-        unknown.
+        The result is "up" or "down" if the force has a vertical component of known sign, otherwise "right" or "left".
+        The result is empty if no force on a body is known, if the force is not in a plane, or if the signs of both
+        components are unknown.
         """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
-        if len(signs) != 2 or signs[1] is None or not (signs[1] or signs[0]):
+        if len(signs) != 2 or not (signs[1] or signs[0]):
             return ""
         words = {1: "up", -1: "down"} if signs[1] else {1: "right", -1: "left"}
         return words[signs[1] or signs[0] or 0]
@@ -102,8 +102,10 @@ class Constraint(Part):
         "down_slope". For any other oblique force, the result is empty.
         """
         sense = self.sense(side)
-        if not sense or sense in ("right", "left") or is_zero(self.acting[0].direction[0]):
+        if not sense or any(is_zero(c) for c in self.acting[0].direction):
             return sense
+        if sense in ("right", "left"):
+            return ""
         is_of_slope = self.enforcer == "friction" and not coordinates_in(ImmutableDenseMatrix(self.acting[0].direction))
         return f"{sense}_slope" if is_of_slope else ""
 

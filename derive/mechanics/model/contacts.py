@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
@@ -21,6 +21,7 @@ from derive.mechanics.model.no_slip import contact_velocity, no_slip, velocity_a
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.surfaces import (
     Circle,
+    Curve,
     Plane,
     Surface,
     dot,
@@ -130,9 +131,11 @@ def contact(
                surface that has the free side on its left. In space, the friction has two components along axes in the
                surface, such as F_x and F_y. If only one horizontal axis is in the surface, the component named after
                the other horizontal axis is perpendicular to the first axis
-    sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip
+    sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
+               points. In space it is -mu N s/|s|, where s is not zero
     direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
-               this direction. With `rolling` or `static`, the friction on the body is positive in this direction
+               this direction; in space it may be left out, and must be if the coordinates allow other directions of
+               slip. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
@@ -171,19 +174,26 @@ def contact(
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries a surface that moves with coordinates, unless the surface is at rest in given axes.
+    """Require that a body carries a surface that moves with coordinates, on its own or with the axes in which it is at
+    rest.
 
-    The same is required if the contact has friction and the surface rotates with time.
+    The same is required if the contact has friction and the surface rotates with time, unless axes state this rotation.
     """
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
-    moving = coordinates_in(ImmutableDenseMatrix([*surface.place.components, *turning, Integer(0)]))
-    if surface.of is None and moving and not isinstance(surface.moves, Axes):
+    axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()
+    moving = coordinates_in(ImmutableDenseMatrix([*axes, *surface.place.components, *turning, Integer(0)]))
+    if surface.of is None and moving:
         message = (
             f"the surface moves with {next(iter(moving))}, but no body carries it, "
             "so the contact force on the surface would act on nothing"
         )
-        raise Rejected(Complaint("which-body", message, help="name the body that carries the surface, `of: wedge`"))
+        help_line = (
+            "in place of `in`, name the body that carries the surface, `of: disc`"
+            if axes
+            else ("name the body that carries the surface, `of: wedge`")
+        )
+        raise Rejected(Complaint("which-body", message, help=help_line))
     if rough and surface.of is None and any(depends_on_time(c) for c in turning):
         message = "the surface rotates, so the velocity of its material is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: plate`"))
@@ -262,13 +272,15 @@ def _reject_normal(letter: str, touch: Contact) -> None:
 
 
 def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Part]:
-    ground = touch.surface.ground
-    if not isinstance(touch.of, PlacedBody):
+    rolls, ground = touch.of, touch.surface.ground
+    if touch.of is None and isinstance(touch.surface.of, PlacedBody):
+        rolls, ground = touch.surface.of, None  # a body whose surface touches a fixed corner
+    if not isinstance(rolls, PlacedBody):
         raise Rejected(Complaint("wrong-argument", "a particle does not roll", help="leave out `rolling`"))
     if touch.is_kept and rolling is True:
-        if not any(contact_velocity(touch.of, touch.at, ground)):
+        if not any(contact_velocity(rolls, touch.at, ground)):
             return []  # the coordinates already satisfy the condition of rolling
-        found = no_slip(touch.of, touch.at, ground)
+        found = no_slip(rolls, touch.at, ground)
         return list(found) if isinstance(found, tuple) else [found]
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so rolling needs a friction force with a symbol"
@@ -365,17 +377,52 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
     if touch.surface.is_two_sided:
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
+    slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
+    slip = slip - dot(touch.normal, slip) * touch.normal  # the contact lasts, so no other component is left
+    is_free = direction is None and len(slip.components) == 3
+    along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
+    _check_rubbing(touch, along, is_free)
+    force = tuple(-mu * scalar(letter) * c for c in along.components)
+    by = touch.surface.of if touch.surface.of is not None else GROUND
+    return GivenForce(force, touch.at.components, touch.of, by)
+
+
+def _way_of_slip(slip: Location) -> Location:
+    """Return the unit vector along a velocity of slip in space; assume that this velocity is not zero."""
+    ways = [tidied(c) for c in slip.components]
+    square = tidied(Add(*(c**2 for c in ways)))
+    unsure = (each for each in Mul.make_args(square) if not each.is_positive)
+    assume(Relation(Mul(*unsure), "!=", ZERO))
+    return Location(tuple(c / sqrt(square) for c in ways))
+
+
+def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
+    """Check by the velocities of the particles in contact that they slip along a unit vector, which `_way_of_slip`
+    gives if `is_free`, and in its sense."""
+    rubbing = Location(tuple(velocity_of_particle(touch.of, touch.at, touch.surface.ground, touch.foot)))
+    rubbing = rubbing - dot(touch.normal, rubbing) * touch.normal
+    speed = tidied(dot(along, rubbing))
+    wrong = [rubbing - speed * along, dot(along, along) * along - along]
+    is_along = all(is_zero(tidied(c)) for each in wrong for c in each.components)
+    if not is_along or is_free and not is_zero(tidied(speed - sqrt(tidied(dot(rubbing, rubbing))))):
+        message = "the friction is not opposite to the relative velocity of the particles in contact"
+        raise Unverified(Complaint("unverified", message))
+
+
+def _along_slip(touch: Contact, direction: Any, slip: Location) -> Location:
+    """Return the unit vector along a given direction; assume that the body slips in this direction."""
     if direction is None:
         message = "sliding friction needs the direction in which the body slips over the surface"
         raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))
     along = _along(touch, direction)
-    slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
     speed = tidied(dot(along, slip))
+    if any(tidied(c) != 0 for c in (slip - speed * along).components):
+        message = "the coordinates also allow the body to slip across `direction`, so the friction may be oblique to it"
+        help_line = "leave `direction` out: the friction is then opposite to the velocity of slip"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     signed = Mul(*(factor for factor in Mul.make_args(speed) if not factor.is_positive))
     assume(Relation(signed, ">", ZERO))  # otherwise the friction has the opposite direction
-    force = tuple(-mu * scalar(letter) * c for c in along.components)
-    by = touch.surface.of if touch.surface.of is not None else GROUND
-    return GivenForce(force, touch.at.components, touch.of, by)
+    return along
 
 
 def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
@@ -386,5 +433,9 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     if touch.is_kept:
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
         help_line = f"give the body a coordinate for its distance from the surface, and the contact `normal: {letter}`"
+        if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
+            help_line = (
+                "only coordinates can keep a round body on a curve, so leave out the coefficient: `{rolling: F}`"
+            )
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return mu

@@ -27,7 +27,6 @@ from derive.algebra.samples import letters_of, points, seed_of
 from derive.algebra.swing import half_swing
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
-from derive.mechanics.model.dalembert import Load
 from derive.mechanics.motion.facts import Arrival, ByEnergy, InFlight, SignedRate, Steady
 from derive.steps.claims import is_negative, negated, same_equation, sign_is, value_of_role
 from derive.steps.known_numbers import with_numbers
@@ -292,8 +291,8 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
     x, y = next(each for each in constraint.forces if each.of is not None).direction
     side = facts.inputs["side"]
     across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
-    is_level = facts.words["sense"] in ("up", "down") or is_zero(y)
-    return is_level and sign_found(side * across) == wanted
+    has_height = sign_found(y) in (1, -1)  # otherwise the sentence states the horizontal component
+    return (facts.words["sense"] in ("up", "down")) == has_height and sign_found(side * across) == wanted
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
@@ -572,19 +571,24 @@ def in_flight(facts: Judged, fact: InFlight) -> bool:
     """
     q, angle = fact.coordinate
     before = [fact.in_given_letters(c) for c in fact.path]
-    (point,) = fact.matter.points
-    others = (each for each in fact.matter.others if isinstance(each, Load) and each.multiplier != fact.kept.force)
-    loads = [*fact.matter.loads, *others]
-    pulled = [Add(*(each.force[i] for each in loads)) for i in (0, 1)]
-    falls = all(is_zero(point.mass * diff(c, TIME, 2) - F) for c, F in zip(fact.path, pulled, strict=True))
+    matter, place = fact.matter, [explicit(c) for c in fact.point.place]
+    free = [each for each in matter.others if getattr(each, "multiplier", None) not in fact.ended]
+    weight = [fact.point.mass * diff(c, TIME, 2) for c in fact.path]
+    works = all(
+        is_zero(
+            Add(*(explicit(each.work_along(s)) for each in (*matter.loads, *free)))
+            - Add(*(f * diff(c, s) for f, c in zip(weight, place, strict=True)))
+        )
+        for s in matter.coordinates
+        if any(c.has(s) for c in place)
+    )
     shown = any(is_zero(facts.result - c) for c in fact.path)
-    return bool(falls and shown) and _starts_on_its_curve(fact, q, angle, before)
+    return bool(works and shown) and _starts_on_its_curve(fact, q, angle, before)
 
 
 def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr]) -> bool:
-    (point,) = fact.matter.points
-    (s,) = (each for each in fact.matter.coordinates if each != q)
-    place, residual = [explicit(c) for c in point.place], explicit(fact.kept.residual)
+    place, residual = [explicit(c) for c in fact.point.place], explicit(fact.kept.residual)
+    (s,) = (each for each in fact.matter.coordinates if each != q and any(c.has(each) for c in place))
     held = next(iter(_where_zero(residual, s)))
     there = {s: held, q: angle}
     rates = [diff(c, s) * rate(s) + diff(c, q) * rate(q) for c in place]
@@ -598,6 +602,18 @@ def _starts_on_its_curve(fact: InFlight, q: Symbol, angle: Expr, path: list[Expr
         if not is_zero(tidied(velocity**2 - rated**2 * squared)) or _opposed(velocity, sign * rated, fact):
             return False
     return not residual.has(q)
+
+
+def spins_as_it_rolled(facts: Judged) -> bool:
+    """Whether the angular velocity is constant, and satisfies the condition of rolling at the departure."""
+    speed, turn, q = facts.quantities["speed"], facts.inputs["turn"], facts.inputs["coordinate"]
+    held = dict(facts.inputs["held"])
+    rates = {
+        turn: explicit(facts.result),
+        rate(q): facts.inputs["sense"] * explicit(speed.value) / facts.inputs["speed_at"],
+    }
+    left = explicit(facts.inputs["friction"]).subs({**held, **{rate(s): 0 for s in held}}).subs(rates)
+    return not depends_on_time(explicit(facts.result)) and is_zero(tidied(left.subs(q, facts.inputs["place"])))
 
 
 def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
@@ -629,7 +645,7 @@ def _away(fact: InFlight, target: Any) -> Expr:
     x, y = fact.path
     if target is not None:
         (px, py), (nx, ny) = target.through.components, target.unit_normal.components
-        return nx * (x - px) + ny * (y - py)
+        return nx * (x - px) + ny * (y - py) - fact.radius
     assert fact.orbit is not None
     (cx, cy), radius = fact.orbit.centre, fact.orbit.radius
     beyond = sqrt((x - cx) ** 2 + (y - cy) ** 2) - radius

@@ -9,7 +9,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.expressions import Relation
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.dalembert import Matter
+from derive.mechanics.model.dalembert import MassPoint, Matter
 from derive.steps.step import Fact, Quantity
 
 
@@ -92,10 +92,15 @@ class Orbit:
 
 @dataclass(frozen=True)
 class InFlight(Fact):
-    """The free motion of a particle after it left a surface, or after its string went slack.
+    """The free motion of a particle or a body after it left a surface, or after its string went slack.
 
-    path           the components of the place of the particle as functions of the time since the departure, m
-    matter         the particle and the forces on it, including the force of the lost constraint
+    path           the components of the place of the particle as functions of the time since the departure, m; for a
+                   body, of its centre of mass
+    matter         the mass points of the system and the forces on them, including the force of the lost constraint
+    point          the mass that flies, at its place as a function of the coordinates
+    noun           "particle" or "body"
+    radius         the radius of a round body, 0 for a particle; None for a body that is not round
+    ended          the symbols of the constraint force and of the friction of the lost contact
     lost           the relation `unknown = place` at which the constraint is lost
     force          the constraint force, which vanishes where the constraint is lost
     squared        the squared rate of the coordinate before the departure, by conservation of energy
@@ -110,6 +115,10 @@ class InFlight(Fact):
     missing = "is not a motion in free flight, as `flight` yields it"
     path: tuple[Expr, Expr]
     matter: Matter
+    point: MassPoint
+    noun: str
+    radius: Expr | None
+    ended: tuple[Symbol, ...]
     lost: Relation
     force: Quantity
     squared: Expr

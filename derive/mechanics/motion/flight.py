@@ -1,4 +1,4 @@
-"""Free flight of a particle that leaves a surface, or whose string goes slack: its motion, and where it ends."""
+"""Free flight of a particle or a body that leaves a surface, or whose string goes slack: its motion and its end."""
 
 from __future__ import annotations
 
@@ -11,20 +11,23 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, factorial, sqrt
 
 from derive.algebra.amplitudes import inverse_of
-from derive.algebra.expressions import TIME, Relation, Root, Terms, explicit, rate, scalar
+from derive.algebra.expressions import TIME, Relation, Root, Terms, as_expr, depends_on_time, explicit, rate, scalar
 from derive.algebra.lowest_terms import factored
 from derive.algebra.order import Contradiction, in_order, known_order
 from derive.algebra.ranges import sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Unverified
 from derive.mechanics.arguments import checked
+from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.in_results import Letter, PlaceIn, SurfaceNamed, in_results
+from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.facts import ForceOf
-from derive.mechanics.model.constraint import Constrained
-from derive.mechanics.model.dalembert import Load, Matter
+from derive.mechanics.model.constraint import Constrained, Constraint
+from derive.mechanics.model.dalembert import MassPoint, Matter
 from derive.mechanics.model.described import description_behind
 from derive.mechanics.model.surfaces import Plane, Surface, dot
+from derive.mechanics.model.touching import has_radius, radius_of
 from derive.mechanics.motion import claims, leaving
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
 from derive.mechanics.motion.turning_points import squared_by_energy
@@ -33,7 +36,7 @@ from derive.solving.presentation import presented, without_positive
 from derive.solving.relations import isolated, solved_for_letter
 from derive.solving.unknowns import letter_of, mark_for, meaning, with_unknown
 from derive.steps.establish import Lines, PhraseData, establish
-from derive.steps.record import changes, free_letter
+from derive.steps.record import changes, coordinates_in, free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.signs import sign_known, taken_positive
 from derive.steps.step import Quantity, is_zero
@@ -50,8 +53,47 @@ SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 
 
 @dataclass(frozen=True)
+class Flyer:
+    """The particle or the rigid body that flies.
+
+    part       the particle or the placed body; None for a particle of a Lagrangian without a description
+    point      its mass, at the place of its centre of mass
+    frictions  the constraints that friction enforces at the contact that is lost; they end with the normal force
+    """
+
+    part: Any
+    point: MassPoint
+    frictions: tuple[Constraint, ...] = ()
+
+    @property
+    def noun(self) -> str:
+        return "body" if isinstance(self.part, PlacedBody) else "particle"
+
+    @property
+    def radius(self) -> Expr | None:
+        """The radius of a round body whose centre of mass is its centre, 0 for a particle; None for other bodies."""
+        if not isinstance(self.part, PlacedBody):
+            return ZERO
+        is_round = has_radius(self.part) and is_zero(
+            ImmutableDenseMatrix((self.part.hub - self.part.centre).components)
+        )
+        return radius_of(self.part) if is_round else None
+
+    @property
+    def turning(self) -> tuple[Symbol, ...]:
+        """The coordinates on which the orientation of a body depends."""
+        angle = self.part.turned if isinstance(self.part, PlacedBody) else ZERO
+        return tuple(coordinates_in(as_expr(angle)))
+
+    @property
+    def coordinates(self) -> tuple[Symbol, ...]:
+        """The coordinates on which the place of the centre of mass depends."""
+        return tuple(coordinates_in(ImmutableDenseMatrix(self.point.place)))
+
+
+@dataclass(frozen=True)
 class Departure:
-    """The state in which a particle leaves a surface, or its string goes slack.
+    """The state in which a particle or a body leaves a surface, or its string goes slack.
 
     lost    the result of `leaves`: the relation for the place where contact is lost
     speed   the squared rate of the coordinate before the departure, by conservation of energy
@@ -61,6 +103,10 @@ class Departure:
     lost: Quantity
     speed: Quantity
     letter: Symbol | None
+
+    @cached_property
+    def flyer(self) -> Flyer:
+        return _the_one_that_flies(self)
 
     @property
     def force(self) -> Quantity:
@@ -116,11 +162,13 @@ class Departure:
 
     @cached_property
     def held(self) -> dict[Symbol, Expr]:
-        """The other coordinate, with the constant value that it has before the departure."""
-        others = [each for each in self.matter.coordinates if each != self.q]
+        """The other coordinate of the place, with the constant value that it has before the departure."""
+        others = [each for each in self.flyer.coordinates if each != self.q]
         found = solved_for_letter(explicit(self.kept.residual), others[0]) if len(others) == 1 else None
         if found is None or found.has(self.q):
-            message = f"`flight` needs a motion in which the constraint fixes all coordinates except {self.q}"
+            message = (
+                f"`flight` needs a motion in which the constraint fixes all coordinates of the place except {self.q}"
+            )
             help_line = "use polar coordinates: the distance from the centre, and the angle"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
         return {others[0]: found}
@@ -128,8 +176,21 @@ class Departure:
     @cached_property
     def curve(self) -> Vector:
         """The place of the particle before the departure, as a function of the coordinate."""
-        x, y = (explicit(c).xreplace(self.held) for c in self.matter.points[0].place)
+        x, y = (explicit(c).xreplace(self.held) for c in self.flyer.point.place)
         return x, y
+
+    @cached_property
+    def held_rates(self) -> dict[Symbol, Expr]:
+        """The rates of all other coordinates of the flying body, by the rate of `q`: zero for a coordinate that the
+        constraint holds; for an angle of a body that rolls, the rate by the condition of rolling."""
+        still: dict[Symbol, Expr] = {rate(s): ZERO for s in self.held}
+        for each in self.flyer.frictions:
+            left = explicit(each.residual).xreplace({**self.held, **still})
+            for s in self.flyer.turning:
+                slope = diff(left, rate(s))
+                if rate(s) not in still and not is_zero(slope):
+                    still[rate(s)] = tidied(-left.xreplace({rate(s): ZERO}) / slope)
+        return still
 
     @cached_property
     def scale(self) -> Expr:
@@ -144,11 +205,12 @@ class Departure:
     @cached_property
     def direction(self) -> Vector:
         """The unit vector along the curve, in the direction of the motion."""
-        sign = self._sense()
+        sign = self.sense
         x, y = (tidied((sign * diff(c, self.q) / self.scale).xreplace({self.q: self.at})) for c in self.curve)
         return x, y
 
-    def _sense(self) -> int:
+    @cached_property
+    def sense(self) -> int:
         """Return 1 if the coordinate increases on the way to the departure, -1 if it decreases."""
         known = self.speed.needed(ByEnergy)
         own = sign_known(known.start_rate)
@@ -163,8 +225,8 @@ class Departure:
     def square(self) -> Expr:
         """The squared speed with which the constraint force vanishes at the place of the departure."""
         mark = mark_for(rate(self.q) ** 2)
-        still = {rate(s): ZERO for s in self.held}
-        force = with_unknown(explicit(self.original.value), rate(self.q) ** 2, mark).xreplace({**self.held, **still})
+        whole = explicit(self.original.value).xreplace({**self.held_rates, **self.held})
+        force = with_unknown(whole, rate(self.q) ** 2, mark)
         found = isolated(tidied(force), mark)
         if found is None or found.power != 1 or found.value.has(mark, rate(self.q)):
             message = f"`flight`: {rate(self.q)}**2 does not follow from `{self.original.key}` = 0"
@@ -178,14 +240,14 @@ class Departure:
 
     @cached_property
     def acceleration(self) -> Vector:
-        """The acceleration of the particle under all forces except the constraint force."""
-        x, y = (tidied(c / self.matter.points[0].mass) for c in self.other_forces)
+        """The acceleration of the centre of mass under its weight alone."""
+        x, y = (tidied(c / self.flyer.point.mass) for c in self.other_forces)
         return x, y
 
     @property
     def other_forces(self) -> Vector:
-        acting = [each.force for each in self.matter.loads]
-        return Add(*(force[0] for force in acting)), Add(*(force[1] for force in acting))
+        """The weight, which is the only force on the flying body."""
+        return ZERO, -self.flyer.point.mass * self.gravity
 
     @cached_property
     def orbit(self) -> Orbit | None:
@@ -198,7 +260,7 @@ class Departure:
         radius = tidied(sqrt(tidied(Add(*((c - m) ** 2 for c, m in zip(self.curve, centre, strict=True))))))
         if any(c.has(self.q) for c in [*centre, radius]):
             return None
-        pull = next(each for each in self.kept.forces if each.of is not None)
+        pull = next(each for each in self.kept.forces if each.of == self.flyer.part)
         outwards = zip(self.curve, centre, pull.direction, strict=True)
         push = tidied(Add(*((c - m) * explicit(n).xreplace(self.held) for c, m, n in outwards)))
         return Orbit((centre[0], centre[1]), radius, sign_known(push) == -1)
@@ -214,6 +276,10 @@ class Departure:
         return InFlight(
             path=path,
             matter=self.matter,
+            point=self.flyer.point,
+            noun=self.flyer.noun,
+            radius=self.flyer.radius,
+            ended=(self.kept.force, *(each.force for each in self.flyer.frictions)),
             lost=self.lost.value,
             force=self.force,
             squared=squared_by_energy(self.speed),
@@ -238,7 +304,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
         raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
-    _check_alone(found)
+    assert found.flyer.point
     return found
 
 
@@ -249,27 +315,70 @@ def _checked_letter(letter: Any, q: Symbol) -> Symbol:
     return letter
 
 
-def _check_alone(departure: Departure) -> None:
-    """Require one particle in a plane, one constraint, and no force except the weight and the constraint force."""
-    matter = departure.matter
-    why = ""
-    if len(matter.points) != 1 or len(matter.points[0].place) != 2:
-        why = "the system is not one particle in a plane"
-    elif matter.is_driven or len(_constraints(departure)) != 1:
-        why = "the particle has another constraint, or a support that moves"
-    elif not _only_weight(departure):
-        why = "a force other than its weight acts on the particle"
-    if why:
-        message = f"`flight` finds the motion of one particle under its weight, but {why}"
-        raise Rejected(Complaint("no-flight", message))
+def _the_one_that_flies(departure: Departure) -> Flyer:
+    """Return the particle or body on which only its weight acts after the departure; there must be exactly one."""
+    parts = [each.of for each in departure.kept.forces if each.of is not None]
+    found, reasons = [], []
+    for part in dict.fromkeys(parts):
+        flyer = _flyer(departure, part)
+        why = "it moves in space" if flyer is None else _why_it_is_not_free(departure, flyer)
+        reasons += [why] if why else []
+        found += [flyer] if flyer is not None and not why else []
+    if len(found) == 1:
+        return found[0]
+    why = "both bodies are free afterwards" if found else next(iter(reasons), "the constraint is given as a formula")
+    message = f"`flight` finds the motion of a particle or a body under its weight, but {why}"
+    raise Rejected(Complaint("no-flight", message))
 
 
-def _only_weight(departure: Departure) -> bool:
-    """Whether the weight is the only force on the particle except the constraint force."""
-    matter, g = departure.matter, departure.gravity
-    others = [each for each in matter.others if not isinstance(each, Load) or each.multiplier != departure.kept.force]
-    weight = (ZERO, -matter.points[0].mass * g)
-    return not matter.fields and not others and [load.force for load in matter.loads] == [weight] and g != 0
+def _flyer(departure: Departure, part: Any) -> Flyer | None:
+    """Return a particle, or a body in a plane, as a possible flyer; None for a motion in space."""
+    is_body = isinstance(part, PlacedBody)
+    place = part.centre if is_body else part.at
+    if len(place.components) != 2:
+        return None
+    here = next(each.at for each in departure.kept.forces if each.of == part)
+    frictions = [
+        each
+        for each in _constraints(departure)
+        if each.enforcer == "friction" and any(force.of == part and force.at == here for force in each.forces)
+    ]
+    mass = part.body.mass if is_body else part.mass
+    point = next(
+        (each for each in departure.matter.points if _is_same(each.place, place.components) and each.mass == mass), None
+    )
+    return None if point is None else Flyer(part, point, tuple(frictions))
+
+
+def _is_same(one: Sequence[Expr], other: Sequence[Expr]) -> bool:
+    return len(one) == len(other) and is_zero(
+        ImmutableDenseMatrix([explicit(a) - explicit(b) for a, b in zip(one, other, strict=True)])
+    )
+
+
+def _why_it_is_not_free(departure: Departure, flyer: Flyer) -> str:
+    """Return the reason for which this body is not free under its weight after the departure; "" if it is free."""
+    matter, own, noun = departure.matter, set(flyer.coordinates), flyer.noun
+    lost = (departure.kept, *flyer.frictions)
+    acting = [each for each in _constraints(departure) if any(force.of == flyer.part for force in each.forces)]
+    if any(depends_on_time(c) for c in flyer.point.place) or depends_on_time(departure.kept.residual):
+        return f"the {noun} has another constraint, or a support that moves"
+    if any(each not in lost for each in acting) or any(not each.forces for each in _constraints(departure)):
+        return f"the {noun} has another constraint, or a support that moves"
+    others = [each for each in matter.points if each != flyer.point]
+    if any(explicit(c).free_symbols & own for each in others for c in each.place):
+        return f"the coordinates of the {noun} also move another body, or rotate it"
+    if departure.gravity == 0:
+        return f"the {noun} has no weight"
+    weight = (ZERO, -flyer.point.mass * departure.gravity)
+    ended = {each.force for each in lost}
+    for q in (*flyer.coordinates, *flyer.turning):
+        loads = [*matter.loads, *(each for each in matter.others if getattr(each, "multiplier", None) not in ended)]
+        work = Add(*(each.work_along(q) for each in loads))
+        wanted = Add(*(f * diff(explicit(c), q) for f, c in zip(weight, flyer.point.place, strict=True)))
+        if matter.fields or not is_zero(tidied(explicit(work) - wanted)):
+            return f"a force other than its weight acts on the {noun}"
+    return ""
 
 
 def _constraints(departure: Departure) -> Sequence[Any]:
@@ -284,20 +393,23 @@ DEPARTURE = Rule("motion.departure", source=SOURCE, outcomes={"generic": claims.
 
 
 def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Quantity, ...]:
-    """Free flight of a particle after it leaves a surface, or after its string goes slack:
-    r(t) = r_1 + v_1 t + F t^2/(2 m), where F is the weight.
+    """Free flight of a particle or of a body after it leaves a surface, or after its string goes slack:
+    r(t) = r_1 + v_1 t + F t^2/(2 m), where r is the place of the centre of mass and F the weight.
 
     lost   the place where contact is lost, from `leaves_contact`
     at     a symbol for the value of the coordinate at the departure, such as theta_1; by default the value itself
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
-    the particle was. The conditions under which contact is lost are assumed.
+    the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
+    The conditions under which contact is lost are assumed, and that a body which rolls does so until it departs.
+    The system may have other particles and bodies. Only the weight may act on the one that flies.
     Second route: Lagrange's equations for the coordinates of the system, with the constraint force zero. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
-    Errors: contact is not lost; the system is not one particle in a plane under its weight; the force was derived
-    without conservation of energy; `at` is not a symbol, or its range does not contain the value at the departure.
+    Errors: contact is not lost; the flight is in space, or another force acts during the flight; the other constraints
+    do not fix the place; the force was derived without conservation of energy; `at` is not a symbol, or its range does
+    not contain the value at the departure.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
@@ -311,7 +423,9 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
             parents.append(_place_of(departure, f"{key}_start"))
         taken_positive(departure.square)
         speed = _speed_of(departure, parents, f"{key}_speed")
-        return tuple(_component(departure, speed, i, f"{key}_{name}") for i, name in enumerate("xy"))
+        path = tuple(_component(departure, speed, i, f"{key}_{name}") for i, name in enumerate("xy"))
+        turns = [rate(s) for s in departure.flyer.turning if rate(s) in departure.held_rates]
+        return (*path, *(_spin(departure, speed, turn, f"{key}_spin") for turn in turns))
 
 
 @contextmanager
@@ -414,19 +528,80 @@ def _component(departure: Departure, speed: Quantity, i: int, key: str) -> Quant
         routes={
             "lagrange": lambda found: (ImmutableDenseMatrix(_residuals(departure, with_found(found))), _noughts(2)),
             "newton": lambda found: (
-                departure.matter.points[0].mass * diff(found, TIME, 2),
+                departure.flyer.point.mass * diff(found, TIME, 2),
                 departure.other_forces[i],
             ),
             "start": start,
         },
         outcome="uniform" if pulled == 0 else "falls",
         phrase_data=PhraseData(
-            words={"enforcer": departure.kept.enforcer},
+            words={"enforcer": departure.kept.enforcer, "flyer": departure.flyer.noun},
             outcome_data={"component": Integer(i), "other_force": departure.other_forces[i], "flight": flight},
         ),
         key=key,
         kind="length",
         facts=[flight],
+    )
+
+
+SPIN_IN_FLIGHT = Rule(
+    "motion.spin_in_flight",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.7",
+    outcomes={"steady": claims.spins_as_it_rolled},
+    evidence={"rolling": ROUTE, "torque": CHECK},
+)
+
+
+def _spin(departure: Departure, speed: Quantity, turn: Symbol, key: str) -> Quantity:
+    """Angular velocity of a body in free flight: the weight has no torque about the centre of mass, so the angular
+    velocity with which the body rolled remains.
+
+    Second route: the velocity of the particle at the contact, which vanishes while the body rolls, with the speed by
+    conservation of energy. Check: without the friction, the equation of motion of the angle has no torque.
+    Outcomes: steady.
+    Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.7.
+    """
+    known = {} if departure.letter is None else {departure.letter: departure.value}
+    sense = departure.sense
+    factor = tidied((departure.held_rates[turn] / rate(departure.q) * sense / departure.scale).xreplace(
+        {departure.q: departure.at}
+    ))  # fmt: skip
+    (friction,) = departure.flyer.frictions
+
+    def rolling(found: Expr) -> tuple[Expr, Expr]:
+        there = {departure.q: departure.value}
+        fast = sense * sqrt(squared_by_energy(departure.speed).xreplace(there))
+        still = {rate(s): ZERO for s in departure.held}
+        rates = {turn: found.xreplace(known), rate(departure.q): fast}
+        return explicit(friction.residual).xreplace({**departure.held, **still}).xreplace({**rates, **there}), ZERO
+
+    def torque(found: Expr) -> tuple[Expr, Expr]:
+        ended = dict.fromkeys((departure.kept.force, friction.force), ZERO)
+        (q,) = (s for s in departure.flyer.turning if rate(s) == turn)
+        (own,) = (each for each in departure.equations if each.needed(OfCoordinate).coordinate.symbol == q)
+        return explicit(own.value).residual.xreplace(ended).xreplace({rate(q, 2): diff(found, TIME)}), ZERO
+
+    return establish(
+        SPIN_IN_FLIGHT,
+        turn,
+        lambda V: factor * V,
+        {"speed": speed},
+        lines=Lines(arranged=lambda v: presented(v, in_sums=False)),
+        routes={"rolling": rolling, "torque": torque},
+        outcome="steady",
+        phrase_data=PhraseData(
+            outcome_data={
+                "friction": friction.residual,
+                "coordinate": departure.q,
+                "place": departure.at,
+                "turn": turn,
+                "held": tuple(departure.held.items()),
+                "speed_at": departure.scale,
+                "sense": Integer(sense),
+            }
+        ),
+        key=key,
+        kind="angular speed",
     )
 
 
@@ -443,8 +618,8 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
 
     The rates and accelerations of the coordinates follow from the velocity and the acceleration along the path.
     """
-    q = departure.matter.coordinates
-    place = Matrix([explicit(c) for c in departure.matter.points[0].place])
+    q = departure.flyer.coordinates
+    place = Matrix([explicit(c) for c in departure.flyer.point.place])
     slopes = place.jacobian(list(q))
     velocity, acceleration = (Matrix([diff(c, TIME, n) for c in path]) for n in (1, 2))
     inverse = inverse_of(slopes)
@@ -452,8 +627,9 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
     turning = sum((slopes.diff(s) * r for s, r in zip(q, rates, strict=True)), Matrix.zeros(2, 2))
     second = inverse * (acceleration - turning * rates)
     motion = dict(zip([*(rate(s) for s in q), *(rate(s, 2) for s in q)], [*rates, *second], strict=True))
-    none = {departure.kept.force: ZERO}
-    return [tidied(explicit(each.value).residual.xreplace(none).xreplace(motion)) for each in departure.equations]
+    none = dict.fromkeys((departure.kept.force, *(each.force for each in departure.flyer.frictions)), ZERO)
+    own = [each for each in departure.equations if each.needed(OfCoordinate).coordinate.symbol in q]
+    return [tidied(explicit(each.value).residual.xreplace(none).xreplace(motion)) for each in own]
 
 
 # --- where it ends ----------------------------------------------------------------------------------------------------
@@ -461,6 +637,8 @@ def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
 
 def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "landing") -> tuple[Quantity, ...]:
     """Time, place and speed at which a free flight ends: on a plane, or on the circle that the particle left.
+
+    For a round body, the place and the speed are those of its centre.
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
@@ -475,8 +653,8 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
-    Errors: the plane moves; the particle may depart below the plane; a sign is unknown; the particle may meet the
-    circle before the plane; `on` is omitted, and the particle was not on a circle.
+    Errors: the plane moves; a body that is not round flies; the particle may depart below the plane; a sign is unknown;
+    the particle may meet the circle before the plane; `on` is omitted, and the particle was not on a circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
@@ -509,7 +687,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
 
 def _both(flight: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
     found = [each for each in flight if each.fact(InFlight) is not None]
-    if len(found) != 2 or len(flight) != 2:
+    if len(found) != 2 or any(each not in found and each.step.rule != SPIN_IN_FLIGHT.name for each in flight):
         names = ", ".join(f"`{each.key}`" for each in flight)
         message = f"`lands` and `passes` need both components of a flight, not {names}"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `flight`"))
@@ -561,6 +739,14 @@ def _distance(place: Sequence[Expr], target: Plane) -> Expr:
     return dot(Location(tuple(place)) - target.through, target.unit_normal)
 
 
+def _gap(place: Sequence[Expr], known: InFlight, target: Plane) -> Expr:
+    """The distance of a particle or a round body from a plane, if the centre is at this place."""
+    if known.radius is None:
+        message = "`lands`: the body is not round about its centre of mass, so where it touches the plane is unknown"
+        raise Rejected(Complaint("not-decided", message, help="ask for the flight of its centre of mass only"))
+    return _distance(place, target) - known.radius
+
+
 def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
     """The components of the place of the particle at a time, or their derivatives of the given order."""
     return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
@@ -568,7 +754,7 @@ def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
 
 def _above(known: InFlight, target: Plane) -> list[Expr]:
     """The coefficients of t^0, t and t^2 in the distance from the plane."""
-    parts = _distance(known.path, target).expand().as_poly(TIME)
+    parts = _gap(known.path, known, target).expand().as_poly(TIME)
     return [tidied(parts.coeff_monomial(TIME**n)) for n in range(3)]
 
 
@@ -627,7 +813,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
         lines=Lines(put_in=None, arranged=lambda found: Relation(_in_time(explicit(found.residual)), ">", 0)),
         routes={"distance": distance},
         outcome="clear",
-        phrase_data=PhraseData(outcome_data={"flight": known, "target": None}),
+        phrase_data=PhraseData(words={"flyer": known.noun}, outcome_data={"flight": known, "target": None}),
         key=key,
     )
 
@@ -653,7 +839,7 @@ def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quant
     def distance(found: Relation) -> tuple[Any, Any]:
         """Check the distance from the plane at the time at which the distance is least."""
         turned = -v / (2 * a) if sign_known(v) == -1 else ZERO
-        return found.residual, _distance(_at(turned, known), target)
+        return found.residual, _gap(_at(turned, known), known, target)
 
     return establish(
         STAYS_CLEAR,
@@ -663,7 +849,7 @@ def _misses(first: Quantity, second: Quantity, target: Plane, key: str) -> Quant
         lines=Lines(put_in=None),
         routes={"distance": distance},
         outcome="misses",
-        phrase_data=PhraseData(outcome_data={"flight": known, "target": target}),
+        phrase_data=PhraseData(words={"flyer": known.noun}, outcome_data={"flight": known, "target": target}),
         key=key,
     )
 
@@ -693,7 +879,7 @@ def _landed(
 
     def put_back(found: Expr) -> tuple[Any, Any]:
         there = _at(found, known)
-        return (_beyond(there, _orbit_of(known)) if target is None else _distance(there, target)), ZERO
+        return (_beyond(there, _orbit_of(known)) if target is None else _gap(there, known, target)), ZERO
 
     back = "taut" if known.kept.enforcer == "string" else "back"
     when = establish(
@@ -706,7 +892,7 @@ def _landed(
         outcome="on_plane" if target is not None else back,
         phrase_data=PhraseData(
             formulas=_where(known, target, first.symbol, second.symbol),
-            words={"enforcer": known.kept.enforcer},
+            words={"enforcer": known.kept.enforcer, "flyer": known.noun},
             outcome_data={"flight": known, "target": target},
         ),
         key=f"{key}_time",
@@ -726,7 +912,8 @@ def _where(known: InFlight, target: Plane | None, x: Symbol, y: Symbol) -> dict[
         (cx, cy), radius = orbit.centre, orbit.radius
         told = Relation((x - cx) ** 2 + (y - cy) ** 2, "=", radius**2)
         return {"condition": (told, Relation(told.left.expand(), "=", told.right))}
-    (px, py), (nx, ny) = target.through.components, target.unit_normal.components
+    normal = target.unit_normal
+    (px, py), (nx, ny) = (target.through + (known.radius or ZERO) * normal).components, normal.components
     for letter, n, p in ((y, nx, py), (x, ny, px)):
         if n == 0:
             return {"condition": (Relation(letter, "=", p), Relation(letter, "=", tidied(p)))}

@@ -13,6 +13,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import Letter, Value, in_results
 from derive.mechanics.lagrange.facts import ForceOf
+from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
@@ -79,9 +80,11 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     described system is followed from the start until the multiplier vanishes.
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
-    turns_there (the force vanishes only where the motion turns back).
-    Errors: the force may have either sign, as on a rail; it is not positive at the start, or not linear in the unknown;
-    the motion may turn back before the place, or does not begin at `start`.
+    turns_there (the force vanishes only where the motion turns back). For a body that rolls without slipping, the
+    page states that it rolls until then.
+    Errors: static friction with a coefficient, which ends before the normal force vanishes; the force may have either
+    sign, as on a rail; it is not positive at the start, or not linear in the unknown; the motion may turn back before
+    the place, or does not begin at `start`.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -100,6 +103,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
             outcome="never",
             key=key,
         )
+    rolls = {"rolls": "rolls"} if _friction_beside(force) is not None else {}
     held, pushing = _held(value, unknown)
     begin = explicit(start)
     at_start = tidied(with_unknown(pushing, unknown, begin))
@@ -150,7 +154,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         outcome="lost_later" if _vanishes_at(held, unknown, start) else "lost",
         phrase_data=PhraseData(
             formulas=conditions_told(existing=existing and _as_positive(existing), reached=reached),
-            words={"enforcer": enforcer} if enforcer else {},
+            words={**({"enforcer": enforcer} if enforcer else {}), **rolls},
             named={"from": Relation(unknown, "=", start)},
             outcome_data={
                 "unknown": unknown,
@@ -166,6 +170,28 @@ def _enforcer(force: Quantity) -> str:
     """Return the word for the object that exerts the force, such as "surface" or "string"; empty if unknown."""
     known = (each.fact(ForceOf) for each in (force, *force.ancestors()))
     return next((found.constraint.enforcer for found in known if found is not None), "")
+
+
+def _friction_beside(force: Quantity) -> Constraint | None:
+    """Return the constraint of the friction without slipping at the contact of a normal force; None without friction.
+
+    Errors: this friction has a coefficient. It is at most mu_s N, so the body slips before N vanishes.
+    """
+    of = next((found.constraint for each in (force, *force.ancestors()) if (found := each.fact(ForceOf))), None)
+    places = {(each.of, each.at) for each in of.forces if each.of is not None} if of is not None else set()
+    kept = next((known for each in force.ancestors() if (known := each.fact(Constrained)) is not None), None)
+    for each in kept.constraints if kept is not None else ():
+        if each.enforcer != "friction" or not any((one.of, one.at) in places for one in each.forces):
+            continue
+        if each.limit is not None:
+            most = f"{each.limit.coefficient}*{each.limit.normal}"
+            message = (
+                f"`leaves_contact`: static friction is at most {most}, so the body slips before the force vanishes"
+            )
+            help_line = "ask where it slips with `slips`, or describe a contact that prevents slipping, `{rolling: F}`"
+            raise Rejected(Complaint("contradiction", message, help=help_line))
+        return each
+    return None
 
 
 def _as_positive(condition: Relation) -> Relation:

@@ -11,8 +11,9 @@ from sympy import Add, Dummy, Expr, Integer, Mul, Symbol, cos, sin, tan, togethe
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import Relation, explicit
+from derive.algebra.order import known_order
 from derive.algebra.relation import TURNED
-from derive.algebra.samples import NoNumber, Undefined, points, seed_of
+from derive.algebra.samples import NoNumber, Undefined, points, seed_of, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.model.constraint import Constrained, Constraint, StaticLimit
@@ -137,7 +138,10 @@ def _without_tangents(value: Expr) -> Expr:
 
 
 def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr]]:
-    return islice(points(letters, seed_of(of)), POINTS)
+    """Yield sets of numbers for the symbols that satisfy the assumed relations between these symbols."""
+    kept = [each for each in known_order().positive if each.free_symbols <= letters]
+    tried = islice(points(letters, seed_of(of)), POINTS * (1 if not kept else 25))
+    return islice((point for point in tried if all(value_at(each, point) > 0 for each in kept)), POINTS)
 
 
 def sampled(is_so: Callable[[Mapping[Symbol, Expr]], bool | None], letters: set[Symbol], of: Expr) -> Verdict:

@@ -55,10 +55,17 @@ class View:
 
     @property
     def gravity(self) -> list[Symbol]:
-        """Return the given accelerations that do not describe a motion: they are not in a kinetic energy."""
-        kinetic = [energies.kinetic for q in self.shown if (energies := q.fact(Energies)) is not None]
-        moving = {s for q in kinetic for s in explicit(q.value).free_symbols}
-        return [g for g in self.of_kind("acceleration") if g not in moving]
+        """Return the given accelerations of free fall: they are in a potential energy and not in a kinetic energy. An
+        acceleration in a kinetic energy, or only in a constraint, describes a motion, such as that of a support.
+
+        If no step has a potential energy, because the Lagrangian is given, return all given accelerations.
+        """
+        known = [energies for q in self.shown if (energies := q.fact(Energies)) is not None]
+        kinetic, potential = (
+            {s for each in energies for s in explicit(each.value).free_symbols}
+            for energies in ([each.kinetic for each in known], [each.potential for each in known])
+        )
+        return [g for g in self.of_kind("acceleration") if g not in kinetic and (not known or g in potential)]
 
 
 def observation(rule: Rule, law: Law, inputs: Mapping[str, Any], **more: Any) -> Quantity:
