@@ -26,7 +26,6 @@ from derive.course.problem import Problem, problem_and_faults, run_solve
 from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_path
 from derive.course.stock import told_at
-from derive.course.units import misfit, read_unit
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.figures.places import with_places
@@ -50,6 +49,7 @@ from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_p
 from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
 from derive.stock.keys.observations import observations_of, with_known_observations
+from derive.units import misfit, read_unit
 
 
 def rendered(

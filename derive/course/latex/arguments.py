@@ -20,9 +20,9 @@ from derive.course.latex.grids import Grid, Grids, TermOrGrid
 from derive.course.latex.letters import MOST_DOTS, Letter, Letters, dots_of, letter_at, subscript_of, term_of
 from derive.course.latex.tokens import Argument, Token
 from derive.course.latex.vocabulary import FONTS, FRACTIONS, LATEX_FUNCTIONS, WORDS
-from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar
 from derive.errors import Complaint, Rejected, did_you_mean
+from derive.units import read_unit
 
 _SPACES = re.compile(r"\\[, ]|~")
 _NO_BRACES = str.maketrans("", "", "{}")

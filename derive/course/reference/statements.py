@@ -29,9 +29,9 @@ from derive.course.schema import (
     read_record,
     wrong_type,
 )
-from derive.course.units import Unit, read_unit
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml
 from derive.errors import Faults, Place, did_you_mean
+from derive.units import Unit, read_unit
 
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9_]+)?")
 _FIGURES = re.compile(r"[1-9][0-9]?", re.ASCII)
