@@ -160,7 +160,8 @@ def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
     again = replace(entry, remark=None)  # only the entry of the first side keeps the remark
-    sides = zip(entry.states.sides, entry.states.marks, strict=True)
+    begins = 1 if entry.states.is_named else 0
+    sides = zip(entry.states.sides[begins:], entry.states.marks[begins:], strict=True)
     return [
         replace(again if i else entry, states=Statement((side,), (mark,), side.text, side.place))
         for i, (side, mark) in enumerate(sides)
