@@ -160,6 +160,7 @@ class _Reader:
     def sum(self) -> Node:
         self.skip_spacing()
         terms: list[tuple[str, Node]] = []
+        begins = self.peek()
         sign = self.sign() or "+"
         first_sign = sign
         while True:
@@ -173,7 +174,8 @@ class _Reader:
             sign = new_sign
         if len(terms) == 1 and first_sign == "+":
             return terms[0][1]
-        return Add(terms[0][1].span.to(terms[-1][1].span), tuple(terms))
+        assert begins is not None
+        return Add(begins.span.to(terms[-1][1].span), tuple(terms))
 
     def sign(self) -> str | None:
         """Return the next sign, with several signs in a row made one."""
@@ -851,7 +853,7 @@ class _Reader:
             self.skip_spacing()
         following = self.peek()
         if following is None or (self.ends() and not following.is_mark("-", "+")):
-            raise Unreadable(f"`{name}` has no argument", token.span)
+            raise Unreadable(f"the argument of `\\{name}` is missing", token.span)
         bracket = following.is_mark("(", "[") or following.is_command("left", "{")
         if bracket or following.kind is Kind.OPEN:
             argument = self.bracketed() if bracket else self.braced(following)
@@ -868,7 +870,7 @@ class _Reader:
         sign = self.sign()
         run = self.run_of_argument()
         if not run:
-            raise Unreadable(f"`{name}` has no argument", token.span)
+            raise Unreadable(f"the argument of `\\{name}` is missing", token.span)
 
         def of(count: int) -> Fun:
             argument: Node = _product([("", each) for each in run[:count]])

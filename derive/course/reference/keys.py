@@ -29,7 +29,8 @@ _ANY_VALUE = as_written(
     {"anyOf": [SCALAR.schema, {"type": "array", "items": _ENTRY_OR_ROW, "minItems": 3, "maxItems": 3}]},
     "an expression, a list of 3, or 3 rows of 3",
 )
-_OUR_LETTERS = mapping_of(as_written(TEXT.schema, "a letter of the problem"), "a mapping such as `I_1: I_xx`")
+_OUR_LETTER = {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]}
+_OUR_LETTERS = mapping_of(as_written(_OUR_LETTER, "a letter of the problem"), "a mapping such as `I_1: I_xx`")
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ class GroupKeys(Record):
         "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
     )
     letters: dict[Word, Tree] = key(
-        "letters of the document that have another name here: `I_1: I_xx`",
+        "letters of the document that have another name here, `I_1: I_xx`, or are vectors with these components",
         _OUR_LETTERS,
     )
     values: dict[Word, Tree] = key(

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 from sympy import Expr, Symbol
 
-from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import TIME
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.expressions import AXES, TIME
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, pinned_by
@@ -202,7 +202,11 @@ def _entries(
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
-    printed = {**letters, **_called_otherwise(group.letters, letters, faults)}
+    vectors = {name: value for name, value in group.letters.items() if isinstance(value, Sequence)}
+    others = {name: value for name, value in group.letters.items() if name not in vectors}
+    printed = {**letters, **_called_otherwise(others, letters, faults)}
+    for name, vector in vectors.items():
+        printed |= _components(name, vector, letters, faults)
     reader = _EntryReader(letters, printed, numbers, faults, pinned, document if has_lines else "")
     for written in group.entries:
         lines = written.line is not None or written.lines is not None
@@ -230,6 +234,27 @@ def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared],
             help_line = did_you_mean(ours, letters) or "declare it under `symbols:`"
             faults.error("undeclared-symbol", f"`{ours}` is not declared", value.place, help=help_line)
     return found
+
+
+@dataclass(frozen=True)
+class _Component(Declared):
+    """A component of a vector of the document, as an expression in the problem's letters."""
+
+    measured: Dimension = NUMBER
+
+    @property
+    def dimension(self) -> Dimension:
+        return self.measured
+
+
+def _components(name: Word, vector: Sequence, letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
+    """Return the components of a vector that the document names by a letter: `L: [I_x*omega_x, 0, 0]`."""
+    stated = _stated(vector, f"`{name}`", letters, faults)
+    if stated is None or stated.shape != (3, 1):
+        return {}
+    names = [f"{name}_{axis}" for axis in AXES]
+    found = zip(names, stated.entries, strict=True)
+    return {axis: _Component(axis, expr, "", measured=dimension) for axis, (expr, dimension) in found}
 
 
 def is_quoted_only(written: EntryKeys) -> bool:
