@@ -69,11 +69,11 @@ def read_latex(
 def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool, in_prose: bool) -> ReadMath:
     letters = Letters(dict(declared))
     plus, minus = (Values(scalar, letters, homogeneous, in_prose, branch) for branch in (0, 1))
-    sides, marks = _chain(plus)
-    found = []
+    sides, marks = chain_of(plus)
+    found: list[Side | None] = []
     try:
         for alternatives in sides:
-            nodes = [_parsed(plus, tokens) for tokens in alternatives]
+            nodes = [node_of(plus, tokens) for tokens in alternatives]
             if not found and len(sides) > 1 and is_title(nodes[0]):
                 found.append(None)
                 continue
@@ -92,7 +92,8 @@ def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneou
     return ReadMath(tuple(side for side, _ in kept), tuple(mark for _, mark in kept))
 
 
-def _parsed(reader: Values, tokens: list[Token]) -> Node:
+def node_of(reader: Values, tokens: list[Token]) -> Node:
+    """Return the node of one side."""
     try:
         return parsed(tokens)
     except Unreadable as error:
@@ -113,7 +114,7 @@ def is_title(node: Node) -> bool:
     return all(isinstance(each, Letter) for each in arguments)
 
 
-def _chain(reader: Values) -> tuple[list[list[list[Token]]], list[str]]:
+def chain_of(reader: Values) -> tuple[list[list[list[Token]]], list[str]]:
     """Return the tokens of every side, with its alternatives `a or b`, and the relation before each side."""
     known = RELATIONS_IN_PROSE if reader.in_prose else RELATIONS
     tokens = _in_one_line(reader, checked_tokens(reader))
