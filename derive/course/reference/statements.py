@@ -283,6 +283,7 @@ class _EntryReader:
         self.faults = faults
         self.problem = problem
         self.document = document
+        self.lacks_document = False
 
     def entry(self, written: EntryKeys) -> Entry | None:
         formula = self.formula(written)
@@ -343,7 +344,8 @@ class _EntryReader:
             return None
         document = self.cited(written)
         if document is None:
-            if written.lines is not None:
+            if written.lines is not None and not self.lacks_document:
+                self.lacks_document = True  # which is one error, however many entries cite it
                 name = written.document or self.document
                 folder = f"problems/{self.problem.set_id}"
                 message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
