@@ -878,7 +878,7 @@ class _Reader:
                 argument = Add(argument.span, ((sign, argument),))
             return Fun(token.span.to(argument.span), name, argument, power, base)
 
-        shortest = next((i + 1 for i, each in enumerate(run) if not isinstance(each, Num)), len(run))
+        shortest = next((i + 1 for i, each in enumerate(run) if not _is_number(each)), len(run))
         if shortest == len(run):
             return of(len(run))
         span = token.span.to(run[-1].span)
@@ -901,7 +901,7 @@ class _Reader:
                     break
                 if token.text in TEXTS and self.word_at(1) in (*FUNCTIONS, "d"):
                     break
-                if token.text in ("frac", "dfrac", "tfrac", "sqrt") and run and not isinstance(run[-1], Num):
+                if token.text in ("frac", "dfrac", "tfrac", "sqrt") and run and not _is_number(run[-1]):
                     break
             if token.is_mark("(", "[", "|", "/"):
                 break
@@ -914,8 +914,15 @@ class _Reader:
             if isinstance(node, Pow) and run and isinstance(run[0], Letter):  # `\sin\theta r^2`: a power is a factor
                 self.at = begins
                 break
+            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: the bracket is a factor
+                self.at = begins
+                node = self.scripted(self.atom())
+                run.append(node)
+                break
             run.append(node)
-            if isinstance(node, Pow | Frac | Open | Apply | Group | Text | Der | Diff):
+            if isinstance(node, Pow | Open | Apply | Group | Text | Der | Diff):
+                break
+            if isinstance(node, Frac) and not _is_number(node):
                 break
         if (slash := self.peek()) is not None and slash.is_mark("/") and run:
             self.at += 1
@@ -1191,6 +1198,23 @@ def _without_empty_braces(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return found
+
+
+def _is_number(node: Node) -> bool:
+    """Whether a node is a number or a fraction of numbers."""
+    if isinstance(node, Frac):
+        return isinstance(node.top, Num) and isinstance(node.bottom, Num)
+    return isinstance(node, Num)
+
+
+def _is_product_with_bracket(node: Node) -> bool:
+    """Whether a letter before a bracket cannot be a function of what the bracket contains."""
+    if not isinstance(node, Open) or node.kind != "apply":
+        return False
+    call = node.alternatives[0]
+    while isinstance(call, Pow | EvalBar):
+        call = call.base if isinstance(call, Pow) else call.inner
+    return isinstance(call, Apply) and not isinstance(call.arguments[0], Letter | Num | Condition)
 
 
 def _product(factors: Sequence[tuple[str, Node]]) -> Node:

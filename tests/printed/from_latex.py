@@ -28,7 +28,7 @@ from tests.printed.meaning import differentiated, in_unit, over_the_mass, taken_
 
 STYLES = {"bm": "vector", "mathbf": "tensor"}
 STYLED = re.compile(r"(?:\\d*dot\s*\{?\s*)*\\(bm|mathbf)\b")
-UNIT = re.compile(r"(?<!_\{)\\mathrm\{((?:[^{}]|\{[^{}]*\})*)\}")
+UNIT = re.compile(r"(?<!_\{)(?<![A-Za-z0-9],)\\mathrm\{((?:[^{}]|\{[^{}]*\})*)\}")
 UNIT_LETTER = "hbar"  # a letter that no page prints, for the units of the text
 
 

@@ -432,6 +432,8 @@ class Values(Grids):
             assert isinstance(argument, Frac)
             end = self.text.find("/", argument.top.span.end) + 1
             self.may_be_a_part(argument.top, end)
+        if isinstance(argument, Open) and argument.kind == "apply":  # `\sin\theta(t)`
+            self.unclear_argument(node)
         inner = self.scalar_of(node.argument, "the argument of a function")
         if self.homogeneous and inner.dimension != NUMBER:
             self.unclear_argument(node)

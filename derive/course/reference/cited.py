@@ -17,10 +17,10 @@ from pathlib import Path
 from derive.course.yaml_tree import Scalar, Source
 from derive.documents.layout import Document, Row, Side, Statement, read_document
 from derive.documents.parser import Unreadable, parsed
-from derive.documents.source import SUFFIXES, read_source
+from derive.documents.source import SUFFIXES, Format, read_source
 from derive.documents.syntax import Apply, Der, EvalBar, Group, Letter, Node, Open
 from derive.documents.vocabulary import TEXTS
-from derive.errors import Complaint, Place, Rejected
+from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.units import Unit, read_unit
 
 MARKS = {"=": "=", "<": "<", ">": ">", "<=": r"\leq", ">=": r"\geq", "!=": r"\neq", "~": r"\approx", ":=": "="}
@@ -81,6 +81,29 @@ class Cited:
             sides = sides[1:]
         named = len(sides) > 1 and sides[1][0] == "=" and _lone_letter(sides[0][1]) is not None
         return self.joined(sides, others, named)
+
+    def section(self, number: str, place: Place) -> list[tuple[Letter | None, Formula]]:
+        """Return the displayed chains of a section, each with the letter that it begins with."""
+        headings = _numbers(self.document)
+        if number not in headings:
+            known = [each for each in headings if each]
+            help_line = did_you_mean(number, known) or ("the headings have no numbers" if not known else None)
+            message = f"`{self.file.path}` has no section {number}"
+            raise Rejected(Complaint("no-formula", message, place, (), help_line))
+        first = headings.index(number)
+        after = (i for i in range(first + 1, len(headings)) if not f"{headings[i] or number}.".startswith(f"{number}."))
+        last = next(after, len(headings))
+        chains: list[list[tuple[str, Side]]] = []
+        for row in self.document.rows:
+            if row.block.display and first <= row.block.heading < last:
+                for statement in row.statements:
+                    if statement.follows is None or not chains:
+                        chains.append([])
+                    chains[-1] += _new_sides(statement, bool(chains[-1]))
+        if not chains:
+            raise Rejected(Complaint("no-formula", f"section {number} has no displayed formula", place))
+        letters = [_lone_letter(sides[0][1]) if len(sides) > 1 else None for sides in chains]
+        return [(letter, self.joined(sides, [], True)) for letter, sides in zip(letters, chains, strict=True)]
 
     def rows(self, first: int, last: int, place: Place) -> list[Row]:
         """Return the rows of displays that cover these lines, or the formula of a sentence there."""
@@ -196,6 +219,24 @@ def _plain(file: Source) -> tuple[str, list[int]]:
         lines += [bisect_right(starts, at) for at in range(done, end)]
         done = found.end() if found else end
     return "".join(kept), lines
+
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)*(?=[\s.:)]|$)")
+
+
+def _numbers(document: Document) -> list[str]:
+    """Return the number of each heading: the one that it begins with, or in TeX the one that LaTeX prints."""
+    found: list[str] = []
+    counts: dict[int, int] = {}
+    for heading in document.headings:
+        written = _NUMBER.match(heading.text)
+        if document.source.format is Format.TEX and 1 <= heading.level <= 3 and not written:
+            counts = {level: count for level, count in counts.items() if level <= heading.level}
+            counts[heading.level] = counts.get(heading.level, 0) + 1
+            found.append(".".join(str(counts.get(level, 0)) for level in range(1, heading.level + 1)))
+        else:
+            found.append(written[0] if written else "")
+    return found
 
 
 def _new_sides(statement: Statement, goes_on: bool) -> list[tuple[str, Side]]:

@@ -156,6 +156,8 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     """Return the sides of a chain as separate entries. An entry is not split if its step is a relation or is
     unknown."""
+    if entry.symbol:
+        entry = replace(entry, answer=_step_of(entry.symbol, steps))
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
@@ -168,12 +170,23 @@ def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     ]
 
 
+def _step_of(symbol: str, steps: Steps) -> str:
+    """Return the key of the only step with this symbol; empty if no step or more than one step has it."""
+    found = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == symbol]
+    return found[0] if len(found) == 1 else ""
+
+
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
     if entry.states is None and entry.instead:
         return Comparison(pinned.id, entry, "erratum", None, f"{entry.why}: quoted", erratum=quoted_erratum(entry))
     if entry.states is None:
         return Comparison(pinned.id, entry, "remark", None, "nothing to compare")
     step = steps.get(entry.answer)
+    if step is None and entry.symbol:
+        message = f"no step, or more than one, has the symbol `{entry.symbol}`"
+        help_line = "give the lines of this formula and name its step under `answer`"
+        fault = _fault("unknown-step", message, entry.place, help=help_line)
+        return Comparison(pinned.id, entry, "unknown step", None, message, fault)
     if step is None:
         message = f"no step is called `{entry.answer}`"
         fault = _fault("unknown-step", message, entry.place, help=did_you_mean(entry.answer, steps))

@@ -114,6 +114,7 @@ class Entry:
     instead: str = ""
     remark: Remark | None = None
     document: str = ""
+    symbol: str = ""  # the letter that a chain of a section begins with, if the entry does not name a step
 
 
 def reference_path(problem: Problem) -> str:
@@ -212,8 +213,8 @@ def _entries(
         lines = written.line is not None or written.lines is not None
         if document and has_lines and not lines and (written.erratum or written.remark):
             faults.error("missing-key", f"errata and remarks need `line`: a line of `{document}`", written.places[""])
-    found = [(written, reader.entry(written)) for written in group.entries]
-    return [replace(entry, document=str(written.document or document)) for written, entry in found if entry]
+    found = [(written, entry) for written in group.entries for entry in reader.entries(written)]
+    return [replace(entry, document=str(written.document or document)) for written, entry in found]
 
 
 def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
@@ -285,6 +286,34 @@ class _EntryReader:
         self.document = document
         self.lacks_document = False
 
+    def entries(self, written: EntryKeys) -> list[Entry]:
+        """Return one entry, or for a section an entry for each of its chains that begins with a letter."""
+        if written.lines is None or not written.lines.section:
+            entry = self.entry(written)
+            return [entry] if entry else []
+        other = written.values_at.keys() - {"lines", "part", "document"}
+        if other:
+            message = f"an entry with a section cannot have `{min(other)}`"
+            self.faults.error("two-values", message, written.places[min(other)], help="give the lines of one formula")
+            return []
+        document = self.cited(written)
+        if document is None:
+            self.no_document(written)
+            return []
+        from derive.course.latex.values import Letters
+
+        found: list[Entry] = []
+        with self.faults:
+            for letter, formula in document.section(written.lines.section, written.lines.place):
+                if letter is not None and (states := self.of_document(formula, True)) is not None:
+                    declared = Letters(self.printed).named(letter.base, letter.sub)
+                    name = f"{letter.base}_{letter.sub}" if letter.sub else letter.base
+                    symbol = declared.symbol.name if declared else name
+                    line = formula.scalar.place.line
+                    entry = Entry("", written.part, states, None, "", (), None, formula.scalar.place)
+                    found.append(replace(entry, line=line, symbol=symbol))
+        return found
+
     def entry(self, written: EntryKeys) -> Entry | None:
         formula = self.formula(written)
         if written.lines is not None and formula is None:
@@ -344,17 +373,22 @@ class _EntryReader:
             return None
         document = self.cited(written)
         if document is None:
-            if written.lines is not None and not self.lacks_document:
-                self.lacks_document = True  # which is one error, however many entries cite it
-                name = written.document or self.document
-                folder = f"problems/{self.problem.set_id}"
-                message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
-                help_line = "name a file in this folder: `- document: solutions.md`"
-                self.faults.error("no-document", message, lines.place, help=help_line)
+            if written.lines is not None:
+                self.no_document(written)
             return None
         with self.faults:
             return document.formula(lines.ranges, written.side, lines.place)
         return None
+
+    def no_document(self, written: EntryKeys) -> None:
+        """Report, once for all entries, that the document that they cite is not a file of the set."""
+        if not self.lacks_document:
+            self.lacks_document = True
+            name = written.document or self.document
+            folder = f"problems/{self.problem.set_id}"
+            message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
+            help_line = "name a file in this folder: `- document: solutions.md`"
+            self.faults.error("no-document", message, written.values_at["lines"], help=help_line)
 
     def check_quoted(self, written: EntryKeys) -> None:
         """Check that the document has the quoted text at the line of the entry."""
