@@ -108,8 +108,9 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
             steps = _pinned_steps(pinned, problem, memory) if memory else _derived_again(pinned, memory)
             derived.append((given, steps))
         here = given == _what_is_given(problem)
-        compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
-        found += [replace(comparison, here=here) for comparison in compared]
+        for entry in entries:
+            compared = _by_symbol(entry, steps, pinned) if entry.symbol else _by_key(entry, steps, pinned)
+            found += [replace(comparison, here=here) for comparison in compared]
     return tuple(found)
 
 
@@ -156,8 +157,6 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     """Return the sides of a chain as separate entries. An entry is not split if its step is a relation or is
     unknown."""
-    if entry.symbol:
-        entry = replace(entry, answer=_step_of(entry.symbol, steps))
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
@@ -170,10 +169,23 @@ def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     ]
 
 
-def _step_of(symbol: str, steps: Steps) -> str:
-    """Return the key of the only step with this symbol; empty if no step or more than one step has it."""
-    found = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == symbol]
-    return found[0] if len(found) == 1 else ""
+def _by_key(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
+    return [_comparison(one, steps, pinned) for one in _one_by_one(entry, steps)]
+
+
+def _by_symbol(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
+    """Compare a chain with the steps that have its first letter as their symbol: a side may be the value of any of
+    these steps, for example of the energy before and after numbers are substituted."""
+    keys = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == entry.symbol]
+    if not keys:
+        message = f"no step has the symbol `{entry.symbol}`"
+        help_line = "give the lines of this formula, and name its step under `answer`"
+        fault = _fault("unknown-step", message, entry.place, help=help_line)
+        return [Comparison(pinned.id, entry, "unknown step", None, message, fault)]
+    by_step = [_by_key(replace(entry, answer=key, symbol=""), steps, pinned) for key in keys]
+    longest = max(map(len, by_step))
+    sides = zip(*(found for found in by_step if len(found) == longest), strict=True)
+    return [next((each for each in side if each.complaint is None), side[-1]) for side in sides]
 
 
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
@@ -182,11 +194,6 @@ def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:
     if entry.states is None:
         return Comparison(pinned.id, entry, "remark", None, "nothing to compare")
     step = steps.get(entry.answer)
-    if step is None and entry.symbol:
-        message = f"no step, or more than one, has the symbol `{entry.symbol}`"
-        help_line = "give the lines of this formula and name its step under `answer`"
-        fault = _fault("unknown-step", message, entry.place, help=help_line)
-        return Comparison(pinned.id, entry, "unknown step", None, message, fault)
     if step is None:
         message = f"no step is called `{entry.answer}`"
         fault = _fault("unknown-step", message, entry.place, help=did_you_mean(entry.answer, steps))
