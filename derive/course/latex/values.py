@@ -162,6 +162,10 @@ class Values(Grids):
             return Term(oo, NUMBER, start, end)
         if (unit := self.unit_of(node, False)) is not None:
             return self.size_of_unit(unit)
+        if node.label:
+            at = self.text.find("^", start)
+            message = f"the superscript of `{self.text[start:at].strip()}` is not a power"
+            self.refuse("latex", message, at + 1, end)
         declared = self.declared(node)
         is_vector, has_hat = "vec" in node.marks, "hat" in node.marks
         axis = _AXES.get(node.base) if has_hat or (is_vector and node.base in "ijk") else None
@@ -206,12 +210,9 @@ class Values(Grids):
 
     def not_declared(self, node: Letter) -> Complaint:
         written, start, end = self.written(node), node.span.start, node.span.end
-        if not _SUBSCRIPT.fullmatch(node.sub or "x") or node.label:
-            at = self.text.find("^" if node.label else "_", start) + 1
-            letter = self.text[start : at - 1].strip()
-            message = f"the subscript of `{letter}` is not a name"
-            if node.label:
-                message = f"the superscript of `{letter}` is not a power"
+        if not _SUBSCRIPT.fullmatch(node.sub or "x"):
+            at = self.text.find("_", start) + 1
+            message = f"the subscript of `{self.text[start : at - 1].strip()}` is not a name"
             return self.complaint("latex", message, at, end, None)
         if len(node.base) > 1 and written.startswith(tuple(f"\\{font}" for font in FONTS)):
             message, help_line = f"`{node.base}` is not declared", "write the unit of a value under `in:`"
