@@ -89,7 +89,7 @@ class Letters:
 
 
 def _bare(subscript: str) -> str:
-    return re.sub(r"[_,]", "", subscript)
+    return subscript.replace("_", "").replace(",", "")
 
 
 @dataclass(frozen=True)
