@@ -101,5 +101,5 @@ def unquotable(text: str) -> str | None:
 LINE = Reader({"type": "integer", "minimum": 1, "maximum": LAST_LINE}, _line)
 _ONE_OR_MORE_LINES = {"type": ["integer", "string"], "pattern": r"^[0-9][0-9. -]*$"}
 LINES = Reader(one_or_more(_ONE_OR_MORE_LINES), _lines)
-SIDES = Reader(one_or_more({"type": "integer", "minimum": 1}), _sides, tuple)
+SIDES = Reader(one_or_more({"type": "integer", "minimum": 1, "maximum": 99}), _sides, tuple)
 QUOTATION = Reader({"type": "string", "pattern": r"\S"}, _quotation)
