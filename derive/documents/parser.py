@@ -472,6 +472,10 @@ class _Reader:
             if token.kind is Kind.OPEN and self.peek(1) is not None and self.tokens[self.at + 1].kind is Kind.CLOSE:
                 self.at += 2  # `x_1{}^2`
                 continue
+            following = self.peek(1)
+            if token.is_command(",", "!", ":", ";") and following is not None and following.kind is Kind.SCRIPT:
+                self.at += 1  # `90\\,^\\circ`
+                continue
             if token.is_mark("'"):
                 self.at += 1
                 node = self.primed(node, 1, token.span)

@@ -18,13 +18,13 @@ from derive.algebra.dimensions import Dimension
 from derive.course.arithmetic import Declared, Term
 from derive.course.latex.grids import TermOrGrid
 from derive.course.latex.strict import checked_tokens
-from derive.course.latex.values import Letters, Values
+from derive.course.latex.values import Letters, Values, is_dotted, is_fraction_of_numbers
 from derive.course.latex.vocabulary import ALIGNMENTS, RELATIONS, RELATIONS_IN_PROSE, WORDS
 from derive.course.yaml_tree import Scalar
 from derive.documents.layout import depths
 from derive.documents.macros import argument_at
 from derive.documents.parser import Unreadable, parsed
-from derive.documents.syntax import Apply, Der, Letter, Node, Open
+from derive.documents.syntax import Apply, Der, Letter, Mul, Node, Num, Open
 from derive.documents.tokens import Kind, Token
 from derive.errors import Place, Rejected
 
@@ -74,7 +74,7 @@ def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneou
     try:
         for alternatives in sides:
             nodes = [node_of(plus, tokens) for tokens in alternatives]
-            if not found and len(sides) > 1 and is_title(nodes[0]):
+            if not found and marks[1:2] in (["="], ["~"]) and is_title(nodes[0]):
                 found.append(None)
                 continue
             plus.branches = 1
@@ -105,8 +105,14 @@ def is_title(node: Node) -> bool:
 
     Such a name has no value to compare; the `answer` of the entry says which step it names.
     """
-    if any(isinstance(each, Der) or (isinstance(each, Letter) and each.primes > 0) for each in node.walk()):
-        return True
+    if isinstance(node, Mul):
+        *numbers, (_, node) = node.factors
+        if not all(isinstance(each, Num) or is_fraction_of_numbers(each) for _, each in numbers):
+            return False
+    if isinstance(node, Der):
+        return not is_dotted(node)
+    if isinstance(node, Letter):
+        return node.primes > 0
     call = node.alternatives[0] if isinstance(node, Open) and node.kind == "apply" else node
     if not isinstance(call, Apply):
         return False
@@ -127,7 +133,7 @@ def chain_of(reader: Values) -> tuple[list[list[list[Token]]], list[str]]:
         mark = known.get(f"\\{token.text}" if token.kind is Kind.COMMAND else token.text) if depth == 0 else None
         if mark is not None and token.kind in (Kind.MARK, Kind.COMMAND):
             if not sides[-1][-1]:
-                if len(sides) > 1 or marks[0]:
+                if len(sides) > 1 or len(sides[0]) > 1 or marks[0]:
                     reader.refuse("latex", f"something is missing before `{token.text}`", token.span.start)
                 marks[0] = mark
                 continue

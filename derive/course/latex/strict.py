@@ -14,6 +14,7 @@ from derive.course.latex.vocabulary import (
     ALIGNMENTS,
     ARGUMENTS,
     CLOSING,
+    FRACTIONS,
     INSTEAD,
     KNOWN,
     MATRICES,
@@ -94,6 +95,7 @@ class _Check:
         token = self.tokens[at]
         if token.kind is Kind.MARK:
             self.mark(token)
+            self.two_signs(at)
         elif token.kind is Kind.OPEN:
             self.open.append(("}", token, token.span.end))
         elif token.kind is Kind.CLOSE:
@@ -112,6 +114,11 @@ class _Check:
         elif not self.reader.text[token.span.start].isascii():
             self.odd_character(token)
         return at + 1
+
+    def two_signs(self, at: int) -> None:
+        token, before = self.tokens[at], self.tokens[at - 1] if at else None
+        if before is not None and _is_sign(token) and (_is_sign(before) or before.is_command("cdot", "times")):
+            self.refuse(f"something is missing before `{token.text}`", token)
 
     def mark(self, token: Token) -> None:
         if token.text not in _MARKS or not self.reader.text[token.span.start].isascii():
@@ -162,6 +169,8 @@ class _Check:
             return self.environment(at)
         if name not in _ALLOWED:
             self.unknown(token)
+        if name in ("pm", "mp"):
+            self.two_signs(at)
         if name in ("\\", "cr"):
             return self.row_end(at)
         if name in ("left", "right"):
@@ -195,12 +204,14 @@ class _Check:
                 continue
             following = self.tokens[after] if after < len(self.tokens) else None
             value, after = argument_at(self.tokens, after)
-            if following is not None and following.kind is Kind.NUMBER and len(following.text) > 1:
+            digits = following is not None and following.kind is Kind.NUMBER and len(following.text) > 1
+            if digits and following is not None and following.text.isdigit():
                 after -= 1  # `\frac12` takes one digit for each argument
-                value, wanted = [following], wanted
                 if wanted.count("{") == 2:
                     break
-            if not value or following is None or following.kind in (Kind.CLOSE, Kind.CELL):
+            has_own = following is not None and following.kind is Kind.COMMAND and following.text in ARGUMENTS
+            lacks = has_own and token.text in FRACTIONS or following is not None and following.text[:1] == "."
+            if not value or following is None or following.kind in (Kind.CLOSE, Kind.CELL, Kind.MARK) or lacks:
                 message = f"`\\{token.text}` needs {'two values' if wanted == '{{' else 'a value'} in braces"
                 self.refuse(message, token)
 
@@ -258,6 +269,10 @@ class _Check:
             after = argument_at(self.tokens, after)[1]
         self.open.append((f"\\end{{{name}}}", token, end))
         return after
+
+
+def _is_sign(token: Token) -> bool:
+    return token.is_mark("+", "-") or token.is_command("pm", "mp")
 
 
 __all__ = ["DEEPEST_FORMULA", "LONGEST_FORMULA", "MAX_TOKENS", "checked_tokens"]

@@ -156,7 +156,7 @@ class Values(Grids):
 
     def of_letter(self, node: Letter) -> TermOrGrid:
         start, end = node.span.start, node.span.end
-        if node.base == "pi" and not node.sub:
+        if node.base == "pi" and not (node.sub or node.dots or node.marks or node.primes):
             return Term(pi, NUMBER, start, end)
         if node.base == "infty" and self.in_prose:
             return Term(oo, NUMBER, start, end)
@@ -306,6 +306,7 @@ class Values(Grids):
         if _is_slashed(before, self.text):
             self.unclear_slash(before)
         last = before.exponent if isinstance(before, Pow) else before
+        power, factor = factor, factor.base if isinstance(factor, Pow) else factor
         touches = not mark and isinstance(factor, Num) and last.span.end == factor.span.start
         if touches and isinstance(last, Num) and isinstance(before, Pow):
             self.only_first_digit(last.span.start, factor.span.end)
@@ -313,18 +314,21 @@ class Values(Grids):
             self.only_first_digit(factor.span.start - 1, factor.span.end)
         if mark:
             return
-        if isinstance(before, Num) and isinstance(factor, Num):
+        if isinstance(before, Num) and isinstance(factor, Num) and power is factor:
             help_line = "write `\\cdot` between them"
             self.refuse("ambiguous", "two numbers are side by side", span.start, span.end, help_line)
         if touches and isinstance(before, Letter) and isinstance(factor, Num) and self.written(before) == before.base:
             help_line = f"write `{factor.text}{before.base}`, or `{before.base}_{factor.text}` for a subscript"
             self.refuse("ambiguous", "a number follows this letter", span.start, span.end, help_line)
-        if isinstance(before, Num) and isinstance(factor, Frac) and _is_of_numbers(factor):
+        if isinstance(before, Num) and is_fraction_of_numbers(factor) and power is factor:
             help_line = "write `\\cdot` for a product, or one fraction"
             self.refuse("ambiguous", "this could be a mixed number", span.start, span.end, help_line)
-        if isinstance(before, Fun) and isinstance(before.argument, Num) and isinstance(factor, Group):
-            if not self.has_brackets(before):
+        if isinstance(before, Fun) and not self.has_brackets(before):
+            is_unit = self.unit_of(power, True) is not None
+            if isinstance(before.argument, Num) and (is_unit or isinstance(factor, Group)):
                 self.unclear_argument(before)
+            if is_fraction_of_numbers(factor) and power is factor:
+                self.may_be_a_part(before.argument, factor.span.end)
 
     def only_first_digit(self, start: int, end: int) -> NoReturn:
         help_line = f"write `{self.text[start - 1]}{{{self.text[start:end]}}}`"
@@ -389,6 +393,8 @@ class Values(Grids):
             if degrees.dimension != NUMBER or not degrees.expr.is_number:
                 self.at(node.argument, "latex", "only a number has degrees")
             return replace(degrees, expr=degrees.expr * pi / 180, end=node.span.end)
+        if node.base is not None:
+            self.at(node.base, "latex", f"`\\{node.name}` cannot have a subscript")
         if node.name not in LATEX_FUNCTIONS:
             self.at(node, "latex", f"`{node.name}` cannot be read")
         return self.of_function(node, self.argument_of(node))
@@ -425,8 +431,12 @@ class Values(Grids):
             inner = self.scalar_of(node.argument, "the argument of a function")
             start, end = node.argument.span.start, node.argument.span.end
             around = self.text[start - 1 : start] == "(" and self.text[end : end + 1] == ")"
+            if isinstance(node.argument, Num) and self.text[start - 1 : start] == "{":  # braces are not printed
+                self.unclear_argument(node)
             return replace(inner, start=start - around, end=end + around)
-        argument = node.argument.terms[0][1] if isinstance(node.argument, Add) else node.argument
+        argument = node.argument
+        if isinstance(argument, Add):  # `\sin -\theta`
+            self.unclear_argument(node)
         if isinstance(argument, Pow):
             self.unclear_power(argument.base, argument.exponent)
         if _is_slashed(argument, self.text):
@@ -624,6 +634,8 @@ class Values(Grids):
     # -- what is not read -----------------------------------------------------------------------------------------
 
     def of_der(self, node: Der) -> NoReturn:
+        if is_dotted(node):
+            self.at(node, "latex", "a dot can be only over a letter")
         self.at(node, "latex", "a derivative cannot be read", "transcribe the value that the derivative is equal to")
 
     def of_diff(self, node: Diff) -> NoReturn:
@@ -652,8 +664,14 @@ def _is_slashed(node: Node, text: str) -> bool:
     return isinstance(node, Frac) and "/" in text[node.top.span.end : node.bottom.span.start]
 
 
-def _is_of_numbers(fraction: Frac) -> bool:
-    return isinstance(fraction.top, Num) and isinstance(fraction.bottom, Num)
+def is_fraction_of_numbers(node: Node) -> bool:
+    return isinstance(node, Frac) and isinstance(node.top, Num) and isinstance(node.bottom, Num)
+
+
+def is_dotted(node: Der) -> bool:
+    r"""Return whether a derivative is written with dots, as in `\dot{ab}`."""
+    (by, _), *_ = node.by
+    return by.span.start == node.span.start
 
 
 def _function_first(node: Node) -> tuple[Fun, list[Node]]:
