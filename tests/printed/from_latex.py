@@ -80,6 +80,9 @@ class PrintedValues(Values):
         self.dimensions[value] = dimension
         return Term(value, dimension, node.span.start, node.span.end)
 
+    def is_euler(self, node: Letter) -> bool:
+        return self.written(node) == "e" and ("e", "", 0, "scalar") not in self.names
+
     def grid(self, matrix: Any, node: Node) -> Grid:
         start, end = node.span.start, node.span.end
         rows = [tuple(Term(entry, NUMBER, start, end) for entry in matrix.row(i)) for i in range(matrix.rows)]

@@ -370,10 +370,13 @@ class Values(Grids):
             return self.of(_with_power_at_the_end(base.inner, node.exponent))
         exponent = self.scalar_of(node.exponent, "an exponent")
         place = replace(exponent, start=self.braces(node.exponent)[0], end=self.braces(node.exponent)[1])
-        plain = isinstance(base, Letter) and self.written(base) == "e" and self.letters.named("e", "") is None
-        if plain:
+        if isinstance(base, Letter) and self.is_euler(base):
             return self.applied("exp", exp, exponent, node.span.start, node.span.end)
         return self.power_of(self.of(base), place)
+
+    def is_euler(self, node: Letter) -> bool:
+        """Return whether the base of a power is the number e and not a letter."""
+        return self.written(node) == "e" and self.declared(node) is None
 
     def of_root(self, node: Root) -> TermOrGrid:
         inner = self.scalar_of(node.inner, "a radicand")
