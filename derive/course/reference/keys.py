@@ -48,7 +48,9 @@ class EntryKeys(Record):
     part: Word | None = key("the part of the document", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)
     lines: Lines | None = key("the lines of the document from which the formula is read, or its section", LINES)
-    side: tuple[int, ...] = key("the sides of this formula that are compared, counted from 1", SIDES)
+    side: tuple[int, ...] = key(
+        "the numbers of the sides of this formula that are compared; the first side is 1", SIDES
+    )
     document: Word | None = key("the document of this entry, if it is another one", TEXT)
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)

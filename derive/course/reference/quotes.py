@@ -73,7 +73,7 @@ def _sides(node: Tree, name: str, faults: Faults) -> tuple[int, ...] | None:
     texts = [item.text.strip() if isinstance(item, Scalar) else "" for item in items]
     if texts and all(re.fullmatch(r"[1-9]\d?", text, re.ASCII) for text in texts):
         return tuple(map(int, texts))
-    wrong_type(faults, f"`{name}`", "the number of a side, counted from 1, or a list of them", node)
+    wrong_type(faults, f"`{name}`", "the number of a side (the first is 1), or a list of them", node)
     return None
 
 

@@ -136,6 +136,17 @@ def reference_of_set(root: Path, set_id: str) -> Tree | None:
     return read_yaml(root / path, path) if (root / path).exists() else None
 
 
+def read_ahead(root: Path, set_id: str) -> None:
+    """Read the reference of a set and the document that it names, so that worker processes share them."""
+    node = reference_of_set(root, set_id)
+    first = node.items[0] if isinstance(node, Sequence) and node.items else None
+    named = first.get("document") if isinstance(first, Mapping) else None
+    if isinstance(named, Scalar):
+        from derive.course.reference.cited import cited
+
+        cited(root, set_id, named.text.strip())
+
+
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """Return, for each group about this problem, the problem with the group's input, and the entries of the group;
     raise `Rejected` on errors.

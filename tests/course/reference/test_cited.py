@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.solved import steps_key
+from derive.course.problem import load_problem
 from derive.course.reference.comparison import Comparison
+from derive.course.reference.statements import reference_paths
 from derive.errors import Rejected
 from tests.course.reference.stated import PRINTED
 
@@ -131,3 +134,22 @@ def test_a_document_elsewhere_is_not_read(cites: Cites, tmp_path: Path) -> None:
         assert f"`problems/hw9` has no document `{name}`" in found
     (tmp_path / "problems" / "hw9" / "linked.md").symlink_to(tmp_path / "block.md")
     assert "has no document" in told(cites, "lines: 9, answer: kinetic_energy, document: linked.md")
+
+
+def test_an_edit_of_the_document_makes_the_comparison_again(cites: Cites, tmp_path: Path) -> None:
+    assert cites("lines: 9, answer: kinetic_energy")[0].outcome == "agrees"
+    problem = load_problem(tmp_path, "hw9/block")
+    assert reference_paths(problem) == ["problems/hw9/reference.yaml", "problems/hw9/block.md"]
+    before = steps_key(problem)
+    (tmp_path / "problems" / "hw9" / "block.md").write_text(DOCUMENT.replace("13", "14"), encoding="utf-8")
+    assert steps_key(problem) != before
+
+
+def test_a_vector_of_the_document_has_components_here(cites: Cites) -> None:
+    head = NAMED.replace("  letters: {", "  letters: {L: [I_xx*omega_x, I_yy*omega_y, I_zz*omega_z], ")
+    head = head.replace("omega_3: omega_z}", "omega_3: omega_z, w_1: omega_x, w_2: omega_y, w_3: omega_z}")
+    with pytest.raises(Rejected, match="both stand for `omega_x`"):
+        cites(r"answer: kinetic_energy, latex: '\frac{1}{2} w \cdot L'", head=head)
+    head = NAMED.replace("  letters: {", "  letters: {L: [I_xx*omega_x, I_yy*omega_y, I_zz*omega_z], ")
+    (found,) = cites(r"answer: kinetic_energy, latex: '\frac{1}{2} \vec{\omega} \cdot \vec{L}'", head=head)
+    assert found.outcome == "agrees"
