@@ -112,7 +112,12 @@ class Cited:
         stated = shown or [row for row in found if any(statement.relations for statement in row.statements)]
         where = f"line {first}" if first == last else f"lines {first} to {last}"
         if not stated or any(not row.statements for row in stated):
-            help_line = "the lines are those of the file" if not found else "write the value under `states:`"
+            near = min(
+                (row.line for row in self.document.rows if row.block.display),
+                default=None,
+                key=lambda n: abs(n - first),
+            )
+            help_line = f"the nearest display is in line {near}" if near else None
             raise Rejected(
                 Complaint("no-formula", f"`{self.file.path}` has no formula at {where}", place, (), help_line)
             )

@@ -314,9 +314,10 @@ class _EntryReader:
         from derive.course.latex.values import Letters
 
         found: list[Entry] = []
+        place = written.lines.place
         with self.faults:
             for letter, formula in document.section(written.lines.section, written.lines.place):
-                if letter is not None and (states := self.of_document(formula, True)) is not None:
+                if letter is not None and (states := self.of_document(formula, True, place)) is not None:
                     declared = Letters(self.printed).named(letter.base, letter.sub)
                     name = f"{letter.base}_{letter.sub}" if letter.sub else letter.base
                     symbol = declared.symbol.name if declared else name
@@ -474,7 +475,7 @@ class _EntryReader:
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry cannot have both `states` and `latex`", entry.places["latex"])
         elif formula is not None and entry.answer is not None and plain is None and printed is None:
-            return self.of_document(formula, homogeneous)
+            return self.of_document(formula, homogeneous, entry.places[""])
         elif plain is None and printed is None and entry.remark is None:
             # An unknown key, or a `states` or `latex` that could not be read, already has an error of its own.
             if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:
@@ -484,7 +485,7 @@ class _EntryReader:
             return self.one(printed, "`latex`", True, homogeneous)
         return self.one(plain, "`states`", False, True) if plain is not None else None
 
-    def of_document(self, formula: Formula, homogeneous: bool) -> Statement | None:
+    def of_document(self, formula: Formula, homogeneous: bool, place: Place) -> Statement | None:
         """Read a chain of the document. A first letter that is not declared can only be a name of the value."""
         named = bool(formula.head)
         if named:
@@ -493,7 +494,11 @@ class _EntryReader:
             except Rejected:
                 formula, named = formula.without_head, False
         with self.faults:
-            return replace(self.in_latex(formula.scalar, homogeneous), is_named=named)
+            try:
+                return replace(self.in_latex(formula.scalar, homogeneous), is_named=named)
+            except Rejected as error:
+                note = f"the formula is cited at {place.path}:{place.line}"
+                raise Rejected(replace(c, notes=(*c.notes, note)) for c in error.complaints) from None
         return None
 
     def one(self, node: Tree, key: str, printed: bool, homogeneous: bool) -> Statement | None:
