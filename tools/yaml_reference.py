@@ -10,7 +10,7 @@ from typing import Any
 
 from derive.algebra.kinds import KINDS
 from derive.course.editors import SCHEMAS
-from derive.course.units import UNIT_NAMES
+from derive.units import UNIT_NAMES
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "yaml.md"
 FILES = {"problem": "A problem", "set": "A set", "course": "A course", "reference": "A reference"}

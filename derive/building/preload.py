@@ -36,10 +36,10 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     from derive.render.printing.templates import compile_templates
 
     if derives and set_id:
-        from derive.course.reference.statements import reference_of_set
+        from derive.course.reference.statements import read_ahead
 
         with suppress(DeriveError):  # each problem shows the error itself
-            reference_of_set(root, set_id)
+            read_ahead(root, set_id)
     with suppress(DeriveError):  # each problem reports such errors itself
         phrases(templates_of(root))
         compile_templates(templates_of(root))

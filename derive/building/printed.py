@@ -22,7 +22,7 @@ from derive.course.problem import Problem
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.course.prose import PROBLEM
 from derive.course.reference.comparison import Told
-from derive.course.reference.statements import reference_path
+from derive.course.reference.statements import reference_paths
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults
 from derive.page.document import document_of
@@ -114,7 +114,7 @@ class _Printing:
             documents=documents,
             texts=self._texts(warnings),
             warnings=warnings,
-            inputs=(*problem.inputs, reference_path(problem), *(self.heading.inputs if self.heading else ())),
+            inputs=(*problem.inputs, *reference_paths(problem), *(self.heading.inputs if self.heading else ())),
             grades=_grades(solved),
             counts=document.checks.counts(),
             steps=len(solved.derivation.steps) + len(solved.values),

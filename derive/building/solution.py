@@ -24,9 +24,8 @@ from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem, problem_and_faults, run_solve
 from derive.course.reference.comparison import comparisons
-from derive.course.reference.statements import reference_path
+from derive.course.reference.statements import reference_paths
 from derive.course.stock import told_at
-from derive.course.units import misfit, read_unit
 from derive.course.variants import Chosen
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
@@ -51,6 +50,7 @@ from derive.steps.numeric import COMPARISON, coefficient_of, comparison_of, is_p
 from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
 from derive.stock.keys.observations import observations_of, with_known_observations
+from derive.units import misfit, read_unit
 
 
 def rendered(
@@ -107,7 +107,7 @@ def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple
 
 
 def _edited(problem: Problem, begun: int) -> bool:
-    files = [problem.root / path for path in (*problem.inputs, reference_path(problem))]
+    files = [problem.root / path for path in (*problem.inputs, *reference_paths(problem))]
     return any(file.exists() and file.stat().st_ctime_ns > begun for file in files)
 
 

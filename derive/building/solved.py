@@ -23,7 +23,7 @@ from derive.course.problem import Problem
 from derive.course.reference.comparison import Told
 from derive.course.reference.errata import Erratum
 from derive.course.reference.quotes import Remark
-from derive.course.reference.statements import reference_path
+from derive.course.reference.statements import reference_paths
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
@@ -71,7 +71,7 @@ class Solved:
 def steps_key(problem: Problem) -> str:
     """Return a digest of everything that the steps depend on."""
     _, *scripts = problem.inputs
-    files = [problem.root / path for path in (*scripts, reference_path(problem))]
+    files = [problem.root / path for path in (*scripts, *reference_paths(problem))]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]

@@ -26,9 +26,9 @@ from sympy import Expr, acos, asin, atan, cos, cosh, exp, log, pi, sin, sinh, sq
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.kinds import kind_of_dimension
 from derive.course.arithmetic import Arithmetic, Declared, Term, rational
-from derive.course.units import UNIT_NAMES, read_unit
 from derive.course.yaml_tree import Scalar, Word
 from derive.errors import Complaint, Faults, did_you_mean
+from derive.units import UNIT_NAMES, read_unit
 
 __all__ = ["RESERVED", "Declared", "letters_in", "names_in", "rational", "read_expression"]
 

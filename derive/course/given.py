@@ -31,9 +31,9 @@ from derive.algebra.kinds import (
 from derive.algebra.ranges import Range
 from derive.course.expression import Declared, read_expression
 from derive.course.measures import Number, Wanted, check_range, is_more_than_unit, number_with_unit
-from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
 from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.units import read_unit
 
 DIRECTION_NAMES = ("diagonal", "x", "y", "z")
 

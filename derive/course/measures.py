@@ -12,9 +12,9 @@ from sympy import Expr, Rational, Symbol
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
 from derive.course.expression import RESERVED, Declared, rational
-from derive.course.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
 from derive.course.yaml_tree import Scalar
 from derive.errors import Place, did_you_mean, rejected
+from derive.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
 
 _NUMBER_UNIT = re.compile(
     r"\s*(?P<sign>[-+]?)\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:\s*/\s*(?P<over>\d+))?"

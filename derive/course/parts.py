@@ -25,10 +25,10 @@ from derive.course.schema import (
     record_of,
     wrong_type,
 )
-from derive.course.units import UNIT_NAMES, read_unit
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, did_you_mean
 from derive.steps.level import Level
+from derive.units import UNIT_NAMES, read_unit
 
 _STEP_KEY = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 _POINTS = re.compile(r"[0-9]{1,4}(\.[05])?")

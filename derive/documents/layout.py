@@ -360,7 +360,7 @@ def _depth_change(token: Token) -> int:
     return 0
 
 
-def _depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
+def depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
     r"""Yield each token with the depth of the brackets around it; a bracket after `\left` is part of it."""
     depth = 0
     before: Token | None = None
@@ -379,7 +379,7 @@ def _is_open(tokens: Sequence[Token]) -> bool:
 
 
 def _outside_brackets(tokens: Sequence[Token]) -> list[Token]:
-    return [token for token, depth in _depths(tokens) if depth == 0]
+    return [token for token, depth in depths(tokens) if depth == 0]
 
 
 def _environment(tokens: Sequence[Token], at: int) -> tuple[str, int]:
@@ -514,7 +514,7 @@ def _pieces(tokens: list[Token]) -> Iterator[tuple[list[Token], str, str]]:
     piece: list[Token] = []
     link, words = "", ""
     at = 0
-    levels = list(_depths(tokens))
+    levels = list(depths(tokens))
     while at < len(tokens):
         token, depth = levels[at]
         if depth == 0 and token.is_command(*WORDS):
@@ -553,7 +553,7 @@ def _is_relation(token: Token) -> bool:
 def _next_piece(tokens: list[Token]) -> list[Token]:
     """Return the tokens up to the next comma or word outside of brackets."""
     found = []
-    for token, depth in _depths(tokens):
+    for token, depth in depths(tokens):
         if depth == 0 and (token.is_mark(",", ";") or token.is_command(*WORDS, *ARROWS)):
             break
         found.append(token)
@@ -591,7 +591,7 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         return None
     sides: list[list[Token]] = [[]]
     relations: list[str] = []
-    for at, (token, depth) in enumerate(_depths(tokens)):
+    for at, (token, depth) in enumerate(depths(tokens)):
         relation = RELATIONS.get(token.text) if token.kind in (Kind.MARK, Kind.COMMAND) and depth == 0 else None
         if relation is not None and token.is_mark("=") and at and tokens[at - 1].is_mark(":"):
             sides[-1].pop()

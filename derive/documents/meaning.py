@@ -36,7 +36,6 @@ from sympy import (
 )
 
 from derive.algebra.integrals import definite
-from derive.course.units import read_unit
 from derive.documents.facts import ANGLES, Facts
 from derive.documents.source import Span
 from derive.documents.syntax import (
@@ -65,6 +64,7 @@ from derive.documents.syntax import (
     Vec,
 )
 from derive.errors import DeriveError
+from derive.units import read_unit
 
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60

@@ -160,6 +160,7 @@ class _Reader:
     def sum(self) -> Node:
         self.skip_spacing()
         terms: list[tuple[str, Node]] = []
+        begins = self.peek()
         sign = self.sign() or "+"
         first_sign = sign
         while True:
@@ -173,7 +174,8 @@ class _Reader:
             sign = new_sign
         if len(terms) == 1 and first_sign == "+":
             return terms[0][1]
-        return Add(terms[0][1].span.to(terms[-1][1].span), tuple(terms))
+        assert begins is not None
+        return Add(begins.span.to(terms[-1][1].span), tuple(terms))
 
     def sign(self) -> str | None:
         """Return the next sign, with several signs in a row made one."""
@@ -469,6 +471,10 @@ class _Reader:
         while (token := self.peek()) is not None:
             if token.kind is Kind.OPEN and self.peek(1) is not None and self.tokens[self.at + 1].kind is Kind.CLOSE:
                 self.at += 2  # `x_1{}^2`
+                continue
+            following = self.peek(1)
+            if token.is_command(",", "!", ":", ";") and following is not None and following.kind is Kind.SCRIPT:
+                self.at += 1  # `90\\,^\\circ`
                 continue
             if token.is_mark("'"):
                 self.at += 1
@@ -851,7 +857,7 @@ class _Reader:
             self.skip_spacing()
         following = self.peek()
         if following is None or (self.ends() and not following.is_mark("-", "+")):
-            raise Unreadable(f"`{name}` has no argument", token.span)
+            raise Unreadable(f"the argument of `\\{name}` is missing", token.span)
         bracket = following.is_mark("(", "[") or following.is_command("left", "{")
         if bracket or following.kind is Kind.OPEN:
             argument = self.bracketed() if bracket else self.braced(following)
@@ -868,7 +874,7 @@ class _Reader:
         sign = self.sign()
         run = self.run_of_argument()
         if not run:
-            raise Unreadable(f"`{name}` has no argument", token.span)
+            raise Unreadable(f"the argument of `\\{name}` is missing", token.span)
 
         def of(count: int) -> Fun:
             argument: Node = _product([("", each) for each in run[:count]])
@@ -876,7 +882,7 @@ class _Reader:
                 argument = Add(argument.span, ((sign, argument),))
             return Fun(token.span.to(argument.span), name, argument, power, base)
 
-        shortest = next((i + 1 for i, each in enumerate(run) if not isinstance(each, Num)), len(run))
+        shortest = next((i + 1 for i, each in enumerate(run) if not _is_number(each)), len(run))
         if shortest == len(run):
             return of(len(run))
         span = token.span.to(run[-1].span)
@@ -899,7 +905,7 @@ class _Reader:
                     break
                 if token.text in TEXTS and self.word_at(1) in (*FUNCTIONS, "d"):
                     break
-                if token.text in ("frac", "dfrac", "tfrac", "sqrt") and run and not isinstance(run[-1], Num):
+                if token.text in ("frac", "dfrac", "tfrac", "sqrt") and run and not _is_number(run[-1]):
                     break
             if token.is_mark("(", "[", "|", "/"):
                 break
@@ -912,8 +918,15 @@ class _Reader:
             if isinstance(node, Pow) and run and isinstance(run[0], Letter):  # `\sin\theta r^2`: a power is a factor
                 self.at = begins
                 break
+            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: the bracket is a factor
+                self.at = begins
+                node = self.scripted(self.atom())
+                run.append(node)
+                break
             run.append(node)
-            if isinstance(node, Pow | Frac | Open | Apply | Group | Text | Der | Diff):
+            if isinstance(node, Pow | Open | Apply | Group | Text | Der | Diff):
+                break
+            if isinstance(node, Frac) and not _is_number(node):
                 break
         if (slash := self.peek()) is not None and slash.is_mark("/") and run:
             self.at += 1
@@ -1189,6 +1202,23 @@ def _without_empty_braces(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return found
+
+
+def _is_number(node: Node) -> bool:
+    """Whether a node is a number or a fraction of numbers."""
+    if isinstance(node, Frac):
+        return isinstance(node.top, Num) and isinstance(node.bottom, Num)
+    return isinstance(node, Num)
+
+
+def _is_product_with_bracket(node: Node) -> bool:
+    """Whether a letter before a bracket cannot be a function of what the bracket contains."""
+    if not isinstance(node, Open) or node.kind != "apply":
+        return False
+    call = node.alternatives[0]
+    while isinstance(call, Pow | EvalBar):
+        call = call.base if isinstance(call, Pow) else call.inner
+    return isinstance(call, Apply) and not isinstance(call.arguments[0], Letter | Num | Condition)
 
 
 def _product(factors: Sequence[tuple[str, Node]]) -> Node:

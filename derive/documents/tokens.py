@@ -84,13 +84,15 @@ LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _RAISED = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ]+")
 _LOWERED = re.compile("[₀₁₂₃₄₅₆₇₈₉]+")
 
+_SCRIPTS = ((_RAISED, "^", RAISED), (_LOWERED, "_", LOWERED))
+
 
 def tokens_of(text: str, start: int = 0, end: int | None = None) -> list[Token]:
     """Return the tokens of a part of a text; a space counts only where it ends the name of a command."""
     found: list[Token] = []
     position, end = start, len(text) if end is None else end
     while position < end:
-        for pattern, script, table in ((_RAISED, "^", RAISED), (_LOWERED, "_", LOWERED)):
+        for pattern, script, table in () if text[position].isascii() else _SCRIPTS:
             if raised := pattern.match(text, position, end):
                 span = Span(raised.start(), raised.end())
                 found += [Token(Kind.SCRIPT, script, span), Token(Kind.OPEN, "{", span)]

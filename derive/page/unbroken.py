@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from derive.course.units import UNIT_NAMES
+from derive.units import UNIT_NAMES
 
 NO_BREAK = "\u00a0"
 _READ_AS_WORDS = ("in",)  # "2 in 3 s" is not a length in inches

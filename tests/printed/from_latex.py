@@ -17,24 +17,22 @@ from sympy import Expr, ImmutableDenseMatrix, MatrixBase
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import explicit
 from derive.course.arithmetic import Term
-from derive.course.latex.cursor import Cursor
-from derive.course.latex.grammar import Formula
 from derive.course.latex.grids import Grid, TermOrGrid, each
 from derive.course.latex.integrals import bracket_of
-from derive.course.latex.letters import Letter, Letters, letter_at, subscript_of
-from derive.course.latex.reading import MAX_SIDES, _in_one_line
-from derive.course.latex.titles import is_derivative
-from derive.course.latex.tokens import Argument, Token, tokens_of
-from derive.course.latex.vocabulary import RELATIONS
+from derive.course.latex.reading import MAX_SIDES, chain_of, node_of
+from derive.course.latex.values import Letters, Values
 from derive.course.yaml_tree import Scalar, Source
+from derive.documents.syntax import Condition, Der, Diff, EvalBar, Int, Letter, Node, Open, Sign, Text
 from derive.render.notation.layout import Name
 from tests.printed.meaning import differentiated, in_unit, over_the_mass, taken_at
 
 STYLES = {"bm": "vector", "mathbf": "tensor"}
-OVER_MASS = "over the mass"
+STYLED = re.compile(r"(?:\\d*dot\s*\{?\s*)*\\(bm|mathbf)\b")
+UNIT = re.compile(r"(?<!_\{)(?<![A-Za-z0-9],)\\mathrm\{((?:[^{}]|\{[^{}]*\})*)\}")
+UNIT_LETTER = "hbar"  # a letter that no page prints, for the units of the text
 
 
-class PrintedFormula(Formula):
+class PrintedValues(Values):
     def __init__(
         self,
         scalar: Scalar,
@@ -42,12 +40,15 @@ class PrintedFormula(Formula):
         dimensions: Mapping[Any, Dimension | None],
         bound: set[Any],
         positions: list[ImmutableDenseMatrix],
+        units: list[str],
+        branch: int,
     ):
-        super().__init__(scalar, Letters({}), homogeneous=False)
+        super().__init__(scalar, Letters({}), homogeneous=False, branch=branch)
         self.names = {(n.base, _bare(n.subscript), n.dots, n.style): value for n, value in names.items()}
         self.known_dimensions = dimensions
         self.bound_letters = bound
         self.positions = positions
+        self.units = units
         self.d_is_a_letter = False
 
     def bound(self, start: int, end: int, size: int, terms: int) -> None:
@@ -55,149 +56,89 @@ class PrintedFormula(Formula):
 
     # -- names and units ---------------------------------------------------------------------------------------
 
-    def letter_or_axis(self, run: Cursor) -> TermOrGrid | None:
-        if run.token and (figure := self.figure(run.token)) is not None:
-            run.at += 1
-            return figure
-        letter = self.read_letter(run)
-        if (
-            letter is not None
-            and letter.name == "e"
-            and run.written == "^"
-            and ("e", "", 0, "scalar") not in self.names
-        ):
-            self.euler = replace(self.euler, start=letter.start, end=letter.end)
-            return self.euler
-        return None if letter is None else self.value_of(letter)
-
-    def letter(self, run: Cursor) -> Term | None:
-        value = self.letter_or_axis(run)
-        return None if value is None else self.scalar_in(value, "a letter")
-
-    def read_letter(self, run: Cursor) -> Letter | None:
-        token = run.token
-        letter = letter_at(token)
-        if token is None or letter is None or token.text in ("mathrm", "operatorname"):
-            return None
-        run.at += 1
-        while run.written == "'":
-            letter = replace(letter, base=letter.base + "'")
-            run.at += 1
-        if run.written == "_" and not letter.subscript:
-            below = self.script(run)
-            letter = replace(letter, subscript=subscript_of(below.tokens) or "?", end=below.end)
-        return replace(letter, hat=token.text == "mathbf", vector=token.text == "bm")
-
-    def value_of(self, letter: Letter) -> Any:
-        style = "tensor" if letter.hat else "vector" if letter.vector else "scalar"
-        key = letter.base, _bare(letter.subscript), letter.dots, style
+    def of_letter(self, node: Letter) -> TermOrGrid:
+        if node.base == UNIT_LETTER:
+            return Term(in_unit(self.units[int(node.sub)]), NUMBER, node.span.start, node.span.end)
+        styled = STYLED.match(self.written(node))
+        style = STYLES[styled[1]] if styled else "scalar"
+        if node.base in "01" and style != "scalar":
+            matrix = ImmutableDenseMatrix.zeros(3, 1) if style == "vector" else ImmutableDenseMatrix.zeros(3, 3)
+            return self.grid(ImmutableDenseMatrix.eye(3) if node.base == "1" else matrix, node)
+        key = node.base + "'" * node.primes, _bare(node.sub), node.dots, style
+        if node.base == "pi" and key not in self.names:
+            return super().of_letter(node)
+        if key not in self.names and style == "vector" and node.sub[-1:] in ("x", "y", "z"):
+            vector = self.of_letter(replace(node, sub=node.sub[:-1].rstrip(",")))  # `(\bm{r}_{C})_{x}`
+            assert isinstance(vector, Grid)
+            return vector.column["xyz".index(node.sub[-1])]
         if key not in self.names:
-            what = self.text[letter.start : letter.end]
-            self.refuse("undeclared-symbol", f"`{what}` is no {style} of this line", letter.start, letter.end)
+            self.at(node, "undeclared-symbol", f"`{self.written(node)}` is no {style} of this line")
         value = self.names[key]
         if isinstance(value, MatrixBase):
-            return self.grid(value, letter)
+            return self.grid(value, node)
         dimension = self.known_dimensions.get(value) or NUMBER
         self.dimensions[value] = dimension
-        return Term(value, dimension, letter.start, letter.end)
+        return Term(value, dimension, node.span.start, node.span.end)
 
-    def grid(self, matrix: Any, place: Any) -> Grid:
-        rows = [
-            tuple(Term(entry, NUMBER, place.start, place.end) for entry in matrix.row(i)) for i in range(matrix.rows)
-        ]
-        return Grid(tuple(rows), place.start, place.end)
+    def is_euler(self, node: Letter) -> bool:
+        return self.written(node) == "e" and ("e", "", 0, "scalar") not in self.names
 
-    def begins_factor(self, run: Cursor) -> bool:
-        token = run.token
-        if token and token.kind == "command" and (token.text in ("mathrm", OVER_MASS) or self.figure(token)):
-            return True
-        return super().begins_factor(run)
+    def grid(self, matrix: Any, node: Node) -> Grid:
+        start, end = node.span.start, node.span.end
+        rows = [tuple(Term(entry, NUMBER, start, end) for entry in matrix.row(i)) for i in range(matrix.rows)]
+        return Grid(tuple(rows), start, end)
 
-    def is_plain(self, token: Token | None) -> bool:
-        """The argument of a function is a scalar."""
-        return not (token and token.text in STYLES) and super().is_plain(token)
+    def of_open(self, node: Open) -> TermOrGrid:
+        """A letter before a bracket is a factor; a page writes no function by its argument."""
+        return self.of(node.alternatives[1]) if node.kind == "apply" else super().of_open(node)
 
-    def unit(self, token: Token) -> Term:
-        argument = token.arguments[0]
-        assert argument is not None
-        text = self.text[argument.start : argument.end].removeprefix("{").removesuffix("}")
-        text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text).replace(r"{}^\circ", "deg").replace(r"\,", " ")
-        return Term(in_unit(text), NUMBER, token.start, token.end)
+    # -- derivatives and integrals over a mass -----------------------------------------------------------------
 
-    def figure(self, token: Token) -> Grid | None:
-        r"""`\bm{0}` and `\mathbf{0}`, and the unit tensor: figures in bold."""
-        if token.text not in STYLES or not token.arguments or not token.arguments[0]:
-            return None
-        figures = [t.text for t in token.arguments[0].tokens]
-        if token.text == "bm" and figures == ["0"]:
-            return self.grid(ImmutableDenseMatrix.zeros(3, 1), token)
-        if token.text == "mathbf" and figures in (["0"], ["1"]):
-            return self.grid(int(figures[0]) * ImmutableDenseMatrix.eye(3), token)
-        return None
-
-    def atom(self, run: Cursor, depth: int) -> TermOrGrid:
-        token = run.token
-        assert token is not None
-        if token.kind == "command" and token.text == "mathrm":
-            run.at += 1
-            return self.unit(token)
-        if token.text == OVER_MASS:
-            run.at += 1
-            inner = self.inside(token.arguments[0], depth)
-            matrix = over_the_mass(_matrix(inner), self.positions[0])
-            return self.grid(matrix, token)
-        if is_derivative(token):
-            run.at += 1
-            return self.derivative(run, token, depth)
-        return super().atom(run, depth)
-
-    # -- derivatives -------------------------------------------------------------------------------------------
-
-    def derivative(self, run: Cursor, token: Token, depth: int) -> TermOrGrid:
-        above, below = token.arguments
-        assert above and below
-        of = Cursor(above.tokens[1:], above.end)
-        order = self.order(of, depth)
-        by = Cursor(below.tokens[1:], below.end)
-        letter = self.read_letter(by)
-        assert letter is not None
-        name = "t" if letter.name == "t" else str(self.scalar_in(self.value_of(letter), "a letter").expr)
-        if order != self.order(by, depth):
-            self.refuse("latex", "the orders of this derivative differ", token.start, token.end)
-        what = self.closed_sum(of, depth + 1) if of.token else self.factor(run, depth)
-        for _ in range(order):
-            what = self.derived(what, name)
+    def of_der(self, node: Der) -> TermOrGrid:  # type: ignore[override]
+        assert node.of is not None
+        what = self.of(node.of)
+        for letter, order in node.by:
+            assert isinstance(letter, Letter)
+            plain = letter.base == "t" and not letter.sub
+            name = "t" if plain else str(self.scalar_in(self.of_letter(letter), "a letter").expr)
+            for _ in range(order):
+                what = self.derived(what, name)
         return what
-
-    def order(self, run: Cursor, depth: int) -> int:
-        return int(self.scalar_in(self.inside(self.script(run), depth), "an order").expr) if run.written == "^" else 1
 
     def derived(self, value: TermOrGrid, by: str) -> TermOrGrid:
         return each(value, lambda term: replace(term, expr=differentiated(explicit(term.expr), by), dimension=NUMBER))
 
+    def integral(self, node: Int, outside: list[TermOrGrid]) -> TermOrGrid:
+        first, *rest = node.items
+        if not isinstance(first, Sign) or first.lower is not None:
+            return super().integral(node, outside)
+        end = next(i for i, item in enumerate(rest) if isinstance(item, Diff))
+        inner, *factors = [self.of(item) for item in rest[:end]]
+        for factor in factors:
+            inner = self.product_of(inner, factor, "")
+        whole: TermOrGrid = self.grid(over_the_mass(_matrix(inner), self.positions[0]), node)
+        for item in rest[end + 1 :]:
+            whole = self.product_of(whole, self.of(item), "")
+        return whole
+
     # -- scripts behind brackets -------------------------------------------------------------------------------
 
-    def with_limits(self, run: Cursor, inner: TermOrGrid, first: int, depth: int) -> TermOrGrid:
-        opening = run.tokens[first - 1]
-        if opening.text == ".":
-            script = Cursor.over(self.script(run))
-            letter = self.letter(script)
-            assert letter is not None and script.written == "="
-            script.at += 1
-            place = self.scalar_in(self.closed_sum(script, depth + 1), "a place")
+    def of_evalbar(self, node: EvalBar) -> TermOrGrid:
+        inner, lower, upper = self.of(node.inner), node.lower, node.upper
+        if isinstance(lower, Condition) and upper is None:
+            letter = self.scalar_of(lower.left, "a letter")
+            place = self.scalar_of(lower.right, "a place")
             return each(inner, lambda t: replace(t, expr=taken_at(explicit(t.expr), letter.expr, explicit(place.expr))))
-        if opening.text == "(" and run.written == "_":
-            word = subscript_of(self.script(run).tokens)
-            if word == "body":
+        if isinstance(lower, Text) and upper is None:
+            if lower.text == "body":
                 return each(inner, lambda t: replace(t, expr=_seen_in_the_body(t.expr)))
-            assert isinstance(inner, Grid) and word in ("x", "y", "z")
-            return inner.column["xyz".index(word)]
-        assert run.token is not None
-        lower, upper, _ = self.limits(run, depth, run.token)
+            assert isinstance(inner, Grid) and lower.text in ("x", "y", "z")
+            return inner.column["xyz".index(lower.text)]
+        start, end, _ = self.limits(lower, upper, node)
         term = self.scalar_in(inner, "what stands before limits")
         found = [s for s in self.bound_letters if term.expr.has(s)]
         variable = Term(found[0], NUMBER, term.start, term.end) if len(found) == 1 else None
-        return bracket_of(self, inner, lower, upper, variable, run.before.end)
+        return bracket_of(self, inner, start, end, variable, node.span.end)
 
     def raised(self, base: Term, exponent: Term) -> Term:
         """To any power: a page is not a file that must be refused before it grows."""
@@ -227,26 +168,9 @@ def _matrix(value: TermOrGrid) -> Any:
     return ImmutableDenseMatrix([[explicit(term.expr) for term in line] for line in value.rows])
 
 
-def _over_masses(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-    r"""`\int ... dm`, which has no limits, as one token."""
-    kept: list[Token] = []
-    at = 0
-    while at < len(tokens):
-        token = tokens[at]
-        following = tokens[at + 1] if at + 1 < len(tokens) else None
-        if token.text == "int" and token.kind == "command" and not (following and following.kind == "script"):
-            end = next(i for i in range(at, len(tokens)) if [t.text for t in tokens[i : i + 2]] == ["d", "m"])
-            inside = Argument(tokens[at + 1 : end], tokens[at + 1].start, tokens[end].start)
-            kept.append(Token("command", OVER_MASS, token.start, tokens[end + 1].end, (inside,)))
-            at = end + 2
-        else:
-            kept.append(
-                replace(
-                    token, arguments=tuple(a and replace(a, tokens=_over_masses(a.tokens)) for a in token.arguments)
-                )
-            )
-            at += 1
-    return tuple(kept)
+def _unit(text: str) -> str:
+    text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
+    return text.replace(r"{}^\circ", "deg").replace(r"\,", " ")
 
 
 NAMED = (
@@ -269,21 +193,22 @@ def read_printed(
     """The sides of a printed chain, in each branch of its signs, and the marks between them."""
     text = RATE_OF_ALL.sub(r"\\frac{d}{dt}(\g<of>)", text)
     text = DERIVATIVE.sub(r"\\tfrac{\g<above>}{\g<below>}", text)
+    units: list[str] = []
+
+    def as_letter(found: re.Match[str]) -> str:
+        units.append(_unit(found[1]))
+        return rf"\{UNIT_LETTER}_{{{len(units) - 1}}}"
+
+    text = UNIT.sub(as_letter, text)
     branches: list[list[Any]] = []
     marks: list[str] = []
     for branch in (0, 1):
         scalar = Scalar(text, "", 0, len(text), Source("page.tex", text))
-        formula = PrintedFormula(scalar, names, dimensions, bound, positions or [])
-        formula.branch = branch
-        run = Cursor(_over_masses(_in_one_line(tokens_of(formula))), len(text.rstrip()))
-        sides, marks = [formula.sum(run, 0)], []
-        while run.token and run.written in RELATIONS and len(sides) < MAX_SIDES:
-            marks.append(RELATIONS[run.written])
-            run.at += 1
-            sides.append(formula.sum(run, 0))
-        if run.token:
-            formula.unexpected(run)
-        branches.append([_matrix(side) if isinstance(side, Grid) else explicit(side.expr) for side in sides])
+        reader = PrintedValues(scalar, names, dimensions, bound, positions or [], units, branch)
+        sides, marks = chain_of(reader)
+        values = [reader.of(node_of(reader, tokens)) for (tokens,) in sides]
+        assert len(values) <= MAX_SIDES
+        branches.append([_matrix(side) if isinstance(side, Grid) else explicit(side.expr) for side in values])
         if "\\pm" not in text:
             break
-    return branches, marks
+    return branches, marks[1:]

@@ -34,7 +34,7 @@ from derive.algebra.expansion import FirstOrder
 from derive.algebra.expressions import AXES, explicit
 from derive.algebra.node import Node
 from derive.algebra.rounding import Rounded
-from derive.course.units import read_unit
+from derive.units import read_unit
 
 
 def meaning(value: Any) -> Any:

@@ -1,16 +1,11 @@
 """Reads LaTeX formulas as SymPy expressions with dimensions. Each error has its exact place in the text.
 
-    tokens      the tokens of the text and their places, from pylatexenc
-    cursor      a sequence of tokens with the current position
     vocabulary  the LaTeX commands that are read; every other command is rejected
-    letters     the declared symbol for a letter with its subscript and dots
+    strict      the tokens of a formula, or the first thing in it that is not recognized
+    reading     `read_latex`, the entry point: the sides of a chain, and left sides that only name the answer
+    values      the values of the nodes that the parser of documents finds in a side
     grids       sums and products of scalars, vectors and matrices
-    integrals   integral signs with limits, differentials, antiderivatives between limits
-    arguments   letters, units and functions, and where the argument of a function ends
-    brackets    the contents of brackets and bars, triples, matrices, limits
-    titles      left sides that only name the answer
-    grammar     chains, sums, products, factors
-    reading     `read_latex`, the entry point
+    integrals   integrals, and antiderivatives between limits
     quoting     quotations of a document, which are printed but not evaluated
 
 A text that has no meaning, or two possible meanings, is rejected at its place.

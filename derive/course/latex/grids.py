@@ -99,11 +99,12 @@ class Grids(Arithmetic, ABC):
 
     def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
         """Multiply two adjacent values, with or without a dot or a cross between them."""
-        if isinstance(left, Term) and isinstance(right, Term):
-            if sign and self.has_vector(left) and self.has_vector(right):
+        if sign and all(isinstance(each, Grid) and each.is_vector or self.has_vector(each) for each in (left, right)):
+            if isinstance(left, Term) or isinstance(right, Term):
                 components = "write their components, `\\{a_1, a_2, a_3\\}`"
                 message = "the product of two vectors can be read only from their components"
                 self.refuse("shape", message, left.start, right.end, components)
+        if isinstance(left, Term) and isinstance(right, Term):
             return self.multiplied(left, right)
         if isinstance(left, Term):
             return spanning(each(right, lambda term: self.scaled(left, term)), left.start, right.end)
@@ -119,7 +120,7 @@ class Grids(Arithmetic, ABC):
         message = f"{_shape(left)} and {_shape(right)} cannot be multiplied in this way"
         self.refuse("shape", message, right.start, right.end, help_line)
 
-    def has_vector(self, term: Term) -> bool:
+    def has_vector(self, term: TermOrGrid) -> bool:
         return any(term.start <= at < term.end for at in self.vectors)
 
     def scaled(self, factor: Term, term: Term) -> Term:

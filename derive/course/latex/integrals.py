@@ -13,9 +13,6 @@ from derive.algebra.expressions import Bracket, Group, explicit
 from derive.algebra.integrals import Limits, definite, has_root
 from derive.course.arithmetic import Term
 from derive.course.latex.grids import Grids, TermOrGrid, each
-from derive.course.latex.letters import letter_at
-from derive.course.latex.tokens import Token
-from derive.course.latex.vocabulary import FRACTIONS
 
 MAX_POWER = 60
 MAX_WAVES = 24
@@ -48,26 +45,6 @@ def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
         message = f"the limits are those of `{reader.shown(sign.named)}`, not of `{reader.shown(variable)}`"
         reader.refuse("integral", message, variable.start, variable.end)
     sign.variable = variable
-
-
-def is_d(token: Token, d_is_a_letter: bool) -> bool:
-    """Return whether the token may be the d of a differential; an upright d is never a letter."""
-    if token.text == "mathrm" and token.arguments[0]:
-        return [t.text for t in token.arguments[0].tokens] == ["d"]
-    return token.kind == "letter" and token.text == "d" and not d_is_a_letter
-
-
-def differential_behind(token: Token, d_is_a_letter: bool) -> tuple[Token, ...]:
-    r"""Read `\frac{x\,dx}{2}` as `\frac{x}{2}\,dx`; return any other token unchanged."""
-    if token.text not in FRACTIONS or token.arguments[0] is None:
-        return (token,)
-    above = token.arguments[0]
-    starts = [i for i, t in enumerate(above.tokens[:-1]) if is_d(t, d_is_a_letter) and letter_at(above.tokens[i + 1])]
-    if not starts or [t.text for t in above.tokens[starts[-1] + 2 :]][:1] not in ([], ["_"]):
-        return (token,)
-    kept, differential = above.tokens[: starts[-1]], above.tokens[starts[-1] :]
-    one = Token("number", "1", above.start, above.end)
-    return (replace(token, arguments=(replace(above, tokens=kept or (one,)), *token.arguments[1:])), *differential)
 
 
 def _has(value: TermOrGrid, letter: Expr) -> bool:

@@ -16,12 +16,16 @@ from sympy import Expr
 
 from derive.algebra.dimensions import Dimension
 from derive.course.arithmetic import Declared, Term
-from derive.course.latex.cursor import Cursor
-from derive.course.latex.grammar import Formula
 from derive.course.latex.grids import TermOrGrid
-from derive.course.latex.letters import Letters
-from derive.course.latex.tokens import Token, tokens_of
+from derive.course.latex.strict import checked_tokens
+from derive.course.latex.values import Letters, Values, is_dotted, is_fraction_of_numbers
+from derive.course.latex.vocabulary import ALIGNMENTS, RELATIONS, RELATIONS_IN_PROSE, WORDS
 from derive.course.yaml_tree import Scalar
+from derive.documents.layout import depths
+from derive.documents.macros import argument_at
+from derive.documents.parser import Unreadable, parsed
+from derive.documents.syntax import Apply, Der, Letter, Mul, Node, Num, Open
+from derive.documents.tokens import Kind, Token
 from derive.errors import Place, Rejected
 
 MAX_SIDES = 40
@@ -63,61 +67,134 @@ def read_latex(
 
 @lru_cache(maxsize=1024)  # a process may read the same formula several times
 def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneous: bool, in_prose: bool) -> ReadMath:
-    letters = dict(declared)
-    plus = Formula(scalar, Letters(letters), homogeneous, in_prose)
-    tokens = tokens_of(plus)
-    sides, marks = _chain(plus, tokens)
-    if not any(len(values) == 1 and branches == 2 for values, branches, *_ in sides):
-        others = sides
-    else:
-        minus = Formula(scalar, Letters(letters), homogeneous, in_prose)
-        minus.branch = 1
-        others, _ = _chain(minus, tokens)
-    return ReadMath(tuple(_side(plus, a, b) for a, b in zip(sides, others, strict=True)), tuple(marks))
-
-
-ReadSide: TypeAlias = tuple[list[TermOrGrid], int, Token, Token]
-
-
-def _chain(formula: Formula, tokens: tuple[Token, ...]) -> tuple[list[ReadSide], list[str]]:
-    """Read every side; all undeclared letters are reported together, before other errors."""
-    cursor = Cursor(_in_one_line(tokens), len(formula.text.rstrip()))
+    letters = Letters(dict(declared))
+    plus, minus = (Values(scalar, letters, homogeneous, in_prose, branch) for branch in (0, 1))
+    sides, marks = chain_of(plus)
+    found: list[Side | None] = []
     try:
-        found = formula.chain(cursor)
+        for alternatives in sides:
+            nodes = [node_of(plus, tokens) for tokens in alternatives]
+            if not found and marks[1:2] in (["="], ["~"]) and is_title(nodes[0]):
+                found.append(None)
+                continue
+            plus.branches = 1
+            values = [plus.of(node) for node in nodes]
+            if plus.branches == 2 and len(values) == 1:
+                values.append(minus.of(nodes[0]))
+            elif plus.branches + len(values) > 3 or len(values) > 2:
+                plus.at(nodes[0], "latex", "a value can have two branches at most")
+            found.append(_side(plus, values, alternatives))
     except Rejected as error:
-        raise Rejected([*formula.undeclared, *error.complaints]) from None
-    if formula.undeclared:
-        raise Rejected(dict.fromkeys(formula.undeclared))
-    if len(found[0]) > MAX_SIDES:
-        formula.refuse("too-large", f"a chain has at most {MAX_SIDES} sides", 0)
-    return found
+        raise Rejected([*dict.fromkeys(plus.undeclared), *error.complaints]) from None
+    if plus.undeclared:
+        raise Rejected(dict.fromkeys(plus.undeclared))
+    kept = [(side, mark) for side, mark in zip(found, marks, strict=True) if side is not None]
+    return ReadMath(tuple(side for side, _ in kept), tuple(mark for _, mark in kept))
 
 
-def _in_one_line(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+def node_of(reader: Values, tokens: list[Token]) -> Node:
+    """Return the node of one side."""
+    try:
+        return parsed(tokens)
+    except Unreadable as error:
+        reader.refuse("latex", error.message, error.span.start, error.span.end)
+
+
+def is_title(node: Node) -> bool:
+    r"""Return whether a first side only names the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2} \frac{d}{dt} L^2 =`.
+
+    Such a name has no value to compare; the `answer` of the entry says which step it names.
+    """
+    if isinstance(node, Mul):
+        *numbers, (_, node) = node.factors
+        if not all(isinstance(each, Num) or is_fraction_of_numbers(each) for _, each in numbers):
+            return False
+    if isinstance(node, Der):
+        return not is_dotted(node)
+    if isinstance(node, Letter):
+        return node.primes > 0
+    call = node.alternatives[0] if isinstance(node, Open) and node.kind == "apply" else node
+    if not isinstance(call, Apply):
+        return False
+    arguments = [getattr(each, "left", each) for each in call.arguments]
+    return all(isinstance(each, Letter) for each in arguments)
+
+
+def chain_of(reader: Values) -> tuple[list[list[list[Token]]], list[str]]:
+    """Return the tokens of every side, with its alternatives `a or b`, and the relation before each side."""
+    known = RELATIONS_IN_PROSE if reader.in_prose else RELATIONS
+    tokens = _in_one_line(reader, checked_tokens(reader))
+    sides: list[list[list[Token]]] = [[[]]]
+    marks = [""]
+    skip = 0
+    for at, (token, depth) in enumerate(depths(tokens)):
+        if at < skip:
+            continue
+        mark = known.get(f"\\{token.text}" if token.kind is Kind.COMMAND else token.text) if depth == 0 else None
+        if mark is not None and token.kind in (Kind.MARK, Kind.COMMAND):
+            if not sides[-1][-1]:
+                if len(sides) > 1 or len(sides[0]) > 1 or marks[0]:
+                    reader.refuse("latex", f"something is missing before `{token.text}`", token.span.start)
+                marks[0] = mark
+                continue
+            marks.append(mark)
+            sides.append([[]])
+        elif depth == 0 and token.is_command(*WORDS) and _word(tokens, at) == "or":
+            skip = argument_at(tokens, at + 1)[1]
+            sides[-1].append([])
+        else:
+            sides[-1][-1].append(token)
+    if len(sides) > MAX_SIDES:
+        reader.refuse("too-large", f"a chain has at most {MAX_SIDES} sides", 0)
+    if any(not alternative for side in sides for alternative in side):
+        reader.refuse("latex", "something is missing at the end", len(reader.text.rstrip()) - 1)
+    return sides, marks
+
+
+def _word(tokens: list[Token], at: int) -> str:
+    return "".join(each.text for each in argument_at(tokens, at + 1)[0])
+
+
+def _in_one_line(reader: Values, tokens: list[Token]) -> list[Token]:
     """Join the rows of an aligned chain: a row that begins with a relation or a sign continues the row before."""
-    aligned = [token for token in tokens if token.kind != "cell"]
+    aligned: list[Token] = []
+    inside = at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        if token.is_command("begin", "end"):
+            after = argument_at(tokens, at + 1)[1]
+            if _word(tokens, at) in ALIGNMENTS:
+                at = (
+                    argument_at(tokens, after)[1]
+                    if _word(tokens, at) == "alignedat" and token.text == "begin"
+                    else after
+                )
+                continue
+            inside += 1 if token.text == "begin" else -1
+        if inside or token.kind is not Kind.CELL:
+            aligned.append(token)
+        at += 1
     kept: list[Token] = []
     for i, token in enumerate(aligned):
+        inside += token.is_command("begin") - token.is_command("end")
         following = aligned[i + 1] if i + 1 < len(aligned) else None
-        goes_on = following is None or following.kind == "mark" or not kept or following.text in _CONTINUING
-        if token.kind != "row" or not goes_on:
+        if inside or not token.is_command("\\", "cr"):
             kept.append(token)
-    return tuple(kept)
+        elif kept and following is not None and following.kind is not Kind.MARK and following.text not in _CONTINUING:
+            reader.refuse("latex", "only one formula can be read at a time", token.span.start, token.span.end)
+    return kept
 
 
 _CONTINUING = {"le", "leq", "ge", "geq", "ne", "neq", "approx", "cdot", "times", "pm", "mp", "leqslant", "geqslant"}
 
 
-def _side(formula: Formula, plus: ReadSide, minus: ReadSide) -> Side:
-    values, branches, first, last = plus
-    if branches == 2 and len(values) == 1:
-        values = [values[0], minus[0][0]]
+def _side(reader: Values, values: list[TermOrGrid], alternatives: list[list[Token]]) -> Side:
+    start, end = alternatives[0][0].span.start, alternatives[-1][-1].span.end
     shapes = {_shape(value) for value in values}
-    start, end = first.start, last.end
     if len(shapes) > 1:
-        formula.refuse("shape", "the two branches have different shapes", start, end)
-    text = " ".join(formula.text[start:end].split())
-    place = formula.scalar.place_within(start, end - start)
+        reader.refuse("shape", "the two branches have different shapes", start, end)
+    text = " ".join(reader.text[start:end].split())
+    place = reader.scalar.place_within(start, end - start)
     return Side(tuple(_entries(value) for value in values), shapes.pop(), text, place)
 
 

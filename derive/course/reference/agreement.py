@@ -21,9 +21,9 @@ from derive.algebra.rounding import Rounded, off_by_more_than_half_a_unit
 from derive.algebra.samples import is_zero_everywhere
 from derive.course.problem import Problem
 from derive.course.reference.statements import Entry, Stated, Statement
-from derive.course.units import read_unit
 from derive.steps.derivation import with_ancestors
 from derive.steps.step import Quantity
+from derive.units import read_unit
 
 NOT_MULTIPLIED = "only an equation can be multiplied by a factor"
 

@@ -108,8 +108,9 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
             steps = _pinned_steps(pinned, problem, memory) if memory else _derived_again(pinned, memory)
             derived.append((given, steps))
         here = given == _what_is_given(problem)
-        compared = (_comparison(one, steps, pinned) for entry in entries for one in _one_by_one(entry, steps))
-        found += [replace(comparison, here=here) for comparison in compared]
+        for entry in entries:
+            compared = _by_symbol(entry, steps, pinned) if entry.symbol else _by_key(entry, steps, pinned)
+            found += [replace(comparison, here=here) for comparison in compared]
     return tuple(found)
 
 
@@ -160,11 +161,31 @@ def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
     again = replace(entry, remark=None)  # only the entry of the first side keeps the remark
-    sides = zip(entry.states.sides, entry.states.marks, strict=True)
+    begins = 1 if entry.states.is_named else 0
+    sides = zip(entry.states.sides[begins:], entry.states.marks[begins:], strict=True)
     return [
         replace(again if i else entry, states=Statement((side,), (mark,), side.text, side.place))
         for i, (side, mark) in enumerate(sides)
     ]
+
+
+def _by_key(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
+    return [_comparison(one, steps, pinned) for one in _one_by_one(entry, steps)]
+
+
+def _by_symbol(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
+    """Compare a chain with the steps that have its first letter as their symbol: a side may be the value of any of
+    these steps, for example of the energy before and after numbers are substituted."""
+    keys = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == entry.symbol]
+    if not keys:
+        message = f"no step has the symbol `{entry.symbol}`"
+        help_line = "give the lines of this formula, and name its step under `answer`"
+        fault = _fault("unknown-step", message, entry.place, help=help_line)
+        return [Comparison(pinned.id, entry, "unknown step", None, message, fault)]
+    by_step = [_by_key(replace(entry, answer=key, symbol=""), steps, pinned) for key in keys]
+    longest = max(map(len, by_step))
+    sides = zip(*(found for found in by_step if len(found) == longest), strict=True)
+    return [next((each for each in side if each.complaint is None), side[-1]) for side in sides]
 
 
 def _comparison(entry: Entry, steps: Steps, pinned: Problem) -> Comparison:

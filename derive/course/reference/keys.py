@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from derive.course.parts import UNIT
-from derive.course.reference.quotes import LINE, QUOTATION
+from derive.course.reference.quotes import LINE, LINES, QUOTATION, SIDES, Lines
 from derive.course.schema import (
     FIGURES,
     MAX_FIGURES,
@@ -29,7 +29,8 @@ _ANY_VALUE = as_written(
     {"anyOf": [SCALAR.schema, {"type": "array", "items": _ENTRY_OR_ROW, "minItems": 3, "maxItems": 3}]},
     "an expression, a list of 3, or 3 rows of 3",
 )
-_OUR_LETTERS = mapping_of(as_written(TEXT.schema, "a letter of the problem"), "a mapping such as `I_1: I_xx`")
+_OUR_LETTER = {"anyOf": [TEXT.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]}
+_OUR_LETTERS = mapping_of(as_written(_OUR_LETTER, "a letter of the problem"), "a mapping such as `I_1: I_xx`")
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,11 @@ class EntryKeys(Record):
 
     part: Word | None = key("the part of the document", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)
+    lines: Lines | None = key("the lines of the document from which the formula is read, or its section", LINES)
+    side: tuple[int, ...] = key(
+        "the numbers of the sides of this formula that are compared; the first side is 1", SIDES
+    )
+    document: Word | None = key("the document of this entry, if it is another one", TEXT)
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(
@@ -87,7 +93,7 @@ class GroupKeys(Record):
         "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
     )
     letters: dict[Word, Tree] = key(
-        "letters of the document that have another name here: `I_1: I_xx`",
+        "letters of the document that have another name here, `I_1: I_xx`, or are vectors with these components",
         _OUR_LETTERS,
     )
     values: dict[Word, Tree] = key(

@@ -10,17 +10,18 @@ import re
 from collections.abc import Mapping as Table
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sympy import Expr, Symbol
 
-from derive.algebra.dimensions import Dimension
-from derive.algebra.expressions import TIME
+from derive.algebra.dimensions import NUMBER, Dimension
+from derive.algebra.expressions import AXES, TIME
 from derive.course.declared import declared_letters
 from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, pinned_by
 from derive.course.problem_set import mapping_in, problem_ids
 from derive.course.reference.keys import DocumentKeys, EntryKeys, GroupKeys, OwnKeys
-from derive.course.reference.quotes import Remark, unquotable
+from derive.course.reference.quotes import Lines, Remark, unquotable
 from derive.course.schema import (
     MAX_FIGURES,
     TEXT,
@@ -29,12 +30,16 @@ from derive.course.schema import (
     read_record,
     wrong_type,
 )
-from derive.course.units import Unit, read_unit
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml
-from derive.errors import Faults, Place, did_you_mean
+from derive.errors import Faults, Place, Rejected, did_you_mean
+from derive.units import Unit, read_unit
+
+if TYPE_CHECKING:
+    from derive.course.reference.cited import Cited, Formula
 
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9_]+)?")
 _FIGURES = re.compile(r"[1-9][0-9]?", re.ASCII)
+DOCUMENTS = frozenset([".tex", ".ltx", ".md", ".markdown", ".ipynb", ".txt"])
 _VALUE = "an expression, a list of 3, or 3 rows of 3"
 
 
@@ -69,6 +74,7 @@ class Statement:
     marks: tuple[str, ...]
     text: str
     place: Place = field(repr=False)
+    is_named: bool = False  # whether the first side is a letter that may only name the value: `T = ...`
 
     @classmethod
     def of(cls, value: Stated) -> Statement:
@@ -108,6 +114,7 @@ class Entry:
     instead: str = ""
     remark: Remark | None = None
     document: str = ""
+    symbol: str = ""  # the letter that a chain of a section begins with, if the entry does not name a step
 
 
 def reference_path(problem: Problem) -> str:
@@ -115,10 +122,29 @@ def reference_path(problem: Problem) -> str:
     return f"problems/{problem.set_id}/reference.yaml"
 
 
+def reference_paths(problem: Problem) -> list[str]:
+    """Return the reference file of the problem's set and the documents next to it, which it may cite."""
+    folder = Path("problems", problem.set_id)
+    documents = sorted((problem.root / folder).glob("*.*"))
+    cited = [f"{folder.as_posix()}/{file.name}" for file in documents if file.suffix.lower() in DOCUMENTS]
+    return [reference_path(problem), *cited]
+
+
 def reference_of_set(root: Path, set_id: str) -> Tree | None:
     """Return the contents of the reference file of a set; None if there is no such file."""
     path = f"problems/{set_id}/reference.yaml"
     return read_yaml(root / path, path) if (root / path).exists() else None
+
+
+def read_ahead(root: Path, set_id: str) -> None:
+    """Read the reference of a set and the document that it names, so that worker processes share them."""
+    node = reference_of_set(root, set_id)
+    first = node.items[0] if isinstance(node, Sequence) and node.items else None
+    named = first.get("document") if isinstance(first, Mapping) else None
+    if isinstance(named, Scalar):
+        from derive.course.reference.cited import cited
+
+        cited(root, set_id, named.text.strip())
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
@@ -188,12 +214,18 @@ def _entries(
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
-    printed = {**letters, **_called_otherwise(group.letters, letters, faults)}
-    reader = _EntryReader(letters, printed, numbers, faults)
+    vectors = {name: value for name, value in group.letters.items() if isinstance(value, Sequence)}
+    others = {name: value for name, value in group.letters.items() if name not in vectors}
+    printed = {**letters, **_called_otherwise(others, letters, faults)}
+    for name, vector in vectors.items():
+        printed |= _components(name, vector, letters, faults)
+    reader = _EntryReader(letters, printed, numbers, faults, pinned, document if has_lines else "")
     for written in group.entries:
-        if document and has_lines and written.line is None and (written.erratum or written.remark):
+        lines = written.line is not None or written.lines is not None
+        if document and has_lines and not lines and (written.erratum or written.remark):
             faults.error("missing-key", f"errata and remarks need `line`: a line of `{document}`", written.places[""])
-    return [replace(entry, document=document) for written in group.entries if (entry := reader.entry(written))]
+    found = [(written, entry) for written in group.entries for entry in reader.entries(written)]
+    return [replace(entry, document=str(written.document or document)) for written, entry in found]
 
 
 def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
@@ -216,35 +248,102 @@ def _called_otherwise(written: Table[Word, Tree], letters: Table[str, Declared],
     return found
 
 
+@dataclass(frozen=True)
+class _Component(Declared):
+    """A component of a vector of the document, as an expression in the problem's letters."""
+
+    measured: Dimension = NUMBER
+
+    @property
+    def dimension(self) -> Dimension:
+        return self.measured
+
+
+def _components(name: Word, vector: Sequence, letters: Table[str, Declared], faults: Faults) -> dict[str, Declared]:
+    """Return the components of a vector that the document names by a letter: `L: [I_x*omega_x, 0, 0]`."""
+    stated = _stated(vector, f"`{name}`", letters, faults)
+    if stated is None or stated.shape != (3, 1):
+        return {}
+    names = [f"{name}_{axis}" for axis in AXES]
+    found = zip(names, stated.entries, strict=True)
+    return {axis: _Component(axis, expr, "", measured=dimension) for axis, (expr, dimension) in found}
+
+
 def is_quoted_only(written: EntryKeys) -> bool:
     """Return whether an entry quotes a misprint without stating a value, so that there is nothing to compare."""
     states = (written.answer, written.latex, written.states, written.remark)
-    return written.erratum is not None and written.quote is not None and all(each is None for each in states)
+    quotes = written.quote is not None or written.lines is not None
+    return written.erratum is not None and quotes and all(each is None for each in states)
 
 
 class _EntryReader:
     """Reads the entries of one group: `letters` are the problem's letters, `printed` the letters that the document's
     formulas may use."""
 
-    def __init__(self, letters: Table[str, Declared], printed: Table[str, Declared], numbers: set[str], faults: Faults):
+    def __init__(
+        self,
+        letters: Table[str, Declared],
+        printed: Table[str, Declared],
+        numbers: set[str],
+        faults: Faults,
+        problem: Problem,
+        document: str,
+    ):
         self.letters = letters
         self.printed = printed
         self.numbers = numbers
         self.faults = faults
+        self.problem = problem
+        self.document = document
+        self.lacks_document = False
+
+    def entries(self, written: EntryKeys) -> list[Entry]:
+        """Return one entry, or for a section an entry for each of its chains that begins with a letter."""
+        if written.lines is None or not written.lines.section:
+            entry = self.entry(written)
+            return [entry] if entry else []
+        other = written.values_at.keys() - {"lines", "part", "document"}
+        if other:
+            message = f"an entry with a section cannot have `{min(other)}`"
+            self.faults.error("two-values", message, written.places[min(other)], help="give the lines of one formula")
+            return []
+        document = self.cited(written)
+        if document is None:
+            self.no_document(written)
+            return []
+        from derive.course.latex.values import Letters
+
+        found: list[Entry] = []
+        place = written.lines.place
+        with self.faults:
+            for letter, formula in document.section(written.lines.section, written.lines.place):
+                if letter is not None and (states := self.of_document(formula, True, place)) is not None:
+                    declared = Letters(self.printed).named(letter.base, letter.sub)
+                    name = f"{letter.base}_{letter.sub}" if letter.sub else letter.base
+                    symbol = declared.symbol.name if declared else name
+                    line = formula.scalar.place.line
+                    entry = Entry("", written.part, states, None, "", (), None, formula.scalar.place)
+                    found.append(replace(entry, line=line, symbol=symbol))
+        return found
 
     def entry(self, written: EntryKeys) -> Entry | None:
+        formula = self.formula(written)
+        if written.lines is not None and formula is None:
+            return None
+        self.check_quoted(written)
         if is_quoted_only(written):
-            return self.slip(written)
+            return self.slip(written, formula)
         put_in = self.put_in(written.put_in)
-        states = self.statement(written, put_in)
-        why, right = self.erratum(written, put_in)
-        factor = self.factor(written)
+        states = self.statement(written, put_in, formula)
+        why, right = self.erratum(written, put_in, formula is not None)
+        factor = self.factor(written, formula is not None)
         unit = None
         with self.faults:
-            unit = read_unit(written.unit, written.unit.place) if written.unit else None
+            unit = self.unit(written, formula)
         figures = _figures(written.to, states, self.faults)
-        quote, instead = self.quotes(written)
-        remark = Remark(written.part, written.line, quote, written.remark) if written.remark else None
+        quote, instead = self.quotes(written, formula, unit)
+        line = self.line(written)
+        remark = Remark(written.part, line, quote, written.remark) if written.remark else None
         if remark and not quote and "quote" not in written.values_at:
             self.faults.error("missing-key", "a remark needs `quote`: what the document prints", written.places[""])
         if written.answer is None and (states is not None or not remark):
@@ -252,69 +351,155 @@ class _EntryReader:
             self.faults.error("missing-key", message, written.places[""])
         if remark and written.answer is None and states is None:
             place = written.places["remark"]
-            return Entry("", written.part, None, None, "", (), None, place, line=written.line, remark=remark)
+            return Entry("", written.part, None, None, "", (), None, place, line=line, remark=remark)
         if written.answer is None or states is None:
             return None
         entry = Entry(
             written.answer, written.part, states, right, why, figures, unit, written.answer.place, put_in, factor
         )
-        return replace(entry, line=written.line, quote=quote, instead=instead, remark=remark)
+        return replace(entry, line=line, quote=quote, instead=instead, remark=remark)
 
-    def slip(self, written: EntryKeys) -> Entry | None:
+    def line(self, written: EntryKeys) -> int | None:
+        if written.line is None and written.lines is not None:
+            return written.lines.ranges[0][0]
+        return written.line
+
+    # -- the document ---------------------------------------------------------------------------------------------
+
+    def cited(self, written: EntryKeys) -> Cited | None:
+        """Return the document of an entry, if it is a file of the set."""
+        name = str(written.document or self.document)
+        if not name:
+            return None
+        from derive.course.reference.cited import cited  # imported here, because few references have a document
+
+        return cited(self.problem.root, self.problem.set_id, name)
+
+    def formula(self, written: EntryKeys) -> Formula | None:
+        """Return the formula of the document that an entry cites by its lines."""
+        has_value = written.latex is not None or written.states is not None
+        lines = written.lines
+        if lines is None and written.line is not None and not has_value and (written.answer or written.quote is None):
+            lines = Lines(((written.line, written.line),), "", written.values_at["line"])
+        if lines is None:
+            return None
+        document = self.cited(written)
+        if document is None:
+            if written.lines is not None:
+                self.no_document(written)
+            return None
+        with self.faults:
+            return document.formula(lines.ranges, written.side, lines.place)
+        return None
+
+    def no_document(self, written: EntryKeys) -> None:
+        """Report, once for all entries, that the document that they cite is not a file of the set."""
+        if not self.lacks_document:
+            self.lacks_document = True
+            name = written.document or self.document
+            folder = f"problems/{self.problem.set_id}"
+            message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
+            help_line = "name a file in this folder: `- document: solutions.md`"
+            self.faults.error("no-document", message, written.values_at["lines"], help=help_line)
+
+    def check_quoted(self, written: EntryKeys) -> None:
+        """Check that the document has the quoted text at the line of the entry."""
+        line = self.line(written)
+        quoted = [each for each in (written.quote, written.latex) if each is not None]
+        if line is None or not quoted or (document := self.cited(written)) is None:
+            return
+        for each in quoted:
+            text = each.text if isinstance(each, Scalar) else str(each)
+            if not document.quotes(text, line):
+                name, near = document.file.path, document.lines_of(text)
+                help_line = f"the text is in line {near}" if near else f"the line is `{document.shown(line)}`"
+                message = f"`{name}` does not have this text in line {line}"
+                self.faults.error("quotation", message, each.place, help=help_line)
+
+    def unit(self, written: EntryKeys, formula: Formula | None) -> Unit | None:
+        stated = read_unit(written.unit, written.unit.place) if written.unit else None
+        printed = formula.unit if formula else None
+        if stated and printed and (stated.factor, stated.dimension) != (printed.factor, printed.dimension):
+            message = f"the document has the unit `{printed.text}`, not `{stated.text}`"
+            self.faults.error("wrong-unit", message, written.values_at["in"])
+        return stated or printed
+
+    def slip(self, written: EntryKeys, formula: Formula | None) -> Entry | None:
         """Read an erratum that is quoted and corrected, but is not a value of a step: a formula garbled in print."""
         assert written.erratum is not None
-        right, place = written.erratum.right, written.places["quote"]
+        right, place = written.erratum.right, written.places.get("quote") or written.places[""]
         instead = right.text if isinstance(right, Scalar) else ""
         if right is not None and (why := unquotable(instead) if instead else "it is not text") is not None:
             self.faults.error("quotation", f"`right`: {why}", right.place)
             return None
-        quote, told = str(written.quote), written.erratum.why or ""
+        quote = str(written.quote or (formula and formula.quotation) or "")
+        told = written.erratum.why or ""
         return Entry(
-            "", written.part, None, None, told, (), None, place, line=written.line, quote=quote, instead=instead
+            "", written.part, None, None, told, (), None, place, line=self.line(written), quote=quote, instead=instead
         )
 
-    def quotes(self, entry: EntryKeys) -> tuple[str, str]:
+    def quotes(self, entry: EntryKeys, formula: Formula | None, unit: Unit | None) -> tuple[str, str]:
         """Return what the document prints, and what it should print.
 
-        The first text is the value of `quote:`, or else the formula of `latex:` between dollar signs. The second is the
-        right formula between dollar signs, for an erratum with `latex:`. Both are empty for an entry that is neither an
-        erratum nor a remark.
+        The first text is the value of `quote:`, or else the formula of `latex:` or of the document between dollar
+        signs. The second is the right formula between dollar signs, for an erratum with such a formula. Both are empty
+        for an entry that is neither an erratum nor a remark.
         """
-        should = entry.erratum.right if entry.erratum else None
-        told = [entry.latex, should if entry.latex is not None else None]
-        printed, right = (f"${' '.join(x.text.split())}$" if isinstance(x, Scalar) else "" for x in told)
         if entry.erratum is None and entry.remark is None:
             return "", ""
+        is_printed = entry.latex is not None or formula is not None
+        should = entry.erratum.right if entry.erratum and is_printed else None
+        printed = formula.quotation if formula else _in_dollars(entry.latex)
+        right = _in_dollars(should)
         for text in (printed, right):
             if (why := unquotable(text)) is not None:
                 self.faults.error("quotation", f"this cannot be quoted: {why}", entry.places[""])
                 return "", ""
-        unit = f" {entry.unit}" if entry.unit and right else ""  # the transcribed number is followed by its unit
-        return str(entry.quote or printed), f"{right}{unit}"
+        suffix = f" {unit.text}" if unit and right else ""  # the transcribed number is followed by its unit
+        return str(entry.quote or printed), f"{right}{suffix}"
 
-    def factor(self, entry: EntryKeys) -> Statement | None:
+    def factor(self, entry: EntryKeys, is_cited: bool) -> Statement | None:
         node = entry.times
         if node is None:
             return None
-        read = self.one(node, "`times`", entry.latex is not None, True)
+        read = self.one(node, "`times`", is_cited or entry.latex is not None, True)
         if read and (len(read.sides) > 1 or read.sides[0].shape or len(read.sides[0].branches) > 1):
             self.faults.error("wrong-type", "`times` must be one scalar", node.place)
         return read
 
-    def statement(self, entry: EntryKeys, put_in: tuple[str, ...]) -> Statement | None:
-        """Read the value that an entry states under `states:` or `latex:`. Under `latex:`, the dimensions of the terms
-        are not compared for an erratum or after numbers have been substituted."""
+    def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
+        """Read the value that an entry states under `states:` or `latex:`, or in the document. In LaTeX, the dimensions
+        of the terms are not compared for an erratum or after numbers have been substituted."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
+        homogeneous = "erratum" not in entry.values_at and not put_in
         if plain is not None and printed is not None:
             self.faults.error("two-values", "an entry cannot have both `states` and `latex`", entry.places["latex"])
+        elif formula is not None and entry.answer is not None and plain is None and printed is None:
+            return self.of_document(formula, homogeneous, entry.places[""])
         elif plain is None and printed is None and entry.remark is None:
             # An unknown key, or a `states` or `latex` that could not be read, already has an error of its own.
             if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])
         elif printed is not None:
-            return self.one(printed, "`latex`", True, "erratum" not in entry.values_at and not put_in)
+            return self.one(printed, "`latex`", True, homogeneous)
         return self.one(plain, "`states`", False, True) if plain is not None else None
+
+    def of_document(self, formula: Formula, homogeneous: bool, place: Place) -> Statement | None:
+        """Read a chain of the document. A first letter that is not declared can only be a name of the value."""
+        named = bool(formula.head)
+        if named:
+            try:
+                self.in_latex(formula.scalar.piece(0, len(formula.head)), homogeneous)
+            except Rejected:
+                formula, named = formula.without_head, False
+        with self.faults:
+            try:
+                return replace(self.in_latex(formula.scalar, homogeneous), is_named=named)
+            except Rejected as error:
+                note = f"the formula is cited at {place.path}:{place.line}"
+                raise Rejected(replace(c, notes=(*c.notes, note)) for c in error.complaints) from None
+        return None
 
     def one(self, node: Tree, key: str, printed: bool, homogeneous: bool) -> Statement | None:
         if not printed:
@@ -323,19 +508,23 @@ class _EntryReader:
         if not isinstance(node, Scalar) or node.empty:
             wrong_type(self.faults, key, "a formula in LaTeX", node)
             return None
-        from derive.course.latex import read_latex  # imported here, because few files need LaTeX
-
         with self.faults:
-            read = read_latex(node, self.printed, homogeneous=homogeneous)
-            sides = tuple(Stated(s.branches, s.shape, s.text, s.place, homogeneous) for s in read.sides)
-            return Statement(sides, read.marks, " ".join(node.text.split()), node.place)
+            return self.in_latex(node, homogeneous)
         return None
 
-    def erratum(self, entry: EntryKeys, put_in: tuple[str, ...]) -> tuple[str, Statement | None]:
+    def in_latex(self, scalar: Scalar, homogeneous: bool) -> Statement:
+        from derive.course.latex import read_latex  # imported here, because few files need LaTeX
+
+        read = read_latex(scalar, self.printed, homogeneous=homogeneous)
+        sides = tuple(Stated(s.branches, s.shape, s.text, s.place, homogeneous) for s in read.sides)
+        return Statement(sides, read.marks, " ".join(scalar.text.split()), scalar.place)
+
+    def erratum(self, entry: EntryKeys, put_in: tuple[str, ...], is_cited: bool) -> tuple[str, Statement | None]:
         written = entry.erratum
         if written is None or written.right is None:
             return (written and written.why) or "", None
-        return written.why or "", self.one(written.right, "`right`", entry.latex is not None, not put_in)
+        printed = is_cited or entry.latex is not None
+        return written.why or "", self.one(written.right, "`right`", printed, not put_in)
 
     def put_in(self, node: Tree | None) -> tuple[str, ...]:
         """Return the letters whose numbers the document has substituted; each letter must have a number in the
@@ -352,6 +541,10 @@ class _EntryReader:
             else:
                 names.append(known.symbol.name)
         return tuple(names)
+
+
+def _in_dollars(node: Tree | None) -> str:
+    return f"${' '.join(node.text.split())}$" if isinstance(node, Scalar) else ""
 
 
 def _stated(node: Tree, key: str, letters: Table[str, Declared], faults: Faults) -> Stated | None:
@@ -394,7 +587,7 @@ def _figures(node: Tree | None, states: Statement | None, faults: Faults) -> tup
         if not _FIGURES.fullmatch(text) or int(text) > MAX_FIGURES:
             wrong_type(faults, "`to`", f"a whole number from 1 to {MAX_FIGURES}, or a list of them", item)
             return ()
-    wanted = len(_values(states.sides[0])) if states else len(items)
+    wanted = len(_values(states.sides[int(states.is_named)])) if states else len(items)
     if isinstance(node, Sequence) and len(items) != wanted:
         message = f"`to` has {len(items)} numbers, but the value has {wanted} entries"
         faults.error("wrong-length", message, node.place)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Abs, Matrix
 
-from derive.course.latex.brackets import MAX_SIDE
+from derive.course.latex.values import MAX_SIDE
 from tests.course.latex.formula import complaint, letter, marked, value
 
 a, b, h, z = (letter(name) for name in "abhz")

@@ -85,6 +85,7 @@ SCALARS = [
     (r"\rho\int_{0}^{h}\int_{0}^{2\pi}\int_0^{Rz/h} r^2 r\,dr\,d\theta\,dz", pi * rho * R**4 * h / 10),
     (r"\int_0^h z^{2} dz \int_{0}^{2 \pi} d\theta\left(\int_{0}^{\frac{R}{h} z} r d r\right)", pi * R**2 * h**3 / 5),
     (r"\int_0^{2\pi} \sin^2\theta d\theta + \int_0^\pi \sin 2\phi d\phi", pi),
+    (r"\int_0^h z + h dz", 3 * h**2 / 2),
     (r"\int_0^h z^2 \cos\frac{z}{h} dz", h**3 * (2 * cos(1) - sin(1))),
     (r"\int_0^h dz \int_0^{z} dx \int_0^{x} y dy", h**4 / 24),
     (r"\left[\frac{z^5}{5}\right]_0^h", h**5 / 5),

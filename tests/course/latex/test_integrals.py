@@ -5,9 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Rational, pi
 
-from derive.course.latex.integrals import differential_behind, is_d
 from tests.course.latex.formula import complaint, letter, marked, value
-from tests.course.latex.test_tokens import tokens
 
 a, h, n, z = (letter(name) for name in "ahnz")
 
@@ -44,27 +42,6 @@ def test_an_integral_that_cannot_be_meant_is_told_at_its_place(text: str, under_
     assert complaint(text).message == message
     assert marked(text)[0] == "integral"
     assert marked(text)[1].startswith(under_the_caret)
-
-
-def test_a_d_is_that_of_a_differential_unless_it_is_a_letter() -> None:
-    d, upright, other = tokens(r"d \mathrm{d} e")
-    assert [is_d(token, False) for token in (d, upright, other)] == [True, True, False]
-    assert [is_d(token, True) for token in (d, upright, other)] == [False, True, False]
-
-
-@pytest.mark.parametrize(
-    ("text", "after"),
-    [
-        (r"\frac{x\,dx}{2}", ["frac", "d", "x"]),
-        (r"\frac{dx}{2}", ["frac", "d", "x"]),
-        (r"\frac{dx_1}{2}", ["frac", "d", "x", "_", "1"]),
-        (r"\frac{dx\,a}{2}", ["frac"]),
-        (r"\frac{a}{dx}", ["frac"]),
-        (r"\sqrt{dx}", ["sqrt"]),
-    ],
-)
-def test_a_differential_above_a_line_is_taken_out_of_the_fraction(text: str, after: list[str]) -> None:
-    assert [token.text for token in differential_behind(tokens(text)[0], False)] == after
 
 
 def test_what_is_left_above_the_line_is_one() -> None:

@@ -8,10 +8,12 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from sympy import Expr, MatrixBase, MatrixExpr, MatrixSymbol, Pow, Rational, Symbol, cos, pi, sin, sqrt
+from sympy import E, Expr, I, MatrixBase, MatrixExpr, MatrixSymbol, Pow, Rational, Symbol, cos, pi, sin, sqrt
 
-from derive.algebra.equality import equal
+from derive.algebra.equality import Grade, equal
+from derive.algebra.expansion import Expansion
 from derive.algebra.expressions import (
+    PLUS_MINUS,
     Amount,
     Bracket,
     Factors,
@@ -23,14 +25,18 @@ from derive.algebra.expressions import (
     is_matrix,
 )
 from derive.algebra.kinds import dimension_of_kind
+from derive.algebra.ranges import within
+from derive.algebra.rounding import Rounded
 from derive.course.arithmetic import Declared
 from derive.course.latex import read_latex
 from derive.course.yaml_tree import Scalar, Source
+from derive.errors import Rejected
 from derive.render.notation.latex import latex
 from derive.render.notation.layout import layout_of_name
 from derive.render.notation.notation import Notation
 from tests.course.latex.formula import KINDS, LETTERS
 from tests.mechanics.block import known_block
+from tests.printed.test_levels import PROBLEMS, steps_of
 
 NOTATION = Notation({known.symbol: dimension_of_kind(known.kind) for known in LETTERS.values()})
 NUMBERS = {name: Declared(name, known.symbol, "number") for name, known in LETTERS.items()}
@@ -112,3 +118,36 @@ def test_a_line_of_the_worked_block_reads_back_as_itself(line: Any) -> None:
 
 def test_the_block_has_lines_of_every_kind() -> None:
     assert len(LINES) > 60
+
+
+def is_of_letters(value: Any) -> bool:
+    """Whether a line is exact, of letters only, without integrals and without roots of what may be negative."""
+    if not plain(value) or value.has(Expansion, Rounded, I, PLUS_MINUS):
+        return False
+    roots = [power.base for power in explicit(value).atoms(Pow) if not power.exp.is_integer and power.base != E]
+    return all(base.is_nonnegative for base in roots)
+
+
+@pytest.mark.parametrize("problem_id", PROBLEMS)
+def test_every_line_of_a_problem_is_read_back_or_refused_and_never_misread(problem_id: str) -> None:
+    problem, solved = steps_of(problem_id)
+    lines = [form.expr for step in solved.derivation.steps for form in step.chain if is_of_letters(form.expr)]
+    misread = []
+    for line in dict.fromkeys(lines):
+        letters = {str(bracket.args[1]): bracket.args[1] for bracket in line.atoms(Bracket)}
+        letters |= {as_printed(letter): letter for letter in line.free_symbols}
+        declared = {name: Declared(name, letter, "number") for name, letter in letters.items()}
+        printed = latex(Notation({}).result(line))
+        if r"\int" in printed:
+            continue
+        try:
+            found = read_back(printed, declared)
+        except Rejected:  # derivatives, rates of letters that the line does not have, primes
+            continue
+        wanted = list(explicit(line)) if isinstance(line, MatrixBase) else [explicit(line)]
+        found = found if isinstance(found, list) else [found]
+        pairs = [(explicit(mine), theirs) for mine, theirs in zip(found, wanted, strict=True)]
+        with within(problem.ranges):
+            refuted = [mine != theirs and equal(mine, theirs).grade is Grade.REFUTED for mine, theirs in pairs]
+        misread += [printed] * any(refuted)
+    assert misread == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from collections import deque
 from collections.abc import Mapping
 from pathlib import Path
@@ -199,6 +200,7 @@ def test_the_homework_agrees_but_for_its_errata(
     document = (ROOT / "problems" / "hw9" / "reference.yaml").read_text(encoding="utf-8")
     document = document.replace("- problem: block", "- problem: centred")
     (root / "problems" / "hw9" / "reference.yaml").write_text(document, encoding="utf-8")
+    shutil.copy(ROOT / "problems" / "hw9" / "hw9.md", root / "problems" / "hw9")
     for other in re.findall(r"^- problem: (\w+)", document, re.MULTILINE):
         (root / "problems" / "hw9" / f"{other}.yaml").touch()
     found = json.loads(rendered_once(root, f"hw9/{problem}", only={"json"}).texts["json"])["reference"]

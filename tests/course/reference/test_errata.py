@@ -12,9 +12,9 @@ from derive.algebra.rounding import Rounded
 from derive.course.latex import read_latex
 from derive.course.reference.errata import Erratum, erratum_of
 from derive.course.reference.statements import Entry, Stated, Statement
-from derive.course.units import read_unit
 from derive.course.yaml_tree import Scalar, Source
 from derive.errors import Place
+from derive.units import read_unit
 from tests.course.latex.formula import LETTERS
 
 R, a, S = (Symbol(name, positive=True) for name in ("R", "a", "S"))

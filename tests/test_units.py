@@ -12,8 +12,8 @@ from sympy import Integer, Rational, pi
 
 from derive.algebra.dimensions import Dimension
 from derive.algebra.kinds import KINDS, dimension_of_kind, unit_of_dimension, unit_of_kind
-from derive.course.units import UNIT_NAMES, misfit, read_unit
 from derive.errors import Rejected
+from derive.units import UNIT_NAMES, misfit, read_unit
 
 
 @pytest.mark.parametrize(
