@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import re
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice, pairwise, product
 
 import sympy
 from sympy import MatrixBase, Symbol
 
+from derive.audit.assumed import Assumed
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
-from derive.audit.known import Definition, Known
+from derive.audit.expected import Compared, Expected, compared
+from derive.audit.known import ASSUMED, Definition, Known
+from derive.audit.limited import FAULTS, OutOfTime, limited
 from derive.audit.slips import WHY, nearest_edit
 from derive.documents.choices import Choice, readings
-from derive.documents.facts import Facts, facts_of, shape_of
+from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
@@ -25,30 +26,11 @@ from derive.documents.source import Span
 from derive.documents.syntax import Int, Letter, Mat, Node
 
 SECONDS = 3.0  # of processor time for one claim
+SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest change
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
-# SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
-FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
-
-
-class _OutOfTime(BaseException):
-    pass
-
-
-@contextmanager
-def _limited(seconds: float) -> Iterator[None]:
-    def stop(*_: object) -> None:
-        raise _OutOfTime
-
-    before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
 
 
 @dataclass
@@ -57,6 +39,7 @@ class Audit:
     facts: Facts
     claims: list[Claim]
     unread: list[tuple[Row, str]] = field(default_factory=list)
+    compared: list[Compared] = field(default_factory=list)  # the answers of a derivation
 
 
 def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, str]]]:
@@ -124,32 +107,69 @@ def _head(statement: Statement) -> Statement:
 
 def audited(
     document: Document,
-    assume: list[tuple[str, str]] = [],  # noqa: B006
+    assumed: Sequence[Assumed] = (),
+    declared: Mapping[Identity, str] | None = None,
+    expected: Sequence[Expected] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Audit:
-    """Return the verdict on each claim of a document."""
+    """Return the verdict on each claim of a document.
+
+    assumed    equations that hold everywhere, although the document does not state them
+    declared   the kinds of letters
+    expected   results of a derivation, with which the document is compared
+    """
     claims, facts, unread = claims_of(document)
-    auditor = _Auditor(document, facts)
+    facts.declare(declared or {})
+    auditor = _Auditor(document, facts, assumed)
     for done, claim in enumerate(claims):
-        auditor.decide(claim)
         if progress is not None:
-            progress(done + 1, len(claims))
-    return Audit(document, facts, claims, unread)
+            progress(claim.row.line, len(claims) - done)
+        auditor.decide(claim)
+    scopes = [scope_of(document, claim.row) for claim in claims]
+    found = compared(claims, scopes, auditor.scopes, facts, auditor.meaning_of, expected) if expected else []
+    return Audit(document, facts, claims, unread, found)
 
 
 class _Auditor:
-    def __init__(self, document: Document, facts: Facts):
-        self.document, self.facts = document, facts
+    def __init__(self, document: Document, facts: Facts, assumed: Sequence[Assumed] = ()):
+        self.document, self.facts, self.assumed = document, facts, assumed
         self.scope: int | None = None
         self.meaning = Meaning(facts)
         self.known = Known(self.meaning)
+        self.scopes: dict[int, Known] = {}
+
+    def begin(self, scope: int) -> None:
+        """Begin a problem or section: only what is assumed is known."""
+        self.scope = scope
+        self.meaning.scope = scope
+        self.known = self.scopes[scope] = Known(self.meaning)
+        for each in self.assumed:
+            try:
+                left, right = (self.meaning.of(readings(side, self.facts)[0][0]) for side in (each.left, each.right))
+            except (Meaningless, *FAULTS):
+                continue
+            if isinstance(left, Symbol) and not isinstance(right, MatrixBase):
+                self.known.assume(left, right)
+            elif not isinstance(left, MatrixBase) and not isinstance(right, MatrixBase):
+                self.known.state(sympy.expand(left - right), ASSUMED)
+
+    def meaning_of(self, scope: int, plain: str = "") -> Meaning:
+        """Return a meaning of letters that shares the letters and derivatives of the whole document."""
+        return Meaning(
+            self.facts,
+            derivatives=self.meaning.derivatives,
+            symbols=self.meaning.symbols,
+            parents=self.meaning.parents,
+            defined=self.value_of,
+            evaluations=self.meaning.evaluations,
+            scope=scope,
+            plain=plain,
+        )
 
     def decide(self, claim: Claim) -> None:
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
-            self.scope = scope
-            self.meaning.scope = scope
-            self.known = Known(self.meaning)
+            self.begin(scope)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -157,9 +177,9 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this relation is not checked")
             return
         try:
-            with _limited(SECONDS):
+            with limited(SECONDS):
                 claim.verdict = self.best(claim)
-        except _OutOfTime:
+        except OutOfTime:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
@@ -214,16 +234,7 @@ class _Auditor:
         pairs = product(readings(left_side, self.facts), readings(claim.right, self.facts))
         for (left_node, left_choices), (right_node, right_choices) in islice(pairs, MOST_READINGS):
             for plain in PLAIN:
-                meaning = Meaning(
-                    self.facts,
-                    derivatives=self.meaning.derivatives,
-                    symbols=self.meaning.symbols,
-                    parents=self.meaning.parents,
-                    defined=self.value_of,
-                    evaluations=self.meaning.evaluations,
-                    scope=self.meaning.scope,
-                    plain=plain,
-                )
+                meaning = self.meaning_of(self.meaning.scope, plain)
                 try:
                     left, right = self.sides(left_node, right_node, meaning)
                     if (left, right) in seen:
@@ -238,10 +249,10 @@ class _Auditor:
                     continue
                 verdict.choices = (*left_choices, *right_choices)
                 if verdict.outcome in GOOD:
-                    claim.values = (left, right)
+                    claim.values, claim.decimals = (left, right), tuple(meaning.decimals)
                     return verdict
                 if first is None or (first.outcome is Outcome.DIFFERS and verdict.outcome is Outcome.UNDECIDED):
-                    first, claim.values = verdict, (left, right)
+                    first, claim.values, claim.decimals = verdict, (left, right), tuple(meaning.decimals)
         if first is None:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
@@ -279,13 +290,7 @@ class _Auditor:
 
         def is_right(node: Node) -> bool:
             for plain in PLAIN[:2]:
-                meaning = Meaning(
-                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
-                    parents=self.meaning.parents,
-                    defined=self.value_of,
-                    evaluations=self.meaning.evaluations,
-                    scope=self.meaning.scope, plain=plain,
-                )  # fmt: skip
+                meaning = self.meaning_of(self.meaning.scope, plain)
                 try:
                     value = meaning.of(node)
                     if isinstance(value, MatrixBase) != isinstance(left, MatrixBase):

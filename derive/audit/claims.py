@@ -53,7 +53,7 @@ class Claim:
     before: Claim | None = None  # the claim whose right side is this one's left side
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
-    difference: Value | None = None
+    decimals: tuple[tuple[Value, int], ...] = ()  # the decimals in its sides, with their digits after the point
     from_head: bool = False  # compared with the first side of its chain, because the sides between have no value
     tags: tuple[str, ...] = field(default_factory=tuple)
 

@@ -260,7 +260,7 @@ class Decision:
                 if number is not None:
                     return Verdict(Outcome.HOLDS, f"an earlier equation solved for {_word(letter)}", (number,))
         for equation, number in reversed(recent):
-            if _is_multiple(wanted, equation):
+            if is_multiple(wanted, equation):
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
         if Cue.ZERO in self.cues:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
@@ -269,7 +269,7 @@ class Decision:
                 ]
                 for name in names:
                     at_zero = equation.subs(name, 0)
-                    if _is_multiple(wanted, at_zero):
+                    if is_multiple(wanted, at_zero):
                         return Verdict(Outcome.HOLDS, f"{_word(name)} set to zero", (number,))
                     if Cue.APPROXIMATE in self.cues and _approximate_multiple(wanted, at_zero, self.meaning):
                         return Verdict(
@@ -280,7 +280,7 @@ class Decision:
         for (left, right), used in self.expansions:
             expanded = sympy.expand(left - right)
             for equation, number in reversed(recent):
-                if expanded.free_symbols == equation.free_symbols and _is_multiple(expanded, equation):
+                if expanded.free_symbols == equation.free_symbols and is_multiple(expanded, equation):
                     return Verdict(Outcome.HOLDS, "an earlier equation with definitions put in", (*used, number))
         for equation, number in reversed(recent[-4:]):
             if Cue.APPROXIMATE in self.cues and equation.free_symbols >= wanted.free_symbols:
@@ -403,12 +403,12 @@ def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, 
                     if len(ratios) < len(goal) or any(abs(r - ratios[0]) > 1e-7 * abs(ratios[0]) for r in ratios):
                         continue
                 total = sympy.expand(sum(w * each for w, (each, _) in zip(weights, chosen, strict=True)))
-                if total != 0 and _is_multiple(wanted, total):
+                if total != 0 and is_multiple(wanted, total):
                     return tuple(number for _, number in chosen)
     return None
 
 
-def _is_multiple(wanted: Expr, equation: Expr) -> bool:
+def is_multiple(wanted: Expr, equation: Expr) -> bool:
     """Whether one equation is the other times a factor that is a product of numbers and letters."""
     if wanted == 0 or equation == 0:
         return False
@@ -507,7 +507,7 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
                 leading.append(sympy.series(scaled, scale, 0, 3).removeO().as_leading_term(scale) / scale)
             except (ValueError, NotImplementedError, TypeError, AttributeError):
                 return None
-        if leading[1] != 0 and _is_multiple(sympy.expand(leading[0]), sympy.expand(leading[1])):
+        if leading[1] != 0 and is_multiple(sympy.expand(leading[0]), sympy.expand(leading[1])):
             return True
     return None
 
@@ -530,4 +530,4 @@ def _number(value: Expr) -> str:
     return f"{float(value):.6g}" if value.is_real else str(value)
 
 
-__all__ = ["Decision", "Sequence", "counterexample", "order_of_error", "same"]
+__all__ = ["Decision", "Sequence", "counterexample", "is_multiple", "order_of_error", "same"]

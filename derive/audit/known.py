@@ -14,6 +14,7 @@ from derive.documents.syntax import Letter
 ROUNDS = 8  # of substitution
 LARGEST = 4000  # operations of an expression that is still expanded
 LAST_EQUATIONS = 24
+ASSUMED = -1  # the number of the claim for what is assumed
 
 
 @dataclass
@@ -52,6 +53,12 @@ class Known:
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
         where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied))
+
+    def assume(self, symbol: Symbol, value: Expr) -> None:
+        """Take over a value that the document does not state."""
+        where = self.definitions if value.free_symbols else self.numbers
+        if symbol not in value.free_symbols:
+            where.setdefault(symbol, []).append(Definition(symbol, value, ASSUMED))
 
     def state(self, difference: Value, claim: int) -> None:
         """Remember an equation: the difference of its sides vanishes."""
@@ -152,7 +159,10 @@ class Known:
                     used.append(definition.claim)
             if not found:
                 return
-            values = tuple(each.xreplace(found) for each in values)
+            try:
+                values = tuple(each.xreplace(found) for each in values)
+            except ValueError:  # a letter is the variable of an integral
+                return
             if any(_size(each) > LARGEST for each in values):
                 return
             yield values, tuple(dict.fromkeys(used))

@@ -10,6 +10,8 @@ from typing import Any
 
 from derive.audit.auditing import Audit
 from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.expected import Compared, Status
+from derive.audit.known import ASSUMED
 from derive.errors import Complaint, Place
 
 WORDS = {
@@ -39,7 +41,22 @@ def as_text(audit: Audit, every: bool) -> str:
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
     total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
-    return "\n\n".join([*shown, total])
+    return "\n\n".join([*shown, "\n".join([total, *_of_answers(audit, every)])])
+
+
+def _of_answers(audit: Audit, every: bool) -> Iterator[str]:
+    """Yield a line for each problem with which the document was compared, and the answers that it does not contain."""
+    problems: dict[str, list[Compared]] = {}
+    for each in audit.compared:
+        problems.setdefault(each.expected.problem, []).append(each)
+    for problem, answers in problems.items():
+        counted = Counter(each.status for each in answers)
+        parts = [f"{counted[status]} {status}" for status in Status if counted[status]]
+        yield f"{problem}: {len(answers)} answers: {', '.join(parts)}"
+        for each in answers:
+            if every or each.status is not Status.FOUND:
+                where = f" in line {audit.claims[each.claim].row.line}" if each.claim is not None else ""
+                yield f"  {each.status}{where}: {each.expected.key}: {each.expected.latex}"
 
 
 def _is_noteworthy(verdict: Verdict) -> bool:
@@ -51,11 +68,15 @@ def _told(audit: Audit, claim: Claim) -> str:
     notes = [f"read as: {reading}" for reading in [_reading(claim)] if reading]
     if verdict.counterexample:
         notes.append(f"for example {verdict.counterexample}")
-    if verdict.given:
-        notes.append(f"given line {', '.join(map(str, _lines(audit, verdict)))}")
+    if lines := _lines(audit, verdict):
+        notes.append(f"given line {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
         notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
+    if ASSUMED in verdict.given:
+        notes.append("given an assumption of the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
+    if verdict.why_plausible and not suggestion:
+        notes.append(verdict.why_plausible)
     code = str(verdict.outcome)
     return Complaint(code, verdict.because, _place(audit, claim), tuple(notes), suggestion, "row").shown()
 
@@ -80,12 +101,23 @@ def _cut(text: str) -> str:
 
 
 def _lines(audit: Audit, verdict: Verdict) -> list[int]:
-    return list(dict.fromkeys(audit.claims[number].row.line for number in verdict.given))
+    return list(dict.fromkeys(audit.claims[number].row.line for number in verdict.given if number != ASSUMED))
 
 
 def as_data(audit: Audit) -> dict[str, Any]:
     """Return the audit as data: the file, its rows with their verdicts, and the number of each verdict."""
-    return {"file": audit.document.source.path, "rows": list(_rows(audit)), "summary": summary(audit)}
+    answers = [
+        {
+            "problem": each.expected.problem,
+            "answer": each.expected.key,
+            "latex": each.expected.latex,
+            "status": str(each.status),
+            "line": audit.claims[each.claim].row.line if each.claim is not None else None,
+        }
+        for each in audit.compared
+    ]
+    found = {"file": audit.document.source.path, "rows": list(_rows(audit)), "summary": summary(audit)}
+    return {**found, "answers": answers} if answers else found
 
 
 def as_json(audit: Audit) -> str:

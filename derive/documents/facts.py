@@ -6,7 +6,7 @@ Facts are counted over all formulas of the document, because a letter is often e
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from derive.documents.syntax import (
@@ -31,6 +31,7 @@ from derive.documents.syntax import (
 
 Identity = tuple[str, str, frozenset[str], int, str]
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
+KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
 
 
@@ -45,6 +46,19 @@ class Facts:
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
+    declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document gives
+
+    def declare(self, kinds: Mapping[Identity, str]) -> None:
+        """Take over the kinds of letters that the reader of the document gives."""
+        self.declared.update(kinds)
+        for (base, sub, marks, _, label), kind in kinds.items():
+            if kind == "changes":
+                self.timed.add((base, sub, marks, label))
+            elif kind in ("constant", "positive", "integer"):
+                self.timed.discard((base, sub, marks, label))
+
+    def kind_of(self, letter: Letter) -> str:
+        return self.declared.get((letter.base, letter.sub, letter.marks, letter.primes, letter.label), "")
 
     def is_function(self, letter: Letter) -> bool:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
@@ -59,6 +73,8 @@ class Facts:
         """Whether a letter changes with time."""
         if _timeless(letter) in self.timed:
             return True
+        if self.kind_of(letter) in ("constant", "integer"):
+            return False
         return any(base == "t" for base, *_ in self.variables_of(letter))
 
     def shape(self, letter: Letter, scope: int) -> tuple[int, int] | None:
@@ -66,6 +82,8 @@ class Facts:
         return self.shapes.get((scope, letter.identity))
 
     def is_vector(self, letter: Letter, scope: int) -> bool:
+        if kind := self.kind_of(letter):
+            return kind == "vector"
         shape = self.shape(letter, scope)
         if shape is None:
             return "vec" in letter.marks and "hat" not in letter.marks
@@ -77,6 +95,8 @@ class Facts:
         return all(self.seen[each, "", frozenset({"vec"}), 0, ""] for each in "ijk")
 
     def is_tensor(self, letter: Letter, scope: int) -> bool:
+        if kind := self.kind_of(letter):
+            return kind == "tensor"
         shape = self.shape(letter, scope)
         return shape is not None and shape[1] > 1
 

@@ -168,7 +168,13 @@ class Meaning:
         name = node.named() + ("." * node.dots)
         free = node.dots or self.facts.changes(node) or node.base in ANGLES or node.primes
         free = free or node.base in ("x", "y", "z", "q", "p", "u", "w", "X", "Y", "Z", "eta", "xi", "A", "B", "C", "c")
-        symbol = Symbol(name, real=True) if free or self.facts.is_function(node) else Symbol(name, positive=True)
+        kind = "" if node.dots else self.facts.kind_of(node)
+        if kind == "integer":
+            symbol = Symbol(name, integer=True)
+        elif kind == "positive" or not (kind == "real" or free or self.facts.is_function(node)):
+            symbol = Symbol(name, positive=True)
+        else:
+            symbol = Symbol(name, real=True)
         self.symbols.setdefault(symbol, node)
         return symbol
 
