@@ -162,6 +162,7 @@ class _Auditor:
             parents=self.meaning.parents,
             defined=self.value_of,
             evaluations=self.meaning.evaluations,
+            sums=self.meaning.sums,
             scope=scope,
             plain=plain,
         )

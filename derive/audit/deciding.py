@@ -116,12 +116,14 @@ class Decision:
             return None
         if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
             entries = [each for each in self.left if isinstance(each, Symbol)]
-            if len(set(entries)) == len(self.left) and not any(map(self.known.is_defined, entries)):
+            known = [each for each in entries if self.known.latest(each) is not None]
+            if len(set(entries)) == len(self.left) and not known:
                 return Verdict(Outcome.DEFINES, "values for the components of a vector or matrix")
         for letter, value in ((self.left, self.right), (self.right, self.left)):
             if letter is self.right and self.claim.is_step:
                 continue
-            if isinstance(letter, Symbol) and letter not in value.free_symbols and not self.known.is_defined(letter):
+            is_letter = isinstance(letter, Symbol) and letter not in self.meaning.sums
+            if is_letter and letter not in value.free_symbols and not self.known.is_defined(letter):
                 if self.known.computed(letter) is not None or isinstance(value, MatrixBase):
                     continue
                 if not value.free_symbols and not value.is_number:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 
@@ -42,7 +42,8 @@ ALIGNED = frozenset(
 RELATIONS = {
     "=": "=", "<": "<", ">": ">",
     "leq": "<=", "le": "<=", "leqslant": "<=", "geq": ">=", "ge": ">=", "geqslant": ">=", "lt": "<", "gt": ">",
-    "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop", "ll": "<<",
+    "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop",
+    "lesssim": "<", "gtrsim": ">", "lessapprox": "<", "gtrapprox": ">", "asymp": "~", "ll": "<<",
     "gg": ">>", "neq": "!=", "ne": "!=", "equiv": ":=", "coloneqq": ":=", "triangleq": ":=", "in": "in", "to": "to",
     "rightarrow": "to", "longrightarrow": "to", "mapsto": "to",
 }  # fmt: skip
@@ -52,6 +53,12 @@ ARROWS = {
     "lor": "or", "leadsto": "implies",
 }  # fmt: skip
 WIDE = {"quad", "qquad", "qq", "hspace", "hfill", "hskip"}
+# Words of the package physics, such as `\qthen`, and their like.
+SPOKEN = {
+    "qif": "if", "qthen": "then", "qelse": "else", "qotherwise": "otherwise", "qunless": "unless", "qgiven": "given",
+    "qusing": "using", "qassume": "assume", "qsince": "since", "qlet": "let", "qfor": "for", "qall": "all",
+    "qand": "and", "qor": "or", "qas": "as", "qwhere": "where", "qwith": "with", "qthus": "thus", "qwhile": "while",
+}  # fmt: skip
 WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
 
 
@@ -286,7 +293,7 @@ class _Reading:
     def read_rows(self, block: Block, inner: Span) -> None:
         """Read the rows of a formula and the statements in them."""
         try:
-            tokens = _unboxed(expanded(tokens_of(self.text, inner.start, inner.end), self.macros))
+            tokens = _simplified(expanded(tokens_of(self.text, inner.start, inner.end), self.macros))
         except TooLarge as error:
             row = self.row(block, inner)
             row.fault = (str(error), error.span)
@@ -297,6 +304,8 @@ class _Reading:
                 continue
             rest = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
+            if solid[0].kind is Kind.SCRIPT and not any(map(_is_relation, solid)):
+                continue  # the sign of degrees after a number in the text: 30$^\circ$
             row = rest or self.row(block, Span(solid[0].span.start, solid[-1].span.end))
             row.tag, row.label = tag or row.tag, label or row.label
             if rest is not None:
@@ -338,18 +347,61 @@ class _Reading:
         return block.rows[-1]
 
 
-def _unboxed(tokens: list[Token]) -> list[Token]:
-    """Leave out the frames around equations."""
+def _simplified(tokens: list[Token]) -> list[Token]:
+    r"""Leave out frames around equations and lines between rows, and write words and relations in one form.
+
+    `\qq{so}` and `\qthus` of the package physics become `\text{so}`, `\stackrel{(1)}{=}` becomes `=`.
+    """
     found: list[Token] = []
     at = 0
     while at < len(tokens):
-        if tokens[at].is_command("boxed", "fbox", "tightboxed"):
-            inner, at = argument_at(tokens, at + 1)
-            found += _unboxed(inner)
-            continue
-        found.append(tokens[at])
+        token = tokens[at]
         at += 1
-    return found
+        if token.is_command("boxed", "fbox", "tightboxed", "Aboxed"):
+            inner, at = argument_at(tokens, at)
+            found += _simplified(inner)
+        elif token.is_command("underline", "ensuremath", "textcolor", "colorbox") and _has_relation(
+            argument_at(tokens, argument_at(tokens, at)[1] if token.text.endswith("color") else at)[0]
+        ):
+            if token.text.endswith("color"):
+                _, at = argument_at(tokens, at)
+            inner, at = argument_at(tokens, at)
+            found += _simplified(inner)
+        elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
+            continue
+        elif token.is_command("qq"):
+            if at < len(tokens) and tokens[at].is_mark("*"):
+                at += 1
+            found.append(replace(token, text="text"))
+        elif token.is_command("qc", "qcomma"):
+            found += [replace(token, kind=Kind.MARK, text=","), replace(token, text="quad")]
+        elif token.kind is Kind.COMMAND and (word := SPOKEN.get(token.text.removesuffix("*"))):
+            found += [
+                replace(token, text="text"),
+                replace(token, kind=Kind.OPEN, text="{"),
+                *(replace(token, kind=Kind.LETTER, text=letter) for letter in word),
+                replace(token, kind=Kind.CLOSE, text="}"),
+            ]
+        elif token.is_command("stackrel", "overset", "underset"):
+            _, after = argument_at(tokens, at)
+            inner, after = argument_at(tokens, after)
+            if len(without_spaces(inner)) == 1 and _is_relation(without_spaces(inner)[0]):
+                found += without_spaces(inner)
+                at = after
+            else:
+                found.append(token)
+        else:
+            found.append(token)
+    return _without_outer_braces(found)
+
+
+def _without_outer_braces(tokens: list[Token]) -> list[Token]:
+    """Leave out braces around a whole formula with a relation."""
+    solid = without_spaces(tokens)
+    if len(solid) < 3 or solid[0].kind is not Kind.OPEN or solid[-1].kind is not Kind.CLOSE:
+        return tokens
+    inner, after = argument_at(solid, 0)
+    return inner if after == len(solid) and any(map(_is_relation, inner)) else tokens
 
 
 def _depth_change(token: Token) -> int:
@@ -603,6 +655,9 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         else:
             relations.append(relation)
             sides.append([])
+    for side in sides:
+        while len(side) > 1 and side[-1].is_mark(".", ",", ";", ":"):
+            side.pop()
     made = []
     at_end = tokens[-1].span.end
     for side in sides:

@@ -43,6 +43,7 @@ from derive.documents.syntax import (
     Abs,
     Add,
     Apply,
+    Cases,
     Condition,
     Der,
     Diff,
@@ -54,6 +55,7 @@ from derive.documents.syntax import (
     Letter,
     Mat,
     Mul,
+    Nabla,
     Node,
     Num,
     Open,
@@ -68,6 +70,7 @@ from derive.errors import DeriveError
 
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
+MOST_TERMS = 20  # of a sum between numbers
 LONGEST_NUMBER = 60
 
 
@@ -84,7 +87,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "arcsin": sympy.asin, "arccos": sympy.acos, "arctan": sympy.atan, "arccot": sympy.acot, "sinh": sympy.sinh,
     "cosh": sympy.cosh, "tanh": sympy.tanh, "coth": sympy.coth, "arcsinh": sympy.asinh, "arccosh": sympy.acosh,
     "arctanh": sympy.atanh, "ln": log, "exp": exp, "sign": sympy.sign, "sech": sympy.sech, "csch": sympy.csch,
-    "factorial": sympy.factorial,
+    "factorial": sympy.factorial, "Re": sympy.re, "Im": sympy.im,
 }  # fmt: skip
 INVERSE = {"sin": sympy.asin, "cos": sympy.acos, "tan": sympy.atan, "sinh": sympy.asinh, "cosh": sympy.acosh,
            "tanh": sympy.atanh}  # fmt: skip
@@ -106,6 +109,8 @@ class Meaning:
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
     evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
     two_signs: bool = False
+    truncated: bool = False  # whether terms of higher order are left out: O(x^2)
+    sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -137,6 +142,8 @@ class Meaning:
             return pi
         if node.base == "infty":
             return sympy.oo
+        if node.base == "imaginary unit":
+            return sympy.I
         if "hat" in node.marks or "bb" in node.marks:
             return self.unit_vector(node)
         if "vec" in node.marks and node.base in "ijk" and not node.sub and self.facts.has_axes:
@@ -187,7 +194,10 @@ class Meaning:
     def of_text(self, node: Text) -> Any:
         if node.text.startswith("unit "):
             return self.unit(node)
-        reason = "dots stand for terms that are left out" if node.text == "..." else f"`{node.text}` is a word"
+        reason = {
+            "...": "dots stand for terms that are left out",
+            "?": "the document leaves this open",
+        }.get(node.text, f"`{node.text}` is a word")
         raise Meaningless(reason, node.span)
 
     def unit(self, node: Text) -> Expr:
@@ -296,6 +306,13 @@ class Meaning:
             if not isinstance(matrix, MatrixBase):
                 raise Meaningless("the matrix is not written out", node.argument.span)
             return matrix.det() if node.name == "det" else matrix.trace()
+        if node.name == "order":
+            self.truncated = True
+            return Integer(0)
+        if node.name in ("min", "max"):
+            entries = node.argument.entries if isinstance(node.argument, Vec) else (node.argument,)
+            values = [self.scalar(each) for each in entries]
+            return sympy.Min(*values) if node.name == "min" else sympy.Max(*values)
         argument = self.scalar(node.argument)
         if node.name in ("log", "ln"):
             value = log(argument)
@@ -362,6 +379,9 @@ class Meaning:
 
     def of_apply(self, node: Apply) -> Any:
         head = node.head
+        if head.base == "O" and ("cal" in head.marks or self.facts.alone[head.identity] == 0) and not head.sub:
+            self.truncated = True
+            return Integer(0)
         own = self.facts.variables_of(_replaced(head, dots=0))
         values: list[tuple[Node | None, Node]] = []
         for argument in node.arguments:
@@ -466,8 +486,32 @@ class Meaning:
                 total += sympy.diff(value, symbol) * rate
         return total
 
+    def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
+        """Return the derivative of the one member of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
+        letter = self.symbols.get(by)
+        members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
+        if letter is None or not any(
+            each is not None and each.base == letter.base and each.dots == letter.dots and each.sub == index.name
+            for each in members
+        ):
+            return Integer(0)
+        put_in = {}
+        for symbol in term.free_symbols:
+            if self.has_index(symbol, index):
+                member = self.symbols.get(symbol)
+                if member is None or symbol == index:
+                    raise Meaningless("this is the derivative of a sum by one of its members", letter.span)
+                put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
+        return sympy.diff(term.xreplace(put_in), by)
+
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
         """Return the derivative of a letter by another: its rate, zero, or a symbol if the document says nothing."""
+        if symbol in self.sums:
+            term, index, bounds = self.sums[symbol]
+            if self.has_index(by, index):
+                return Symbol(f"d({symbol})/d{by}", real=True)
+            others = self.summed(self.differentiated(term, by, partial), index, bounds)
+            return others + self.of_member(term, index, by)
         if symbol in self.derivatives:
             letter, already, was_partial = self.derivatives[symbol]
             if by.name == "t" or any(self.is_variable(each, by) for each in self.facts.variables_of(letter)):
@@ -532,6 +576,7 @@ class Meaning:
             parents=self.parents,
             defined=self.defined,
             evaluations=self.evaluations,
+            sums=self.sums,
         )
         factors = [inner._of(each) for each in nodes]
         self.decimals += inner.decimals
@@ -615,20 +660,137 @@ class Meaning:
         raise Meaningless("the variable of these limits is not clear", node.span)
 
     def of_sum(self, node: Sum) -> Any:
-        index = _inner_letter(node.index) if node.index is not None else None
-        if index is None or node.lower is None or node.upper is None:
-            raise Meaningless("the limits of this sum are not numbers", node.span)
-        lower, upper = self.scalar(node.lower), self.scalar(node.upper)
-        if not (lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= 20):
-            raise Meaningless("the limits of this sum are not numbers", node.span)
-        values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(int(lower), int(upper) + 1)]
+        indices = _indices(node)
+        if not indices:
+            raise Meaningless("this sum has no index", node.span)
+        if len(indices) == 1 and node.lower is not None and node.upper is not None:
+            lower, upper = self.scalar(node.lower), self.scalar(node.upper)
+            if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
+                return self.terms_of(node, indices[0], int(lower), int(upper))
+        if node.name != "sum":
+            raise Meaningless("the limits of this product are not numbers", node.span)
+        value = self._of(node.body)
+        bounds = [self.range_of(each) for each in (node.lower, node.upper)]
+        for index in reversed(indices):
+            value = self.summed(value, self.symbol(index), "..".join(bounds))
+        return value
+
+    def terms_of(self, node: Sum, index: Letter, lower: int, upper: int) -> Any:
+        values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(lower, upper + 1)]
         value = values[0]
         for each in values[1:]:
             value = value + each if node.name == "sum" else value * each
         return value
 
+    def range_of(self, bound: Node | None) -> str:
+        """Return a bound as a word; a sum from 1 to N is written without its bounds, too."""
+        if bound is None or (isinstance(bound, Num) and bound.text == "1"):
+            return ""
+        letter = _letter_in(bound)
+        return "" if letter is not None and letter.base in ("N", "n", "d", "s") else str(self._of(bound))
+
+    def summed(self, value: Any, index: Symbol, bounds: str) -> Any:
+        """Return a sum over an index: factors without the index stand before it, and each term is a symbol."""
+        if isinstance(value, MatrixBase):
+            return value.applyfunc(lambda each: self.summed(each, index, bounds))
+        total: Expr = Integer(0)
+        for term in Total.make_args(sympy.expand(value)):
+            inside, outside = Integer(1), Integer(1)
+            for factor in sympy.Mul.make_args(term):
+                if any(self.has_index(each, index) for each in factor.free_symbols):
+                    inside *= factor
+                else:
+                    outside *= factor
+            total += outside * self.sum_symbol(inside, index, bounds)
+        return total
+
+    def sum_symbol(self, term: Expr, index: Symbol, bounds: str) -> Expr:
+        """Return the symbol for the sum of a term; its name does not depend on the letter of the index."""
+        depth = 1 + str(term).count("sum[")
+        mark = f"#{depth}"
+        names = {each: Symbol(self.renamed(each, index, mark), real=True) for each in term.free_symbols
+                 if self.has_index(each, index)}  # fmt: skip
+        symbol = Symbol(f"sum[{term.xreplace(names)}]{bounds}", real=True)
+        self.sums[symbol] = (term, index, bounds)
+        return symbol
+
+    def has_index(self, symbol: Symbol, index: Symbol) -> bool:
+        if symbol == index:
+            return True
+        if symbol in self.sums:
+            term, inner, _ = self.sums[symbol]
+            return inner != index and any(self.has_index(each, index) for each in term.free_symbols)
+        if symbol in self.derivatives:
+            letter, by, _ = self.derivatives[symbol]
+            return _carries(letter, index) or any(self.has_index(each, index) for each, _ in by)
+        letter = self.symbols.get(symbol)
+        return letter is not None and _carries(letter, index)
+
+    def renamed(self, symbol: Symbol, index: Symbol, mark: str) -> str:
+        """Return the name of a symbol with a mark in place of the index in its subscripts."""
+        if symbol == index:
+            return mark
+        letter = self.symbols.get(symbol)
+        if letter is not None:
+            sub = letter.sub.replace(index.name, mark)
+            label = letter.label.replace(index.name, mark)
+            return _replaced(letter, sub=sub, label=label).named() + "." * letter.dots
+        return symbol.name.replace(f"_{index.name}", f"_{mark}")
+
+    def of_nabla(self, node: Nabla) -> Any:
+        """Return a gradient or its like; the derivatives of a letter by x, y and z are symbols."""
+        axes = [self.symbol(Letter(node.span, each)) for each in "xyz"]
+        of = _inner_letter(node.of) or (node.of.head if isinstance(node.of, Apply) else None)
+        if isinstance(node.of, Open) and node.of.kind == "apply":
+            call = node.of.alternatives[0]
+            of = call.head if isinstance(call, Apply) else None
+        if of is not None and node.kind == "" and not self.facts.is_vector(of, self.scope):
+            return ImmutableDenseMatrix([self.derivative_symbol(of, ((axis, 1),), True) for axis in axes])
+        value = self._of(node.of)
+        if not value.free_symbols & set(axes) or any(
+            (letter := self.symbols.get(each)) is not None and letter.base in ("r", "rho", "s")
+            for each in value.free_symbols
+        ):
+            raise Meaningless("this is not given by coordinates x, y, z", node.span)
+
+        def derivative(entry: Any, axis: Symbol) -> Any:
+            return self.differentiated(entry, axis, True)
+
+        if isinstance(value, MatrixBase):
+            if node.kind == "cdot" and value.shape == (3, 1):
+                return Total(*(derivative(value[i], axes[i]) for i in range(3)))
+            if node.kind == "times" and value.shape == (3, 1):
+                pairs = ((2, 1), (0, 2), (1, 0))
+                return ImmutableDenseMatrix(
+                    [derivative(value[i], axes[j]) - derivative(value[j], axes[i]) for i, j in pairs]
+                )
+        elif node.kind == "":
+            return ImmutableDenseMatrix([derivative(value, axis) for axis in axes])
+        elif node.kind == "squared":
+            return Total(*(derivative(derivative(value, axis), axis) for axis in axes))
+        raise Meaningless("the operand of nabla does not fit", node.span)
+
+    def of_cases(self, node: Cases) -> Any:
+        raise Meaningless("this has a value for each case", node.span)
+
     def of_condition(self, node: Condition) -> Any:
         raise Meaningless("this is a condition", node.span)
+
+
+def _indices(node: Sum) -> list[Letter]:
+    index = node.index
+    while isinstance(index, Group):
+        index = index.inner
+    if isinstance(index, Mul):  # `\sum_{ij}`
+        found = [_letter_in(each) for _, each in index.factors]
+    else:
+        found = [_letter_in(each) for each in (index.entries if isinstance(index, Vec) else (index,)) if each]
+    return [] if any(each is None for each in found) else [each for each in found if each is not None]
+
+
+def _carries(letter: Letter, index: Symbol) -> bool:
+    """Whether a letter has an index in its subscript or in its superscript."""
+    return index.name in letter.sub or index.name in letter.label
 
 
 def _replaced(letter: Letter, **changes: Any) -> Letter:

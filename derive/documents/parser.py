@@ -11,6 +11,7 @@ from derive.documents.syntax import (
     Abs,
     Add,
     Apply,
+    Cases,
     Condition,
     Der,
     Diff,
@@ -22,6 +23,7 @@ from derive.documents.syntax import (
     Letter,
     Mat,
     Mul,
+    Nabla,
     Node,
     Num,
     Open,
@@ -34,13 +36,17 @@ from derive.documents.syntax import (
 )
 from derive.documents.tokens import Kind, Token, tokens_of, without_spaces
 from derive.documents.vocabulary import (
+    AVERAGES,
     DECORATED,
+    DIFFERENTIALS,
     DOTS,
     ELLIPSES,
+    FREQUENT_DERIVATIVES,
     FUNCTIONS,
     GREEK,
     IGNORED,
     IGNORED_WITH_ARGUMENT,
+    IMAGINARY,
     INTEGRALS,
     MARKS,
     MATRICES,
@@ -242,7 +248,7 @@ class _Reader:
         if token.kind in (Kind.CLOSE, Kind.CELL):
             return True
         if token.kind is Kind.MARK:
-            return not (token.text in "([|" and not (token.text == "|" and self.bar_closes()))
+            return not (token.text in "([|?" and not (token.text == "|" and self.bar_closes()))
         return token.is_command("right", "}", "rbrace", "rangle", "rvert", "rVert", "end", "pm", "mp", "\\")
 
     bars = 0
@@ -272,9 +278,13 @@ class _Reader:
     def limit(self, tokens: list[Token], span: Span) -> Node:
         """Return a limit or condition: a value, or `x = value`."""
         tokens = without_spaces(tokens)
-        equals = next((i for i, each in enumerate(tokens) if each.is_mark("=")), None)
+        equals = _equals_sign(tokens)
         if equals:
-            left = self.inside(tokens[:equals], span)
+            letters = _split(tokens[:equals], lambda each: each.is_mark(","))
+            if len(letters) > 1 and all(letters):
+                left: Node = Vec(span, tuple(self.inside(each, span) for each in letters))
+            else:
+                left = self.inside(tokens[:equals], span)
             right = self.inside(tokens[equals + 1 :], span)
             return Condition(left.span.to(right.span), left, right)
         try:
@@ -284,8 +294,10 @@ class _Reader:
 
     def divide(self, factors: list[tuple[str, Node]]) -> None:
         """Read the denominator after a slash; a run of factors is open between `(a/b)c` and `a/(bc)`."""
-        top = _product(factors)
         self.skip_spacing()
+        if self.divided_differentials(factors):
+            return
+        top = _product(factors)
         if self.ends():
             raise Unreadable("a denominator is missing here", self.tokens[min(self.at, len(self.tokens) - 1)].span)
         first = self.factor()
@@ -306,6 +318,33 @@ class _Reader:
         span = top.span.to(run[-1].span)
         far = Frac(span, top, _product(rest))
         factors[:] = [("", Open(span, "slash", (Mul(span, (("", near), *rest[1:])), far)))]
+
+    def divided_differentials(self, factors: list[tuple[str, Node]]) -> bool:
+        r"""Read the denominator of `\partial f/\partial x` or `df/dt`, if a differential stands before the slash."""
+        mark, top = factors[-1]
+        differential = top.alternatives[0] if isinstance(top, Open) and top.kind == "letter d" else top
+        if not isinstance(differential, Diff):
+            return False
+        begins = self.at
+        by: list[tuple[Node, int]] = []
+        while not self.ends() and (self.next_is("partial") if differential.partial else self.is_differential()):
+            bottom = self.factor()
+            bottom = bottom.alternatives[0] if isinstance(bottom, Open) and bottom.kind == "letter d" else bottom
+            order = 1
+            if isinstance(bottom, Pow) and isinstance(bottom.exponent, Num) and bottom.exponent.text.isdigit():
+                bottom, order = bottom.base, int(bottom.exponent.text)
+            if not isinstance(bottom, Diff) or bottom.partial != differential.partial or order > 9:
+                break
+            by.append((bottom.of, order))
+            if not differential.partial:
+                break
+        if not by:
+            self.at = begins
+            return False
+        alone = isinstance(differential.of, Text)
+        made = Der(top.span.to(by[-1][0].span), differential.partial, tuple(by), None if alone else differential.of)
+        factors[-1] = (mark, self.with_operand(made) if alone else made)
+        return True
 
     def with_operand(self, operator: Der) -> Node:
         """Return a derivative with the factor in brackets after it, or the rest of the product."""
@@ -400,8 +439,8 @@ class _Reader:
         token = self.peek()
         if token is None:
             return False
-        if token.is_command("dd", "diff", "differential"):
-            return True
+        if token.is_command(*DIFFERENTIALS):
+            return not self.has_two_groups(1)
         upright = token.is_command("mathrm", "rm", "text", "operatorname") and self.word_at(1) == "d"
         plain = token.kind is Kind.LETTER and token.text == "d"
         if not (upright or plain):
@@ -422,6 +461,14 @@ class _Reader:
         )
         return letter and (upright or self.in_integral or after.kind is Kind.COMMAND or after.text != "d")
 
+    def has_two_groups(self, ahead: int = 0) -> bool:
+        """Whether two arguments in braces follow: the second one is the variable of a derivative."""
+        at = self.at + ahead
+        if at >= len(self.tokens) or self.tokens[at].kind is not Kind.OPEN:
+            return False
+        _, after = argument_at(self.tokens, at)
+        return after < len(self.tokens) and self.tokens[after].kind is Kind.OPEN
+
     def word_at(self, ahead: int) -> str:
         value, _ = argument_at(self.tokens, self.at + ahead)
         return "".join(each.text for each in value if each.kind is not Kind.SPACE)
@@ -430,14 +477,14 @@ class _Reader:
         token = self.tokens[self.at]
         self.at += 1
         plain = token.kind is Kind.LETTER
-        if not plain and token.text not in ("dd", "diff", "differential"):
+        if not plain and token.text not in DIFFERENTIALS:
             _, self.at = argument_at(self.tokens, self.at)
         order = 1
         if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and script.text == "^":
             self.at += 1
             raised = self.argument()
             order = int(raised[0].text) if len(raised) == 1 and raised[0].text.isdigit() else 1
-        if token.text == "dd" and (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
+        if token.text in DIFFERENTIALS and (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
             of = self.inside(self.argument(), token.span)
         else:
             self.skip_spacing()
@@ -542,6 +589,7 @@ class _Reader:
             return Fun(node.span.to(plain[0].span), "degrees", node)
         if plain and (
             plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")
+            or (len(plain) == 1 and plain[0].is_mark("-"))
         ):
             label = self.label(plain)
             if isinstance(node, Letter):
@@ -603,6 +651,9 @@ class _Reader:
             return self.between_bars()
         if token.is_mark("<"):
             return self.bracketed()
+        if token.is_mark("?"):
+            self.at += 1
+            return Text(token.span, "?")
         if token.kind is Kind.COMMAND:
             return self.command(token)
         raise Unreadable(f"`{token.text}` was not expected here", token.span)
@@ -624,7 +675,7 @@ class _Reader:
             return self.fraction(top, bottom, self.since(token))
         if name == "sqrt" or name == "root":
             return self.root(token)
-        if name in ("dv", "pdv", "derivative", "pderivative", "odv", "fdv", "deriv", "pd", "od"):
+        if name in FREQUENT_DERIVATIVES or (name == "diff" and self.has_two_groups()):
             return self.short_derivative(token)
         if name in FUNCTIONS:
             return self.function(token, name)
@@ -647,7 +698,7 @@ class _Reader:
         if name in ("left", "{", "lbrace", "langle", "lvert", "lVert", "|", "vert", "Vert"):
             self.at -= 1
             return self.between_bars() if name in ("|", "vert", "Vert") else self.bracketed()
-        if name in ("abs", "norm", "qty", "pqty", "bqty", "Bqty", "vqty", "paren", "order"):
+        if name in ("abs", "norm", "qty", "pqty", "bqty", "Bqty", "vqty", "paren"):
             return self.quantity(token)
         if name in DECORATED:
             if name == "raisebox":
@@ -667,10 +718,22 @@ class _Reader:
             return self.environment(token)
         if name in ("infty",):
             return Letter(token.span, "infty")
-        if name in ("nabla", "grad", "div", "curl", "laplacian"):
-            return Text(token.span, "nabla")
-        if name in ("partial",):
+        if name in ("nabla", "grad", "curl", "laplacian"):
+            return self.nabla(token)
+        if name == "partial":
             return self.curly_differential(token)
+        if name in AVERAGES:
+            return self.average(token)
+        if name in IMAGINARY:
+            return Letter(token.span, "imaginary unit")
+        if name == "order":
+            return Fun(token.span, "order", self.inside(self.argument(), token.span))
+        if name == "var":
+            return Letter(token.span, "delta")
+        if name == "eval":
+            inner = self.inside(self.argument(), token.span)
+            lower, upper = self.scripts()
+            return EvalBar(self.since(token), inner, lower, upper)
         if name in ELLIPSES:
             return Text(token.span, "...")
         if name in ("circ", "degree"):
@@ -776,10 +839,46 @@ class _Reader:
         return Der(self.since(token), partial, tuple((each, order) for each in letters), of)
 
     def curly_differential(self, token: Token) -> Node:
-        node = self.subscripted(self.atom()) if not self.ends() else Text(token.span, "partial")
-        if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and isinstance(node, Text):
-            return Text(token.span, "partial")
-        return Text(token.span, "partial")
+        r"""Read `\partial f` before a slash, or the operator `\partial_x`."""
+        order = 1
+        while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+            self.at += 1
+            value = self.argument()
+            if script.text == "_":
+                letter = self.inside(value, script.span)
+                if not isinstance(letter, Letter):
+                    raise Unreadable("this is not a variable of differentiation", script.span)
+                return Der(self.since(token), True, ((letter, order),), None)
+            order = int(value[0].text) if len(value) == 1 and value[0].text.isdigit() else 1
+        self.skip_spacing()
+        if self.ends():
+            return Diff(token.span, Text(token.span, "partial"), order, partial=True)
+        atom = self.atom()
+        of = self.subscripted(atom) if isinstance(atom, Letter) else atom
+        return Diff(token.span.to(of.span), of, order, partial=True)
+
+    def nabla(self, token: Token) -> Node:
+        kind = {"curl": "times", "laplacian": "squared"}.get(token.text, "")
+        while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+            self.at += 1
+            value = self.argument()
+            kind = "squared" if script.text == "^" and "".join(each.text for each in value) == "2" else kind
+        self.skip_spacing()
+        if self.next_is("cdot", "times", "vdot", "cross") and not kind:
+            kind = "cdot" if self.next_is("cdot", "vdot") else "times"
+            self.at += 1
+            self.skip_spacing()
+        if self.ends():
+            return Text(token.span, "nabla")
+        of = self.factor()
+        return Nabla(token.span.to(of.span), kind, of)
+
+    def average(self, token: Token) -> Node:
+        """Read an average or a product of states as one letter; nothing else is known about its value."""
+        words = [self.label(self.argument())]
+        while (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
+            words.append(self.label(self.argument()))
+        return Letter(self.since(token), "<" + "|".join(words) + ">")
 
     def root(self, token: Token) -> Node:
         index = None
@@ -804,6 +903,8 @@ class _Reader:
         if self.next_is_mark("*"):
             self.at += 1
         value = self.argument()
+        if len(value) == 1 and value[0].is_command("nabla"):
+            return self.nabla(value[0])
         inner = self.inside(value, token.span)
         while isinstance(inner, Group):
             inner = inner.inner
@@ -846,6 +947,12 @@ class _Reader:
             self.at += 1
             value = self.inside(self.argument(), script.span)
             power, base = (value, base) if script.text == "^" else (power, value)
+        number, close, after = self.peek(1), self.peek(2), self.peek(3)
+        if self.next_is_mark("[") and number is not None and close is not None and after is not None:
+            opens = after.is_mark("(") or after.is_command("left") or after.kind is Kind.OPEN
+            if number.kind is Kind.NUMBER and close.is_mark("]") and opens and power is None:
+                power = Num(number.span, number.text)  # `\sin[2](x)` of the package physics is a square
+                self.at += 3
         self.skip_spacing()
         while self.next_is(*IGNORED):
             self.skip_spacing()
@@ -1097,10 +1204,12 @@ class _Reader:
         return self.contents(inner, span, OPENERS.get(kind, ")") if kind != "." else ".")
 
     def contents(self, tokens: list[Token], span: Span, closing: str) -> Node:
+        if closing == ">" and not any(each.is_mark(",") for each in tokens):
+            return Letter(span, f"<{self.label(tokens)}>")  # an average
         pieces = _split(tokens, lambda each: each.is_mark(",", ";"))
         if len(pieces) > 1:
             return Vec(span, tuple(self.limit(each, span) if each else Text(span, "") for each in pieces), closing)
-        node = self.limit(tokens, span) if any(each.is_mark("=") for each in tokens) else self.inside(tokens, span)
+        node = self.limit(tokens, span) if _equals_sign(tokens) else self.inside(tokens, span)
         if isinstance(node, Mat):
             return node
         return Group(span, node, closing)
@@ -1137,7 +1246,8 @@ class _Reader:
             self.at += 1
         following = self.peek()
         if following is not None and following.kind is Kind.OPEN:
-            node = self.inside(self.argument(), token.span)
+            value = self.argument()
+            node = self.contents(value, self.since(token), "}") if value else self.inside(value, token.span)
         else:
             node = self.bracketed()
         return Abs(node.span, node) if token.text in ("abs", "norm", "vqty") else node if isinstance(
@@ -1157,6 +1267,8 @@ class _Reader:
             raise Unreadable(f"`\\begin{{{name}}}` is not closed", token.span)
         inner = self.tokens[after:close]
         _, self.at = argument_at(self.tokens, close + 1)
+        if name in ("cases", "dcases", "rcases"):
+            return self.cases(inner, self.since(token))
         if name not in MATRICES:
             raise Unreadable(f"`{name}` inside of a formula is not read", token.span)
         if name == "array":
@@ -1179,6 +1291,21 @@ class _Reader:
         return Mat(self.since(token), tuple(rows), name in ("vmatrix",))
 
 
+    def cases(self, tokens: list[Token], span: Span) -> Node:
+        values, conditions = [], []
+        for row in _split(tokens, lambda each: each.is_command("\\", "cr", "newline")):
+            cells = _split(row, lambda each: each.kind is Kind.CELL)
+            value = without_spaces(cells[0])
+            while value and (value[-1].is_mark(",", ";") or value[-1].is_command("quad", "qquad", ",")):
+                value.pop()
+            if value:
+                values.append(self.inside(value, span))
+                conditions.append(" ".join(each.text for cell in cells[1:] for each in without_spaces(cell)))
+        if not values:
+            raise Unreadable("these cases are empty", span)
+        return Cases(span, tuple(values), tuple(conditions))
+
+
 def _without_empty_braces(tokens: list[Token]) -> list[Token]:
     """Leave out `{}` that only separates, as in `x_1{}^2`."""
     found: list[Token] = []
@@ -1189,6 +1316,16 @@ def _without_empty_braces(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return found
+
+
+def _equals_sign(tokens: Sequence[Token]) -> int | None:
+    """Return the position of the first sign of equality outside of braces."""
+    depth = 0
+    for at, token in enumerate(tokens):
+        depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
+        if depth == 0 and token.is_mark("="):
+            return at
+    return None
 
 
 def _product(factors: Sequence[tuple[str, Node]]) -> Node:

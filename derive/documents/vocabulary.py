@@ -8,7 +8,7 @@ def _words(text: str) -> frozenset[str]:
 
 
 GREEK = _words(
-    "varphi varepsilon varrho varsigma varpi imath jmath Re Im wp digamma hslash phi epsilon vartheta theta hbar ell "
+    "varphi varepsilon varrho varsigma varpi imath jmath wp digamma hslash phi epsilon vartheta theta hbar ell "
     "Delta Gamma Lambda Omega Phi Pi Psi Sigma Theta Xi alpha beta chi delta eta gamma iota kappa lambda mu nu omega "
     "pi psi rho sigma tau upsilon xi zeta"
 )
@@ -22,13 +22,13 @@ SAME_LETTER = {
 }
 FUNCTIONS = _words(
     "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin "
-    "acos atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh"
+    "acos atan ln log exp sgn sign det tr Tr min max arg cosec Re Im arsinh arcosh artanh"
 )
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 MARKS = {
     "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
     "bar": "bar", "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "boldsymbol": "vec", "mathbf": "vec",
-    "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
+    "bm": "vec", "vb": "vec", "vect": "vec", "vv": "vec", "mat": "vec", "uv": "hat", "unitvec": "hat", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
     "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
 }  # fmt: skip
 TEXTS = _words(
@@ -55,4 +55,11 @@ CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": 
 INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
 MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
 ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
+# Commands that many authors define alike; a definition in the document itself goes before them.
+DIFFERENTIALS = _words("dd diff differential d dif ud")
+IMAGINARY = _words("I ii iu")
+AVERAGES = _words("braket ev expval mean avg expectationvalue ket bra mel innerproduct ip")
+FREQUENT_DERIVATIVES = _words(
+    "dv pdv derivative pderivative odv fdv deriv pd od pdiff pder pderiv parder partialderivative"
+)
 UNIT_WORDS = _words("sec min rad rpm RPM rev deg kg cm mm km ms Hz kHz hr yr mol Pa")
