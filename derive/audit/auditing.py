@@ -23,7 +23,7 @@ from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Int, Letter, Mat, Node
+from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
 
 SECONDS = 3.0  # of processor time for one claim
 SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest change
@@ -76,6 +76,8 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             before = last_of.get(id(statement.follows)) if statement.follows is not None else None
             read = nodes[id(statement)]
             for index, relation in enumerate(statement.relations):
+                if any(isinstance(node, Text) and node.text == "?" for node, _ in read[index : index + 2]):
+                    continue  # a blank that the reader of the document fills in
                 (left, left_fault), (right, right_fault) = read[index], read[index + 1]
                 claim = Claim(
                     len(claims), row, statement, index, relation, left, right,
@@ -175,7 +177,10 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
         if claim.relation in ("to", "in"):
-            claim.verdict = Verdict(Outcome.UNDECIDED, "this relation is not checked")
+            what = "a limit" if claim.relation == "to" else "a range"
+            claim.verdict = Verdict(Outcome.UNDECIDED, f"{what} is not checked") if claim.is_step else Verdict(
+                Outcome.DEFINES, f"{what} is stated"
+            )  # fmt: skip
             return
         try:
             with limited(SECONDS):
@@ -254,6 +259,8 @@ class _Auditor:
                     return verdict
                 if first is None or (first.outcome is Outcome.DIFFERS and verdict.outcome is Outcome.UNDECIDED):
                     first, claim.values, claim.decimals = verdict, (left, right), tuple(meaning.decimals)
+        if first is None and isinstance(claim.right, Cases) and not claim.is_step:
+            return Verdict(Outcome.DEFINES, "a value for each case")
         if first is None:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
@@ -408,6 +415,7 @@ class _Auditor:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
             return
+        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:
@@ -430,7 +438,7 @@ class _Auditor:
             if isinstance(symbol, Symbol) and wrong:
                 self.known.slips[symbol] = Definition(symbol, value, number)
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
-                self.known.define(symbol, value, number)
+                self.known.define(symbol, value, number, part=claim.row.block.part)
                 self.known.slips.pop(symbol, None)
         if wrong or isinstance(head, MatrixBase):
             return

@@ -9,7 +9,7 @@ tests succeeds.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -112,7 +112,7 @@ class Decision:
 
     def definition(self) -> Verdict | None:
         """A letter that has no value yet gets one."""
-        if self.claim.relation not in ("=", ":="):
+        if self.claim.relation not in ("=", ":=", "~"):
             return None
         if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
             entries = [each for each in self.left if isinstance(each, Symbol)]
@@ -130,7 +130,8 @@ class Decision:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
-                return Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
+                about = "an approximate value" if self.claim.relation == "~" else "a value"
+                return Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
         return None
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
@@ -264,6 +265,8 @@ class Decision:
         for equation, number in reversed(recent):
             if is_multiple(wanted, equation):
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
+        if (found := self.solution(recent) or self.lagrange(wanted)) is not None:
+            return found
         if Cue.ZERO in self.cues:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
                 names = [
@@ -289,6 +292,42 @@ class Decision:
                 ratio = _approximate_multiple(wanted, equation, self.meaning)
                 if ratio is not None:
                     return Verdict(Outcome.APPROXIMATES, "an earlier equation to the leading order", (number,))
+        return None
+
+    def solution(self, recent: list[tuple[Expr, int]]) -> Verdict | None:
+        """A motion x(t) holds if it satisfies an earlier equation of motion."""
+        if self.claim.is_step or not isinstance(self.left, Symbol) or isinstance(self.right, MatrixBase):
+            return None
+        letter = self.meaning.symbols.get(self.left)
+        time = next((each for each in self.right.free_symbols if each.name == "t"), None)
+        if letter is None or letter.dots or time is None:
+            return None
+        rates = [self.meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
+        motion = {rate: sympy.diff(self.right, time, dots) if dots else self.right for dots, rate in enumerate(rates)}
+        for equation, number in reversed(recent):
+            if not equation.free_symbols & set(rates[1:]):
+                continue
+            at_motion = equation.xreplace(motion)
+            for value, used in [(at_motion, ()), *((each[0], used) for each, used in self.known.expanded(at_motion))]:
+                if value == 0 or _equal(value, Integer(0)):
+                    return Verdict(Outcome.HOLDS, "it satisfies an earlier equation of motion", (number, *used))
+        return None
+
+    def lagrange(self, wanted: Expr) -> Verdict | None:
+        """An equation of motion follows from the Lagrangian, even if Lagrange's equation is not written."""
+        if not any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
+                   for each in wanted.free_symbols):  # fmt: skip
+            return None
+        at = self.expansions[-1] if self.expansions else None
+        goals = [wanted, *([sympy.expand(at[0][0] - at[0][1])] if at is not None else [])]
+        for coordinate, equation, number in self.known.lagrange_equations():
+            for goal in goals:
+                if goal.free_symbols & equation.free_symbols and is_multiple(goal, equation):
+                    return Verdict(Outcome.HOLDS, f"Lagrange's equation for {_word(coordinate)}", (number,))
+            if Cue.APPROXIMATE in self.cues and wanted.free_symbols <= equation.free_symbols:
+                if _approximate_multiple(wanted, equation, self.meaning):
+                    because = f"Lagrange's equation for {_word(coordinate)}, to the leading order"
+                    return Verdict(Outcome.APPROXIMATES, because, (number,))
         return None
 
     def wants(self, symbol: Symbol) -> bool:
@@ -322,9 +361,7 @@ class Decision:
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
         if not self.claim.is_step and not computed:
-            if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
-                return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
-            return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+            return self.stated()
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if self.holds_in_motion_only(left, right):
@@ -345,6 +382,38 @@ class Decision:
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def stated(self) -> Verdict:
+        """Return the verdict on an equation that is no step: it is a law, it is new, or it is not known to follow."""
+        symbols = self.left.free_symbols | self.right.free_symbols
+        if isinstance(self.left, Symbol) and self.left in self.meaning.evaluations:
+            return Verdict(Outcome.DEFINES, "a condition at one instant or place")
+        if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
+            before = self.known.definitions[self.left][-1]
+            if before.part not in (-1, self.claim.row.block.part):
+                return Verdict(Outcome.DEFINES, f"another value for {_word(self.left)} in another part")
+            if self.cues & {Cue.DEFINED, Cue.GIVEN}:
+                return Verdict(Outcome.DEFINES, f"a value for {_word(self.left)} in another case")
+            return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
+        if new := self.known.new_letters(symbols):
+            return Verdict(Outcome.DEFINES, f"an equation with the new letter {_word(new[0])}")
+        if self.is_lagrange_form(symbols):
+            return Verdict(Outcome.DEFINES, "Lagrange's equation")
+        if self.cues & {Cue.LAW, Cue.GIVEN, Cue.DEFINED, Cue.CONSTANT} and Cue.APPROXIMATE not in self.cues:
+            return Verdict(Outcome.DEFINES, "stated as a law or a condition")
+        return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+
+    def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
+        """Whether an equation relates the derivatives of one letter by a coordinate and by its rate."""
+        derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
+        letters = {letter.identity for letter, _, _ in derivatives}
+        dots = {
+            found.dots
+            for _, by, _ in derivatives
+            for each, _ in by[:1]
+            if (found := self.meaning.symbols.get(each)) is not None
+        }
+        return len(letters) == 1 and {0, 1} <= dots
 
     def holds_in_motion_only(self, left: Value, right: Value) -> bool:
         """Whether one side only contains second rates, or a rate of a momentum, which equations of motion determine."""

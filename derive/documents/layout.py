@@ -74,6 +74,7 @@ class Cue(StrEnum):
     CONSTANT = "constant"
     INCORRECT = "not"
     ZERO = "set to zero"
+    LAW = "law"
 
 
 CUES = {
@@ -87,6 +88,8 @@ CUES = {
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
     Cue.CONSTANT: r"\bconstant\b|\bconst\b",
     Cue.ZERO: r"\bzero\b|\bvanish\w*|\bstationary\b|\bextrem\w+|\bminimum\b",
+    Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b|\bequations? of motion\b"
+    r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
 _CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}
@@ -138,6 +141,7 @@ class Block:
     sentence: str
     heading: int
     rows: list[Row] = field(default_factory=list)
+    part: int = 0  # how many headings, items and marks such as (a) come before it
 
     @cached_property
     def cues(self) -> frozenset[Cue]:
@@ -186,6 +190,11 @@ _HEADING = re.compile(
     r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}",
     re.MULTILINE,
 )
+_PART = re.compile(
+    r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)|^[ \t]*\*\*\w+"
+    r"|^:::+\s*\{|^[ \t]*\d+\.\s",
+    re.MULTILINE,
+)
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
 _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 
@@ -232,6 +241,7 @@ class _Reading:
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
         self.last: Statement | None = None
+        self.parts = sorted([*(each.span.start for each in headings), *(m.start() for m in _PART.finditer(self.text))])
 
     def blocks(self) -> list[Block]:
         found: list[Block] = []
@@ -243,6 +253,7 @@ class _Reading:
             if heading >= 0 and self.headings[heading].span.end > done:
                 before = self.text[max(self.headings[heading].span.end, outer.start - 2000) : outer.start]
             block = Block(display, environment, outer, before, self.sentence(outer, display), heading)
+            block.part = bisect_right(self.parts, outer.start)
             self.read_rows(block, inner)
             found.append(block)
             done = outer.end
