@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice, pairwise, product
+from time import process_time
 
 import sympy
 from sympy import MatrixBase, Symbol
@@ -26,6 +28,9 @@ from derive.documents.source import Span
 from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
 
 SECONDS = 3.0  # of processor time for one claim
+LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
+USUAL_SECONDS = 0.3
+MOST_LATE = 40.0  # seconds beyond the usual time of its claims that a document may use before the limit is low
 SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest change
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
@@ -139,6 +144,7 @@ class _Auditor:
         self.meaning = Meaning(facts)
         self.known = Known(self.meaning)
         self.scopes: dict[int, Known] = {}
+        self.late = 0.0  # seconds used beyond the usual time
 
     def begin(self, scope: int) -> None:
         """Begin a problem or section: only what is assumed is known."""
@@ -182,16 +188,18 @@ class _Auditor:
                 Outcome.DEFINES, f"{what} is stated"
             )  # fmt: skip
             return
+        seconds, begun = max(LEAST_SECONDS, SECONDS - self.late * SECONDS / MOST_LATE), process_time()
         try:
-            with limited(SECONDS):
+            with limited(seconds):
                 claim.verdict = self.best(claim)
         except OutOfTime:
-            claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
+            claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
-        if claim.verdict is not None:
+        with suppress(OutOfTime, RecursionError), limited(seconds):
             self.remark(claim, claim.verdict)
-        self.remember(claim)
+            self.remember(claim)
+        self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
         """Point to what is hardly meant: a letter equal to itself, or one entry that breaks a symmetry."""
@@ -281,9 +289,18 @@ class _Auditor:
         """Find the nearest change of the right side that makes the claim hold."""
         assert claim.right is not None and claim.values is not None
         right_node = readings(claim.right, self.facts)[0][0]
-        self.find_edit(claim, claim.values[0], right_node, left_side, verdict)
+        until = process_time() + SECONDS_OF_SUGGESTION
+        self.find_edit(claim, claim.values[0], right_node, left_side, verdict, until)
 
-    def find_edit(self, claim: Claim, left: Value, right_node: Node, left_side: Node, verdict: Verdict) -> bool:
+    def find_edit(
+        self,
+        claim: Claim,
+        left: Value,
+        right_node: Node,
+        left_side: Node,
+        verdict: Verdict,
+        until: float = float("inf"),
+    ) -> bool:
         text = self.document.source.text
         letters = {
             (each.identity, each.dots): each
@@ -297,6 +314,8 @@ class _Auditor:
                 letters.setdefault((letter.identity, letter.dots), letter)
 
         def is_right(node: Node) -> bool:
+            if process_time() > until:
+                return False
             for plain in PLAIN[:2]:
                 meaning = self.meaning_of(self.meaning.scope, plain)
                 try:

@@ -28,6 +28,8 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 MOST_COMBINED = 6
+LARGEST_GOAL = 400  # operations of an equation of motion
+MOST_SIGNS = 3  # of absolute values
 CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
@@ -143,10 +145,24 @@ class Decision:
 
     def identity(self) -> Verdict | None:
         if not same(self.left, self.right):
-            return None
+            return self.with_signs(self.left, self.right)
         if self.left == self.right and self.left != 0:
             return Verdict(Outcome.HOLDS, "the two sides are the same")
         return Verdict(Outcome.HOLDS, "the two sides are equal")
+
+    def with_signs(self, left: Value, right: Value) -> Verdict | None:
+        """Compare two sides for one sign of each absolute value: sqrt((L - x)^2) = L - x."""
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+            return None
+        found = sorted((left.atoms(Abs) | right.atoms(Abs)), key=str)[:MOST_SIGNS]
+        if not found or self.claim.relation != "=":
+            return None
+        for signs in product((1, -1), repeat=len(found)):
+            put_in = {each: sign * each.args[0] for each, sign in zip(found, signs, strict=True)}
+            if _equal(left.xreplace(put_in), right.xreplace(put_in)):
+                where = " and ".join(f"{s * a.args[0]} > 0" for a, s in zip(found, signs, strict=True))
+                return Verdict(Outcome.HOLDS, f"the two sides are equal if {where}")
+        return None
 
     @cached_property
     def expansions(self) -> list[tuple[tuple[Value, ...], tuple[int, ...]]]:
@@ -320,6 +336,7 @@ class Decision:
             return None
         at = self.expansions[-1] if self.expansions else None
         goals = [wanted, *([sympy.expand(at[0][0] - at[0][1])] if at is not None else [])]
+        goals = [each for each in goals if sympy.count_ops(each) < LARGEST_GOAL]
         for coordinate, equation, number in self.known.lagrange_equations():
             for goal in goals:
                 if goal.free_symbols & equation.free_symbols and is_multiple(goal, equation):

@@ -12,6 +12,9 @@ import sympy
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
 
 
+AGAIN = 0.5  # seconds after which the limit is enforced again
+
+
 class OutOfTime(BaseException):
     """The limit is reached; not an `Exception`, so that no handler in SymPy catches it."""
 
@@ -19,6 +22,7 @@ class OutOfTime(BaseException):
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
     def stop(*_: object) -> None:
+        signal.setitimer(signal.ITIMER_VIRTUAL, AGAIN)  # the exception is lost if it is raised while a cache is cleared
         raise OutOfTime
 
     before = signal.signal(signal.SIGVTALRM, stop)

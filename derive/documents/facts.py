@@ -26,6 +26,7 @@ from derive.documents.syntax import (
     Num,
     Open,
     Pow,
+    Sum,
     Vec,
 )
 
@@ -46,6 +47,8 @@ class Facts:
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
+    subscripts: Counter[str] = field(default_factory=Counter)
+    indices: set[str] = field(default_factory=set)  # of sums
     declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document gives
 
     def declare(self, kinds: Mapping[Identity, str]) -> None:
@@ -167,6 +170,7 @@ def _preferred(node: Node) -> Iterable[Node]:
 def _look_at(node: Node, facts: Facts) -> None:
     if isinstance(node, Letter):
         facts.seen[node.identity] += 1
+        facts.subscripts[node.sub] += 1
         if node.dots:
             facts.timed.add(_timeless(node))
         if "vec" in node.marks:
@@ -188,6 +192,9 @@ def _look_at(node: Node, facts: Facts) -> None:
                 facts.timed.add(_timeless(of))
             if isinstance(by, Letter) and isinstance(of, Letter) and not node.partial and by.base != "t":
                 facts.functions[of.identity][by.identity] += 1
+    elif isinstance(node, Sum):
+        if isinstance(index := _bare(node.index) if node.index is not None else None, Letter):
+            facts.indices.add(index.base)
     elif isinstance(node, Diff):
         if isinstance(of := _bare(node.of), Letter):
             facts.integrated[of.identity] += 1

@@ -88,7 +88,8 @@ CUES = {
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
     Cue.CONSTANT: r"\bconstant\b|\bconst\b",
     Cue.ZERO: r"\bzero\b|\bvanish\w*|\bstationary\b|\bextrem\w+|\bminimum\b",
-    Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b|\bequations? of motion\b"
+    Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b"
+    r"|\bequations? of motion\b"
     r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
@@ -191,8 +192,8 @@ _HEADING = re.compile(
     re.MULTILINE,
 )
 _PART = re.compile(
-    r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)|^[ \t]*\*\*\w+"
-    r"|^:::+\s*\{|^[ \t]*\d+\.\s",
+    r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*\*\*\w+"
+    r"|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)|^:::+\s*\{|^[ \t]*\d+\.\s",
     re.MULTILINE,
 )
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
@@ -241,6 +242,7 @@ class _Reading:
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
         self.last: Statement | None = None
+        self.main: Statement | None = None  # the statement with which a row that begins with a relation goes on
         self.parts = sorted([*(each.span.start for each in headings), *(m.start() for m in _PART.finditer(self.text))])
 
     def blocks(self) -> list[Block]:
@@ -322,9 +324,10 @@ class _Reading:
             if rest is not None:
                 row.latex += " " + self.text[flat[0].span.start : flat[-1].span.end]
                 continue
-            for statement in statements_of(cells, row, self.last if block.display and block.rows[:-1] else None):
+            for statement in statements_of(cells, row, self.main if block.display and block.rows[:-1] else None):
                 row.statements.append(statement)
                 self.last = statement
+            self.main = _main(row.statements) or self.main
 
     def row(self, block: Block, span: Span) -> Row:
         self.count += 1
@@ -346,13 +349,14 @@ class _Reading:
         open_end = bool(last.tokens) and (
             last.tokens[-1].is_mark("+", "-", "*", "/") or last.tokens[-1].is_command("cdot", "times", "pm", "mp")
         )
-        open_end = open_end or _is_open(last.tokens)
+        open_end = open_end or _is_open(last.tokens) or not last.tokens
         begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
         if not open_end and not (begins and len(cells) > 1 and not without_spaces(cells[0])):
             return None
         if not _is_open(last.tokens) and any(map(_is_relation, _outside_brackets(tokens))):
             return None
-        joined = Side((*last.tokens, *tokens), Span(last.span.start, tokens[-1].span.end))
+        start = last.span.start if last.tokens else tokens[0].span.start
+        joined = Side((*last.tokens, *tokens), Span(start, tokens[-1].span.end))
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return block.rows[-1]
@@ -378,6 +382,13 @@ def _simplified(tokens: list[Token]) -> list[Token]:
                 _, at = argument_at(tokens, at)
             inner, at = argument_at(tokens, at)
             found += _simplified(inner)
+        elif token.is_command("mqty", "pmqty", "bmqty", "vmqty", "smqty") and at < len(tokens):
+            inner, at = _bracket_at(tokens, at)
+            name = "vmatrix" if token.text == "vmqty" else "pmatrix"
+            found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
+        elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
+            while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
+                at += 1  # the note `| \\cdot 2` says what both sides are multiplied by
         elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
             continue
         elif token.is_command("qq"):
@@ -404,6 +415,25 @@ def _simplified(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return _without_outer_braces(found)
+
+
+def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
+    """Return the tokens inside the bracket or the braces at a position, and the position after it."""
+    if not tokens[at].is_mark("(", "["):
+        return argument_at(tokens, at)
+    for end, (token, depth) in enumerate(_depths(tokens[at:])):
+        if end and depth == 0 and token.is_mark(")", "]"):
+            return tokens[at + 1 : at + end], at + end + 1
+    return tokens[at + 1 :], len(tokens)
+
+
+def _environment_sign(token: Token, sign: str, name: str) -> list[Token]:
+    return [
+        replace(token, text=sign),
+        replace(token, kind=Kind.OPEN, text="{"),
+        *(replace(token, kind=Kind.LETTER, text=letter) for letter in name),
+        replace(token, kind=Kind.CLOSE, text="}"),
+    ]
 
 
 def _without_outer_braces(tokens: list[Token]) -> list[Token]:
@@ -533,7 +563,7 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
             if statement is None:
                 continue
             if not statement.sides[0].tokens:
-                previous = found[-1] if found else before
+                previous = _main(found) or before
                 if previous is None or not statement.sides[1:]:
                     statement.sides, statement.relations = statement.sides[1:], statement.relations[1:]
                     if not statement.sides:
@@ -546,6 +576,15 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                 continue
             found.append(statement)
     return found
+
+
+def _main(statements: list[Statement]) -> Statement | None:
+    """Return the last statement that is not an aside: `where k = ...`."""
+    main, aside = None, False
+    for each in statements:
+        aside = each.link in ("where", "if", "since") or (aside and each.link in ("and", "list"))
+        main = main if aside else each
+    return main
 
 
 def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
@@ -635,7 +674,8 @@ def _link(said: str) -> str:
     said = said.lower()
     for word, link in (
         ("or", "or"), ("and", "and"), ("so", "implies"), ("hence", "implies"), ("thus", "implies"), ("where", "where"),
-        ("with", "where"), ("if", "if"), ("when", "if"), ("for", "if"), ("since", "since"),
+        ("with", "where"), ("using", "where"), ("since", "since"), ("while", "where"), ("if", "if"), ("when", "if"),
+        ("for", "if"), ("as", "since"), ("given", "where"), ("let", "where"),
     ):  # fmt: skip
         if re.search(rf"\b{word}\b", said):
             return link
@@ -660,12 +700,15 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
             sides[-1].pop()
             relation = ":="
         if relation is not None and token.is_mark("=") and sides[-1] and sides[-1][-1].is_mark("!"):
-            sides[-1].pop()
+            if len(sides[-1]) < 2 or sides[-1][-2].kind is not Kind.NUMBER:  # not the factorial of a number
+                sides[-1].pop()
         if relation is None:
             sides[-1].append(token)
         else:
             relations.append(relation)
             sides.append([])
+    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \\to B` is a kind of function
+        sides[0] = sides[0][next(i for i, each in enumerate(sides[0]) if each.is_mark(":")) + 1 :]
     for side in sides:
         while len(side) > 1 and side[-1].is_mark(".", ",", ";", ":"):
             side.pop()

@@ -723,8 +723,8 @@ class Meaning:
         if symbol in self.derivatives:
             letter, by, _ = self.derivatives[symbol]
             return _carries(letter, index) or any(self.has_index(each, index) for each, _ in by)
-        letter = self.symbols.get(symbol)
-        return letter is not None and _carries(letter, index)
+        found = self.symbols.get(symbol)
+        return found is not None and _carries(found, index)
 
     def renamed(self, symbol: Symbol, index: Symbol, mark: str) -> str:
         """Return the name of a symbol with a mark in place of the index in its subscripts."""
@@ -735,7 +735,7 @@ class Meaning:
             sub = letter.sub.replace(index.name, mark)
             label = letter.label.replace(index.name, mark)
             return _replaced(letter, sub=sub, label=label).named() + "." * letter.dots
-        return symbol.name.replace(f"_{index.name}", f"_{mark}")
+        return str(symbol.name).replace(f"_{index.name}", f"_{mark}")
 
     def of_nabla(self, node: Nabla) -> Any:
         """Return a gradient or its like; the derivatives of a letter by x, y and z are symbols."""

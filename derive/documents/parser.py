@@ -249,6 +249,8 @@ class _Reader:
             return True
         if token.kind is Kind.MARK:
             return not (token.text in "([|?" and not (token.text == "|" and self.bar_closes()))
+        if token.is_command("eval"):
+            return self.is_bar_with_limits()
         return token.is_command("right", "}", "rbrace", "rangle", "rvert", "rVert", "end", "pm", "mp", "\\")
 
     bars = 0
@@ -258,7 +260,7 @@ class _Reader:
 
     def is_bar_with_limits(self) -> bool:
         token, after = self.peek(), self.peek(1)
-        bar = token is not None and (token.is_mark("|") or token.is_command("vert", "|"))
+        bar = token is not None and (token.is_mark("|") or token.is_command("vert", "|", "eval"))
         return bar and after is not None and after.kind is Kind.SCRIPT and self.bars == 0
 
     def evaluated(self, inner: Node) -> Node:
@@ -328,11 +330,13 @@ class _Reader:
         begins = self.at
         by: list[tuple[Node, int]] = []
         while not self.ends() and (self.next_is("partial") if differential.partial else self.is_differential()):
-            bottom = self.factor()
-            bottom = bottom.alternatives[0] if isinstance(bottom, Open) and bottom.kind == "letter d" else bottom
+            bottom: Node = self.factor()
+            if isinstance(bottom, Open) and bottom.kind == "letter d":
+                bottom = bottom.alternatives[0]
             order = 1
-            if isinstance(bottom, Pow) and isinstance(bottom.exponent, Num) and bottom.exponent.text.isdigit():
-                bottom, order = bottom.base, int(bottom.exponent.text)
+            exponent = bottom.exponent if isinstance(bottom, Pow) else None
+            if isinstance(bottom, Pow) and isinstance(exponent, Num) and exponent.text.isdigit():
+                bottom, order = bottom.base, int(exponent.text)
             if not isinstance(bottom, Diff) or bottom.partial != differential.partial or order > 9:
                 break
             by.append((bottom.of, order))
@@ -359,7 +363,7 @@ class _Reader:
             while not self.ends():
                 self.skip_spacing()
                 token = self.peek()
-                if token is None or token.is_mark("/"):
+                if token is None or token.is_mark("/") or self.ends():
                     break
                 mark = ""
                 if token.is_command("cdot", "times"):
@@ -521,6 +525,10 @@ class _Reader:
                 self.at += 1
                 node = self.primed(node, 1, token.span)
                 continue
+            if token.is_command("indices") and isinstance(node, Letter):
+                self.at += 1
+                node = replace(node, label=_joined(node.label, self.label(self.argument())))
+                continue
             if token.is_mark("!") and not isinstance(node, Text):
                 self.at += 1
                 node = Fun(node.span.to(token.span), "factorial", node)
@@ -588,7 +596,8 @@ class _Reader:
         if plain and (plain[0].is_command("circ", "degree", "textdegree") or "".join(t.text for t in plain) == "o"):
             return Fun(node.span.to(plain[0].span), "degrees", node)
         if plain and (
-            plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")
+            plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal")
+            or plain[0].is_mark("*", "+")
             or (len(plain) == 1 and plain[0].is_mark("-"))
         ):
             label = self.label(plain)
@@ -608,6 +617,8 @@ class _Reader:
         made = Pow(node.span.to(span), node, power)
         if isinstance(node, Num) and isinstance(power, Num) and power.text == "0":
             return Open(made.span, "superscript", (Fun(made.span, "degrees", node), made))
+        if isinstance(node, Letter) and isinstance(power, Letter) and not power.sub and not power.dots:
+            return Open(made.span, "superscript", (made, replace(node, label=_joined(node.label, power.base))))
         if isinstance(node, Letter) and isinstance(power, Mul) and _is_word(power):
             word = "".join(each.base for _, each in power.factors if isinstance(each, Letter))
             return Open(made.span, "superscript", (made, replace(node, label=_joined(node.label, word))))
@@ -727,7 +738,8 @@ class _Reader:
         if name in IMAGINARY:
             return Letter(token.span, "imaginary unit")
         if name == "order":
-            return Fun(token.span, "order", self.inside(self.argument(), token.span))
+            group = self.bracketed() if self.next_is_mark("(") else self.inside(self.argument(), token.span)
+            return Fun(self.since(token), "order", group)
         if name == "var":
             return Letter(token.span, "delta")
         if name == "eval":
@@ -744,7 +756,9 @@ class _Reader:
             return self.with_unit(token)
         if name in ("i", "j", "k"):
             return Letter(token.span, name)
-        if name in ("&", "%", "#", "$", "_"):
+        if name == "%":
+            return Frac(token.span, Num(token.span, "1"), Num(token.span, "100"))
+        if name in ("&", "#", "$", "_"):
             raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
@@ -1289,7 +1303,6 @@ class _Reader:
         if not rows:
             raise Unreadable("this matrix is empty", token.span)
         return Mat(self.since(token), tuple(rows), name in ("vmatrix",))
-
 
     def cases(self, tokens: list[Token], span: Span) -> Node:
         values, conditions = [], []
