@@ -271,6 +271,8 @@ class Decision:
         """An equation follows from earlier ones: by a factor, a sum, or the solution for a letter."""
         if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
+        if sympy.count_ops(self.difference) > 2 * LARGEST_GOAL:
+            return None
         recent = self.known.recent()
         wanted = sympy.expand(self.difference)
         for letter, value in ((self.left, self.right), (self.right, self.left)):
@@ -299,6 +301,8 @@ class Decision:
         if (numbers := _combination(wanted, recent[-MOST_COMBINED:])) is not None:
             return Verdict(Outcome.HOLDS, "a sum or difference of earlier equations", numbers)
         for (left, right), used in self.expansions:
+            if sympy.count_ops(left - right) > LARGEST_GOAL:
+                break
             expanded = sympy.expand(left - right)
             for equation, number in reversed(recent):
                 if expanded.free_symbols == equation.free_symbols and is_multiple(expanded, equation):
@@ -334,10 +338,11 @@ class Decision:
         if not any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                    for each in wanted.free_symbols):  # fmt: skip
             return None
-        at = self.expansions[-1] if self.expansions else None
-        goals = [wanted, *([sympy.expand(at[0][0] - at[0][1])] if at is not None else [])]
-        goals = [each for each in goals if sympy.count_ops(each) < LARGEST_GOAL]
-        for coordinate, equation, number in self.known.lagrange_equations():
+        equations = list(self.known.lagrange_equations())
+        at = self.expansions[-1:] if equations else []
+        goals = [wanted, *(left - right for (left, right), _ in at)]
+        goals = [sympy.expand(each) for each in goals if sympy.count_ops(each) < LARGEST_GOAL]
+        for coordinate, equation, number in equations:
             for goal in goals:
                 if goal.free_symbols & equation.free_symbols and is_multiple(goal, equation):
                     return Verdict(Outcome.HOLDS, f"Lagrange's equation for {_word(coordinate)}", (number,))
