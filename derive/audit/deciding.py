@@ -132,6 +132,8 @@ class Decision:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
+                if letter is self.left and (found := self.solution(self.known.recent())) is not None:
+                    return found
                 about = "an approximate value" if self.claim.relation == "~" else "a value"
                 return Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
         return None

@@ -124,6 +124,40 @@ def test_what_is_not_known_is_not_accused(text: str) -> None:
     assert wrong(text) == []
 
 
+def test_a_motion_that_satisfies_its_equation_holds() -> None:
+    text = "$$ \\ddot x = -\\omega^2 x $$\n\n$$ x = A \\cos\\omega t + B \\sin\\omega t $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("A \\cos\\omega t", "A \\cos 2\\omega t"))[-1] != "holds"
+
+
+def test_an_equation_of_motion_follows_from_the_lagrangian_alone() -> None:
+    text = "$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$\n\n$$ m \\ddot x + k x = 0 $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("m \\ddot x + k", "m \\ddot x + 2 k"))[-1] != "holds"
+
+
+def test_a_row_goes_on_from_the_chain_and_not_from_an_aside() -> None:
+    text = (
+        "\\begin{align*}\nT &= m a^2 \\omega^2 \\qquad \\text{where } \\omega^2 = \\frac{g}{a} \\\\\n&= m g a\n"
+        "\\end{align*}"
+    )
+    assert outcomes(text) == ["defines", "defines", "holds"]
+
+
+def test_an_absolute_value_holds_for_one_sign() -> None:
+    (claim,) = audit("$\\sqrt{(L - x)^2} = L - x$").claims
+    assert claim.verdict is not None and claim.verdict.because == "the two sides are equal if L - x > 0"
+
+
+def test_a_letter_is_used_again_in_another_part() -> None:
+    assert outcomes("(a) $x = a^2$\n\n(b) $x = a^3$") == ["defines", "defines"]
+    assert outcomes("We find $x = a^2$ and $x = a^3$") == ["defines", "undecided"]
+
+
+def test_a_blank_is_not_a_claim() -> None:
+    assert outcomes("$p = ?$ and $q = a$") == ["defines"]
+
+
 def test_a_number_set_equal_to_a_list_is_a_slip() -> None:
     (claim,) = wrong("Let $\\vec L = (a, b, d)$. Then $\\vec L^2 = \\vec L \\cdot \\vec L = (a^2, b^2, d^2)$.")
     assert claim.verdict is not None and "number" in claim.verdict.because
