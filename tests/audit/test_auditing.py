@@ -196,6 +196,18 @@ def test_json_has_each_row_with_its_verdict() -> None:
     } == set(data["rows"][0])
 
 
+def test_the_page_has_notes_beside_the_lines_of_the_document() -> None:
+    page = as_html(audit(RIGHT.replace(r"\frac{x^3}{3}", r"\frac{x^3}{2}", 1)))
+    line = page.partition('id="L8"')[2].partition("</div>")[0]
+    assert "Read as" in line and line.index("Read as") < line.index("Probably 3 instead of 2: a number was mistyped.")
+    assert '<a href="#L8">8</a>' in page and "A rod of mass $M$" in page
+    assert "I found nothing to correct." in as_html(audit(RIGHT))
+
+
+def test_every_row_shows_the_evidence_for_its_reading() -> None:
+    assert "`f(a)`: " in as_text(audit("$f(x) = x^2$ and $f(a) = a^2$"), every=True)
+
+
 def test_the_page_escapes_what_the_document_says() -> None:
     page = as_html(audit("$a <b = c$ and $<script> = 1$"))
     assert "<script>" not in page.partition("<body>")[2]
