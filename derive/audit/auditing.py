@@ -430,9 +430,24 @@ class _Auditor:
                 return (named, value) if first else (value, named)
         return meaning.of(left), meaning.of(right)
 
+    def is_special_case(self, claim: Claim) -> bool:
+        """Whether a sentence puts a letter equal to a number or another letter in one case only: `if R = a/2`."""
+        assert claim.values is not None
+        left, right = claim.values
+        block = claim.row.block
+        simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
+        return bool(
+            simple
+            and not block.display
+            and Cue.GIVEN in block.cues
+            and (right.is_number or len(right.free_symbols) == 1)
+        )
+
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
+            return
+        if self.is_special_case(claim):
             return
         self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):

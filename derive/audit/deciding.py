@@ -27,6 +27,7 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
+CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6
 LARGEST_GOAL = 400  # operations of an equation of motion
 MOST_SIGNS = 3  # of absolute values
@@ -384,7 +385,8 @@ class Decision:
         """Accuse only a step whose sides are known completely; every other claim stays undecided."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
-        if not self.claim.is_step and not computed:
+        display = self.claim.row.block.display
+        if not self.claim.is_step and (not computed or (not display and self.cues & {Cue.GIVEN, Cue.PUT_IN})):
             return self.stated()
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
@@ -402,10 +404,26 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
         if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
+        if several := self.with_several_values():
+            return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def with_several_values(self) -> Symbol | None:
+        """Return a letter that only one side contains and to which the rows before give several values."""
+        one_side = self.left.free_symbols ^ self.right.free_symbols
+        for symbol in sorted(one_side, key=str):
+            definition = self.known.latest(symbol)
+            inner = definition.value.free_symbols if definition is not None else set()
+            if symbol in self.meaning.evaluations:
+                inner = inner | self.meaning.evaluations[symbol][2].free_symbols
+            for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
+                values = self.known.definitions.get(each, [])
+                if len({definition.value for definition in values}) > 1:
+                    return each
+        return None
 
     def stated(self) -> Verdict:
         """Return the verdict on an equation that is no step: it is a law, it is new, or it is not known to follow."""
@@ -608,21 +626,33 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
 
 
 def counterexample(left: Value, right: Value) -> str:
-    """Return letters with simple values for which the two sides differ, and the values of the sides."""
+    """Return letters with simple values for which the two sides are real and differ, and the values of the sides."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
-    for start in (1, 2, 3):
-        point = {each: Integer(start + i) for i, each in enumerate(symbols)}
+    for point in _simple_points(symbols):
         for one, other in zip(_entries(left), _entries(right), strict=False):
-            numbers = [sympy.N(each.subs(point), 6) for each in (one, other)]
-            if all(each.is_number and each.is_finite for each in numbers) and numbers[0] != numbers[1]:
+            numbers = [sympy.N(each.subs(point), 12) for each in (one, other)]
+            if not all(each.is_number and each.is_finite and each.is_real for each in numbers):
+                continue
+            if abs(numbers[0] - numbers[1]) > CLOSE * max(map(abs, numbers)):
                 at = ", ".join(f"{symbol.name} = {value}" for symbol, value in point.items())
                 sides = f"{_number(numbers[0])} against {_number(numbers[1])}"
                 return f"{sides}" + (f" for {at}" if at and len(at) < 160 else "")
     return ""
 
 
+def _simple_points(symbols: list[Symbol]) -> Iterator[dict[Symbol, Expr]]:
+    """Yield small numbers for letters; the later points have small rates, or other orders of size."""
+    for start in (1, 2, 3):
+        yield {each: Integer(start + i) for i, each in enumerate(symbols)}
+    for size in (10, 100):
+        yield {each: Rational(1 + i, size if each.name.endswith(".") else 1) for i, each in enumerate(symbols)}
+    yield {each: Integer(len(symbols) - i) for i, each in enumerate(symbols)}
+    for turned in (False, True):
+        yield {each: Rational(1, 2 + i) for i, each in enumerate(reversed(symbols) if turned else symbols)}
+
+
 def _number(value: Expr) -> str:
-    return f"{float(value):.6g}" if value.is_real else str(value)
+    return f"{float(value):.6g}"
 
 
 __all__ = ["Decision", "Sequence", "counterexample", "is_multiple", "order_of_error", "same"]

@@ -15,6 +15,7 @@ from derive.documents.syntax import Letter
 ROUNDS = 8  # of substitution
 LARGEST = 4000  # operations of an expression that is still expanded
 LAST_EQUATIONS = 24
+MOMENTA = ("p", "l", "L", "J", "ell")
 ASSUMED = -1  # the number of the claim for what is assumed
 
 
@@ -173,11 +174,22 @@ class Known:
         rates = inner.value.free_symbols if inner is not None else set()
         return not any((found := self.meaning.symbols.get(each)) is not None and found.dots for each in rates)
 
+    def is_momentum(self, symbol: Symbol) -> bool:
+        """Whether a letter is a momentum, which stays fixed in derivatives by coordinates: p = m x' in H(x, p)."""
+        letter, definition = self.meaning.symbols.get(symbol), self.definitions.get(symbol, [None])[-1]
+        if letter is None or definition is None or letter.base not in MOMENTA:
+            return False
+        letters = [self.meaning.symbols.get(each) for each in definition.value.free_symbols]
+        return any(each is not None and each.dots for each in letters)
+
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
         """Put in the definitions of letters that depend on the variables of a derivative."""
+        by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}
             for symbol in value.free_symbols - wanted:
+                if wanted and not by_rate and self.is_momentum(symbol):
+                    continue
                 definition = self.definitions.get(symbol, [None])[-1] or (
                     self.computed(symbol) if (letter := self.meaning.symbols.get(symbol)) and letter.dots else None
                 )

@@ -191,8 +191,8 @@ def _summary_as_html(audit: Audit, marked: list[int]) -> str:
     look = ", ".join(f'<a href="#L{number}">{number}</a>' for number in marked)
     told = f"<p>{len(audit.claims)} claims: {', '.join(parts)}.</p>"
     told += f"<p>Please look at line {look}.</p>" if marked else "<p>I found nothing to correct.</p>"
-    answers = [f"<p>{escape(line)}</p>" for line in _of_answers(audit, every=True)]
-    return told + "".join(answers)
+    answers = "<br>".join(f"<code>{escape(line)}</code>" for line in _of_answers(audit, every=True))
+    return told + (f"<details><summary>Answers of the derivation</summary>{answers}</details>" if answers else "")
 
 
 def _note(audit: Audit, claim: Claim) -> str:

@@ -82,7 +82,8 @@ CUES = {
     r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
     Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
     r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
-    Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b",
+    Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b"
+    r"|\bcases?\b|\blimit\w*",
     Cue.SINCE: r"\bsince\b|\bbecause\b|\bas\b|\brecall\w*|\bknow\b|\bremember\b",
     Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",

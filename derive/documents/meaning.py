@@ -628,12 +628,28 @@ class Meaning:
             left = _inner_letter(node.lower.left)
             if left is None:
                 raise Meaningless("this condition has no single letter", node.lower.span)
-            return inner.subs(self.symbol(left), self.scalar(node.lower.right))
+            return self.evaluated(inner, self.symbol(left), self.scalar(node.lower.right))
         if node.lower is None or node.upper is None:
             raise Meaningless("a limit is missing", node.span)
         variable = self.variable_of(inner, node)
         ends = [self.scalar(each.right if isinstance(each, Condition) else each) for each in (node.upper, node.lower)]
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
+
+    def evaluated(self, inner: Expr, variable: Symbol, at: Expr) -> Expr:
+        """Return a value at a place; what depends on the variable, although it does not contain it, gets a symbol."""
+        put_in = {}
+        for symbol in inner.free_symbols - {variable}:
+            letter = self.symbols.get(symbol)
+            definition = self.defined(symbol)
+            depends = symbol in self.derivatives or symbol in self.parents
+            depends = depends or (definition is not None and variable in definition.free_symbols)
+            depends = depends or (letter is not None and any(
+                self.is_variable(each, variable) for each in self.facts.variables_of(letter)
+            ))  # fmt: skip
+            if depends:
+                put_in[symbol] = Symbol(f"{symbol.name}({variable}={at})", real=True)
+                self.evaluations[put_in[symbol]] = (symbol, variable, at)
+        return inner.xreplace(put_in).subs(variable, at)
 
     def with_label(self, value: Any, label: str) -> Any:
         """Return a value with a label, of which nothing else is known: the rate of L in the body."""
