@@ -13,10 +13,10 @@ import sympy
 from sympy import MatrixBase, Symbol
 
 from derive.audit.assumed import Assumed
-from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import Decision, same
 from derive.audit.expected import Compared, Expected, compared
-from derive.audit.known import ASSUMED, Definition, Known
+from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
 from derive.audit.slips import WHY, nearest_edit
 from derive.documents.choices import Choice, readings
@@ -273,11 +273,22 @@ class _Auditor:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
             )
+        if first.repeated is not None:
+            self.compare_repeated(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
+
+    def compare_repeated(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
+        """A row that repeats an earlier result was copied wrongly if one change makes it this result."""
+        assert claim.right is not None and verdict.repeated is not None
+        right_node = readings(claim.right, self.facts)[0][0]
+        until = process_time() + SECONDS_OF_SUGGESTION
+        if self.find_edit(claim, verdict.repeated.value, right_node, left_side, verdict, until):
+            verdict.outcome = Outcome.DIFFERS
+            verdict.because = "the row repeats an earlier result with a change"
 
     def loses_letters(self, claim: Claim) -> bool:
         """Whether letters of the left side are missing on the right."""
@@ -431,17 +442,12 @@ class _Auditor:
         return meaning.of(left), meaning.of(right)
 
     def is_special_case(self, claim: Claim) -> bool:
-        """Whether a sentence puts a letter equal to a number or another letter in one case only: `if R = a/2`."""
+        """Whether a sentence puts a letter equal to a multiple of another letter in one case only: `if R = a/2`."""
         assert claim.values is not None
         left, right = claim.values
         block = claim.row.block
         simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
-        return bool(
-            simple
-            and not block.display
-            and Cue.GIVEN in block.cues
-            and (right.is_number or len(right.free_symbols) == 1)
-        )
+        return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""

@@ -412,7 +412,7 @@ class Decision:
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
 
     def with_several_values(self) -> Symbol | None:
-        """Return a letter that only one side contains and to which the rows before give several values."""
+        """Return a letter that only one side contains and to which the rows before give several values in one part."""
         one_side = self.left.free_symbols ^ self.right.free_symbols
         for symbol in sorted(one_side, key=str):
             definition = self.known.latest(symbol)
@@ -421,7 +421,7 @@ class Decision:
                 inner = inner | self.meaning.evaluations[symbol][2].free_symbols
             for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
                 values = self.known.definitions.get(each, [])
-                if len({definition.value for definition in values}) > 1:
+                if len({definition.value for definition in values if definition.part == values[-1].part}) > 1:
                     return each
         return None
 
@@ -432,6 +432,9 @@ class Decision:
             return Verdict(Outcome.DEFINES, "a condition at one instant or place")
         if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
             before = self.known.definitions[self.left][-1]
+            if Cue.REPEATED in self.cues:
+                because = f"another value of {_word(self.left)} than before"
+                return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
             if before.part not in (-1, self.claim.row.block.part):
                 return Verdict(Outcome.DEFINES, f"another value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
+from derive.audit.claims import Definition
 from derive.documents.meaning import Meaning, Value
 from derive.documents.source import Span
 from derive.documents.syntax import Letter
@@ -17,15 +18,6 @@ LARGEST = 4000  # operations of an expression that is still expanded
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
 ASSUMED = -1  # the number of the claim for what is assumed
-
-
-@dataclass
-class Definition:
-    symbol: Symbol
-    value: Expr
-    claim: int
-    implied: bool = False  # not written, but needed by a step
-    part: int = -1  # the part of the document in which the letter got this value
 
 
 @dataclass

@@ -75,6 +75,7 @@ class Cue(StrEnum):
     INCORRECT = "not"
     ZERO = "set to zero"
     LAW = "law"
+    REPEATED = "repeated"
 
 
 CUES = {
@@ -92,6 +93,8 @@ CUES = {
     Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b"
     r"|\bequations? of motion\b"
     r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
+    Cue.REPEATED: r"\brepeat\w*|\bonce more\b|\brecall\w*|\bwe (?:already )?found\b|\bfound (?:above|earlier|before)\b"
+    r"|\bfrom (?:above|before|part)\b|\bcopied\b",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
 _CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}

@@ -154,6 +154,40 @@ def test_a_letter_is_used_again_in_another_part() -> None:
     assert outcomes("We find $x = a^2$ and $x = a^3$") == ["defines", "undecided"]
 
 
+def test_a_result_that_is_copied_wrongly_is_found() -> None:
+    text = "(a) $T = \\frac{1}{2} m v^2 + m g h$\n\n(b) From part (a) we found $T = \\frac{1}{2} m v + m g h$."
+    (claim,) = wrong(text)
+    assert claim.verdict is not None and claim.verdict.suggestion == "v^2 instead of v"
+    assert wrong(text.replace("we found", "it is clear that now").replace("From part (a)", "Here")) == []
+
+
+def test_a_case_of_a_sentence_is_not_a_definition() -> None:
+    text = (
+        "$w = a + b$ and $s = w R$. In the limiting case $R = b$ we get $s = w b$.\n\n"
+        "$$\\begin{aligned} s &= w R \\\\ &= (a + b) R \\end{aligned}$$"
+    )
+    assert outcomes(text)[-2:] == ["holds", "holds"] and wrong(text) == []
+
+
+def test_a_value_at_a_place_is_not_the_value_elsewhere() -> None:
+    text = "$$ U = k x^2 $$\n\n$$ \\left.\\frac{dU}{dx}\\right|_{x=a} = 2 k a $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("= 2 k a", "= 2 k x"))[-1] != "holds"
+
+
+def test_a_momentum_stays_fixed_in_a_derivative_by_a_coordinate() -> None:
+    text = (
+        "$$ l = m r^2 \\dot\\phi $$\n\n$$ U = \\frac{l^2}{2 m r^2} + \\frac12 k r^2 $$\n\n"
+        "$$ \\frac{dU}{dr} = -\\frac{l^2}{m r^3} + k r $$"
+    )
+    assert outcomes(text)[-1] == "holds"
+
+
+def test_an_example_with_numbers_is_real() -> None:
+    (claim,) = wrong("$$\\begin{aligned} E &= \\sqrt{1 - v^2} \\\\ &= 2 \\sqrt{1 - v^2} \\end{aligned}$$")
+    assert claim.verdict is not None and "I" not in claim.verdict.counterexample
+
+
 def test_a_blank_is_not_a_claim() -> None:
     assert outcomes("$p = ?$ and $q = a$") == ["defines"]
 
