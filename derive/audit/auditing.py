@@ -478,7 +478,7 @@ class _Auditor:
             if isinstance(symbol, Symbol) and wrong:
                 self.known.slips[symbol] = Definition(symbol, value, number)
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
-                self.known.define(symbol, value, number, part=claim.row.block.part)
+                self.known.define(symbol, value, number, part=claim.row.block.part, chain=first.number)
                 self.known.slips.pop(symbol, None)
         if wrong or isinstance(head, MatrixBase):
             return

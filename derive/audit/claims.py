@@ -23,6 +23,7 @@ class Definition:
     claim: int
     implied: bool = False  # not written, but needed by a step
     part: int = -1  # the part of the document in which the letter got this value
+    chain: int = -1  # the first claim of the chain
 
 
 class Outcome(StrEnum):

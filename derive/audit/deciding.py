@@ -421,7 +421,7 @@ class Decision:
                 inner = inner | self.meaning.evaluations[symbol][2].free_symbols
             for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
                 values = self.known.definitions.get(each, [])
-                if len({definition.value for definition in values if definition.part == values[-1].part}) > 1:
+                if len({found.chain for found in values if found.part == values[-1].part}) > 1:
                     return each
         return None
 

@@ -33,7 +33,9 @@ class Known:
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     _lagrange: dict[Expr, list[tuple[Symbol, Expr]]] = field(default_factory=dict)
 
-    def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1) -> None:
+    def define(
+        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
+    ) -> None:
         if symbol in value.free_symbols or value.has(Integral):
             return
         if any(
@@ -49,7 +51,7 @@ class Known:
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
-        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part))
+        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
 
     def assume(self, symbol: Symbol, value: Expr) -> None:
         """Take over a value that the document does not state."""
