@@ -39,6 +39,7 @@ ALIGNED = frozenset(
         "subequations",
     ]
 )
+SYSTEMS = ("cases", "dcases", "rcases", "empheq")
 RELATIONS = {
     "=": "=", "<": "<", ">": ">",
     "leq": "<=", "le": "<=", "leqslant": "<=", "geq": ">=", "ge": ">=", "geqslant": ">=", "lt": "<", "gt": ">",
@@ -386,6 +387,9 @@ def _simplified(tokens: list[Token]) -> list[Token]:
                 _, at = argument_at(tokens, at)
             inner, at = argument_at(tokens, at)
             found += _simplified(inner)
+        elif token.is_command("left") and (system := _system_at(tokens, at - 1)) is not None:
+            inner, at = system
+            found += [*_environment_sign(token, "begin", "cases"), *inner, *_environment_sign(token, "end", "cases")]
         elif token.is_command("mqty", "pmqty", "bmqty", "vmqty", "smqty") and at < len(tokens):
             inner, at = _bracket_at(tokens, at)
             name = "vmatrix" if token.text == "vmqty" else "pmatrix"
@@ -419,6 +423,25 @@ def _simplified(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return _without_outer_braces(found)
+
+
+def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
+    r"""Return the rows of `\left\{ \begin{array}{l} ... \end{array} \right.` and the position after it, or None."""
+    head = without_spaces(tokens[at : at + 8])
+    if len(head) < 3 or not head[1].is_command("{", "lbrace") or not head[2].is_command("begin"):
+        return None
+    begin = next(i for i in range(at, len(tokens)) if tokens[i] is head[2])
+    name, after = _environment(tokens, begin + 1)
+    end = next((i for i in range(after, len(tokens)) if tokens[i].is_command("end")), None)
+    if name != "array" or end is None:
+        return None
+    last, close = _environment(tokens, end + 1)
+    rest = without_spaces(tokens[close : close + 4])
+    if last != "array" or len(rest) < 2 or not rest[0].is_command("right") or not rest[1].is_mark("."):
+        return None
+    _, after = argument_at(tokens, after)
+    stop = next(i for i in range(close, len(tokens)) if tokens[i] is rest[1])
+    return tokens[after:end], stop + 1
 
 
 def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
@@ -491,6 +514,7 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
     cells: list[list[Token]] = [[]]
     tag = label = ""
     inside = depth = at = 0  # depth in environments that are not split, and in braces
+    system = False  # whether the rows are those of a system of equations behind a brace
     while at < len(tokens):
         token = tokens[at]
         at += 1
@@ -498,6 +522,10 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
             name, after = _environment(tokens, at)
             bare = name.rstrip("*")
             splits = bare in ALIGNED or (bare == "array" and not inside and _is_alignment(tokens, at - 1))
+            if bare in SYSTEMS and not inside and not splits:
+                begins = token.text == "begin" and not without_spaces([each for cell in cells for each in cell])
+                splits = system if token.text == "end" else begins and _is_alignment(tokens, at - 1)
+                system = splits and token.text == "begin"
             if splits and not inside:
                 if token.text == "begin" and bare in ("alignat", "alignedat", "array", "IEEEeqnarray"):
                     _, after = argument_at(tokens, after)

@@ -750,7 +750,7 @@ class _Reader:
             return Text(token.span, "...")
         if name in ("circ", "degree"):
             return Text(token.span, "degrees")
-        if name in ("ell", "hbar", "prime"):
+        if name in ("ell", "hbar", "prime", "angle", "triangle"):
             return Letter(token.span, name)
         if name in ("SI", "qty*", "si", "unit", "num", "ang"):
             return self.with_unit(token)
@@ -1371,6 +1371,8 @@ def _head_of(tokens: Sequence[Token]) -> str | None:
         return "d"
     if tokens[0].is_command("partial"):
         return "partial"
+    if tokens[0].is_command(*DIFFERENTIALS):
+        return "d"
     if tokens[0].is_command("mathrm", "text", "operatorname", "rm"):
         value, _ = argument_at(tokens, 1)
         if "".join(each.text for each in value) == "d":

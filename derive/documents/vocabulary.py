@@ -57,7 +57,7 @@ INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint":
 MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
 ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
 # Commands that many authors define alike; a definition in the document itself goes before them.
-DIFFERENTIALS = _words("dd diff differential d dif ud")
+DIFFERENTIALS = _words("dd diff differential d dif ud mathd")
 IMAGINARY = _words("I ii iu")
 AVERAGES = _words("braket ev expval mean avg expectationvalue ket bra mel innerproduct ip")
 FREQUENT_DERIVATIVES = _words(
