@@ -714,6 +714,25 @@ def _link(said: str) -> str:
     return "and"
 
 
+def _without_range(tokens: list[Token]) -> list[Token]:
+    r"""Leave out the range of an index behind an equation: `\\quad (i = 1, 2, \\ldots, n)`."""
+    if not tokens or not tokens[-1].is_mark(")"):
+        return tokens
+    begins = [at for at, (token, depth) in enumerate(_depths(tokens)) if depth == 0 and token.is_mark("(")]
+    if not begins or not begins[-1]:
+        return tokens
+    inside = tokens[begins[-1] + 1 : -1]
+    parts = [each for each in inside if each.is_mark(",") or each.is_command("ldots", "cdots", "dots", "in")]
+    if not parts or not any(each.is_mark("=") or each.is_command("in") for each in inside[:6]):
+        return tokens
+    before = tokens[begins[-1] - 1]
+    apart = before.is_command("quad", "qquad", " ", ";", ",", ":") or before.kind in (Kind.CLOSE, Kind.NUMBER)
+    rest = tokens[: begins[-1]]
+    while rest and rest[-1].is_command("quad", "qquad", " ", ";", ",", ":"):
+        rest.pop()
+    return rest if apart and any(map(_is_relation, rest)) else tokens
+
+
 def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | None:
     tokens = without_spaces(tokens)
     while tokens and (
@@ -724,6 +743,7 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         tokens.pop(0)
     if not tokens:
         return None
+    tokens = _without_range(tokens)
     sides: list[list[Token]] = [[]]
     relations: list[str] = []
     for at, (token, depth) in enumerate(_depths(tokens)):

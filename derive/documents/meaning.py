@@ -386,6 +386,8 @@ class Meaning:
             self.truncated = True
             return Integer(0)
         own = self.facts.variables_of(_replaced(head, dots=0))
+        if any(isinstance(each, Text) and each.text == "..." for each in node.arguments):
+            return self.function_letter(head)  # y(x_1, ..., x_n)
         values: list[tuple[Node | None, Node]] = []
         for argument in node.arguments:
             if isinstance(argument, Condition):

@@ -53,6 +53,7 @@ from derive.documents.vocabulary import (
     OPENERS,
     SAME_LETTER,
     TEXTS,
+    UNIT_COMMANDS,
     UNIT_WORDS,
 )
 
@@ -768,14 +769,25 @@ class _Reader:
 
     def with_unit(self, token: Token) -> Node:
         if token.text in ("si", "unit"):
-            return Text(token.span, "unit " + self.label(self.argument()))
+            return Text(token.span, "unit " + self.unit(self.argument()))
         number = self.inside(self.argument(), token.span)
         if token.text == "ang":
             return Fun(number.span, "degrees", number)
         if token.text == "num":
             return number
-        unit = Text(token.span, "unit " + self.label(self.argument()))
+        unit = Text(token.span, "unit " + self.unit(self.argument()))
         return Mul(self.since(token), (("", number), ("", unit)))
+
+    def unit(self, tokens: list[Token]) -> str:
+        r"""Return a unit as a word: `m/s^2` for `m/s^2`, `m.s^{-2}` and `\\metre\\per\\second\\squared`."""
+        word = ""
+        for token in without_spaces(tokens):
+            if token.kind in (Kind.OPEN, Kind.CLOSE):
+                continue
+            piece = UNIT_COMMANDS.get(token.text, token.text) if token.kind is Kind.COMMAND else token.text
+            apart = token.kind is Kind.COMMAND and word and piece[0] not in "/^" and word[-1] not in "/kcM"
+            word += f" {piece}" if apart else piece.replace(".", " ")
+        return word
 
     def fraction(self, top: list[Token], bottom: list[Token], span: Span) -> Node:
         top, bottom = without_spaces(top), without_spaces(bottom)

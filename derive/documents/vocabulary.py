@@ -63,4 +63,10 @@ AVERAGES = _words("braket ev expval mean avg expectationvalue ket bra mel innerp
 FREQUENT_DERIVATIVES = _words(
     "dv pdv derivative pderivative odv fdv deriv pd od pdiff pder pderiv parder partialderivative"
 )
+# The commands of the package siunitx, as units and as what stands between them.
+UNIT_COMMANDS = {
+    "newton": "N", "meter": "m", "metre": "m", "second": "s", "kilogram": "kg", "gram": "g", "joule": "J", "watt": "W",
+    "radian": "rad", "hertz": "Hz", "pascal": "Pa", "kelvin": "K", "ampere": "A", "minute": "min", "hour": "h",
+    "degree": "deg", "kilo": "k", "centi": "c", "milli": "m", "mega": "M", "per": "/", "squared": "^2", "cubed": "^3",
+}  # fmt: skip
 UNIT_WORDS = _words("sec min rad rpm RPM rev deg kg cm mm km ms Hz kHz hr yr mol Pa")

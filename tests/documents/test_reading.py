@@ -50,6 +50,9 @@ READ = {
     "per cent": ("p = 85\\%", "p", "17/20"),
     "a factorial before a sign": ("1/3! = k", "1/6", "k"),
     "an index above": ("x_\\nu x^\\nu = k", "x^nu*x_nu", "k"),
+    "a range behind an equation": ("q_i = p_i/m \\quad (i = 1, 2, \\ldots, n)", "q_i", "p_i/m"),
+    "arguments that are left out": ("Y(y_1, \\ldots, y_n) = k", "Y", "k"),
+    "a unit of siunitx": ("v = \\SI{3}{\\kilo\\metre\\per\\second}", "v", "3000"),
     "a unit": ("v = 3\\,\\mathrm{km}", "v", "3000"),
 }
 
