@@ -35,6 +35,7 @@ SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest c
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
+_BRACKETS = re.compile(r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert", re.IGNORECASE)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
 
 
@@ -74,6 +75,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
         if faults:
             unread.append((row, faults[0]))
     facts = facts_of(sides, equations)
+    facts.has_brackets = bool(_BRACKETS.search(document.source.text))
     claims: list[Claim] = []
     last_of: dict[int, Claim] = {}
     for row in document.rows:

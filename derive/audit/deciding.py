@@ -392,6 +392,10 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if self.holds_in_motion_only(left, right):
             return Verdict(Outcome.UNDECIDED, "this may hold for the motion only, by the equations of motion")
+        if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
+            return Verdict(Outcome.UNDECIDED, "sums over an index are compared only as they are written")
+        if entries := self.unknown_entries(left, right):
+            return Verdict(Outcome.UNDECIDED, f"nothing is known about the entry {_word(entries[0])}")
         if opaque := self.opaque(left) | self.opaque(right):
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
@@ -410,6 +414,17 @@ class Decision:
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
+        """Return the entries of matrices to which no row gives a value, if the sides are matrices."""
+        if not isinstance(left, MatrixBase) or not isinstance(right, MatrixBase) or left.shape[1] == 1:
+            return []
+        letters = self.meaning.symbols
+        return [
+            each
+            for each in sorted(left.free_symbols | right.free_symbols, key=str)
+            if (letter := letters.get(each)) is not None and letter.sub[-2:].isdigit() and len(letter.sub) >= 2
+        ]
 
     def with_several_values(self) -> Symbol | None:
         """Return a letter that only one side contains and to which the rows before give several values in one part."""

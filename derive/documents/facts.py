@@ -48,6 +48,7 @@ class Facts:
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
     subscripts: Counter[str] = field(default_factory=Counter)
+    has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or a product
     indices: set[str] = field(default_factory=set)  # of sums
     declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document gives
 

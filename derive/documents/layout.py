@@ -46,7 +46,7 @@ RELATIONS = {
     "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop",
     "lesssim": "<", "gtrsim": ">", "lessapprox": "<", "gtrapprox": ">", "asymp": "~", "ll": "<<",
     "gg": ">>", "neq": "!=", "ne": "!=", "equiv": ":=", "coloneqq": ":=", "triangleq": ":=", "in": "in", "to": "to",
-    "rightarrow": "to", "longrightarrow": "to", "mapsto": "to",
+    "rightarrow": "to", "longrightarrow": "to", "mapsto": "to", "leftarrow": "to", "leftrightarrow": "to",
 }  # fmt: skip
 ARROWS = {
     "Rightarrow": "implies", "implies": "implies", "Longrightarrow": "implies", "therefore": "implies", "iff": "and",
@@ -311,7 +311,8 @@ class _Reading:
     def read_rows(self, block: Block, inner: Span) -> None:
         """Read the rows of a formula and the statements in them."""
         try:
-            tokens = _simplified(expanded(tokens_of(self.text, inner.start, inner.end), self.macros))
+            written = _without_definitions(tokens_of(self.text, inner.start, inner.end))
+            tokens = _simplified(expanded(written, self.macros))
         except TooLarge as error:
             row = self.row(block, inner)
             row.fault = (str(error), error.span)
@@ -365,6 +366,23 @@ class _Reading:
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return block.rows[-1]
+
+
+def _without_definitions(tokens: list[Token]) -> list[Token]:
+    """Leave out the commands that are defined inside of a formula; they are known already."""
+    found: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        at += 1
+        if not token.is_command("newcommand", "renewcommand", "providecommand", "DeclareMathOperator"):
+            found.append(token)
+            continue
+        _, at = argument_at(tokens, at)
+        while at < len(tokens) and tokens[at].is_mark("["):
+            at = next((i + 1 for i in range(at, len(tokens)) if tokens[i].is_mark("]")), len(tokens))
+        _, at = argument_at(tokens, at)
+    return found
 
 
 def _simplified(tokens: list[Token]) -> list[Token]:

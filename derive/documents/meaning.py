@@ -372,6 +372,9 @@ class Meaning:
         return Matrix([[self.entry(each) for each in row] for row in node.rows]).det()
 
     def of_vec(self, node: Vec) -> Any:
+        if len(node.entries) == 2 and (node.brackets == "]" or (node.brackets in "}>" and self.facts.has_brackets)):
+            one, other = (str(self._of(each)) for each in node.entries)
+            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator or a Poisson bracket
         if len(node.entries) not in (2, 3):
             raise Meaningless("this list is not a vector", node.span)
         if any(isinstance(each, Condition) for each in node.entries):

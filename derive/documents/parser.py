@@ -604,6 +604,8 @@ class _Reader:
             label = self.label(plain)
             if isinstance(node, Letter):
                 return replace(node, label=_joined(node.label, label))
+            if isinstance(node, Group | Mat | Vec | Frac):
+                return EvalBar(node.span.to(script.span), node, Text(script.span, label), None)
             raise Unreadable("a superscript in words can stand only at a letter", script.span)
         if plain and plain[0].is_mark("(") and plain[-1].is_mark(")") and isinstance(node, Letter):
             return replace(node, label=_joined(node.label, self.label(plain[1:-1])))
@@ -739,6 +741,7 @@ class _Reader:
         if name in IMAGINARY:
             return Letter(token.span, "imaginary unit")
         if name == "order":
+            self.skip_spacing()
             group = self.bracketed() if self.next_is_mark("(") else self.inside(self.argument(), token.span)
             return Fun(self.since(token), "order", group)
         if name == "var":

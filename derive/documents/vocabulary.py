@@ -31,6 +31,7 @@ MARKS = {
     "bm": "vec", "vb": "vec", "vect": "vec", "vv": "vec", "mat": "vec", "uv": "hat",
     "unitvec": "hat", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
     "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
+    "uvect": "hat",
 }  # fmt: skip
 TEXTS = _words(
     "text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf hbox symrm "

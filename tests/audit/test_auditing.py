@@ -117,6 +117,13 @@ def test_a_row_that_follows_from_a_wrong_row_carries_its_slip_on() -> None:
         "$S^2 \\geq 4 a \\geq 3 a$",
         "$\\dot\\phi = 49.98 \\pm 48.40$ or $\\dot\\phi = 98.38$ or $1.58$",
         "$\\int_V \\rho \\, dV = M = \\rho V$",
+        "The commutator is $k [X, P^2] = k (P [X, P] + [X, P] P) = 2 k h P$.",
+        "The Poisson bracket is $\\{f, g h\\} = \\{f, g\\} h + g \\{f, h\\}$, so $\\{f, g^2\\} = 2 g \\{f, g\\}$.",
+        "The inner product has $\\langle a, c b \\rangle = c \\langle a, b \\rangle = c d$.",
+        "$\\mathbf{J} = \\begin{pmatrix} \\mathbf{0} & \\mathbf{I} \\\\ -\\mathbf{I} & \\mathbf{0} \\end{pmatrix}$, "
+        "so $\\mathbf{J}^T = \\mathbf{J}^{-1} = -\\mathbf{J}$",
+        "$z_i = x_i$, so $Y = \\sum_i z_i y_i = \\sum_i x_i y_i$",
+        "$x_\\nu x^\\nu = s$, so $a = 4 x_\\nu x^\\nu - 2 x^\\nu x_\\nu = 2 x_\\nu x^\\nu$",
         "$f(x) = x^2$, so $f(a+h) = a^2 + 2 a h + h^2$",
     ],
 )
