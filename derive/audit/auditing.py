@@ -35,7 +35,9 @@ SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest c
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
-_BRACKETS = re.compile(r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert", re.IGNORECASE)
+_BRACKETS = re.compile(
+    r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
+)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
 
 

@@ -74,6 +74,7 @@ class Decision:
             self.identity,
             self.with_definitions,
             self.rounded,
+            self.truncated,
             self.approximate,
             self.condition,
             self.consequence,
@@ -212,7 +213,20 @@ class Decision:
         """The sum of the greatest relative errors that the rounding of the printed decimals can cause."""
         return sum(float(Rational(1, 2) / 10**digits / abs(value)) for value, digits in self.meaning.decimals if value)
 
+    def truncated(self) -> Verdict | None:
+        """Compare the order of the error with the order of the terms that are left out: O(x^4)."""
+        if self.meaning.left_out is None or isinstance(self.left, MatrixBase) or isinstance(self.right, MatrixBase):
+            return None
+        letter, wanted = self.meaning.left_out
+        for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
+            found = order_of_error(left, right, self.meaning, [(letter,)])
+            if found is not None and found[1] >= wanted:
+                return Verdict(Outcome.APPROXIMATES, f"the error is of order {found[1]} in {_word(letter)}", used)
+        return None
+
     def approximate(self) -> Verdict | None:
+        if self.meaning.left_out is not None and self.claim.relation == "=":
+            return None
         if self.claim.relation not in ("~", "prop") and Cue.APPROXIMATE not in self.cues:
             return None
         for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
@@ -410,10 +424,19 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
         if several := self.with_several_values():
             return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
+        if self.meaning.left_out is not None and not self.shows_the_terms(left, right):
+            return Verdict(Outcome.UNDECIDED, "the order of the terms that are left out is not compared")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def shows_the_terms(self, left: Expr, right: Expr) -> bool:
+        """Whether the error is of a lower order than the terms that are left out."""
+        assert self.meaning.left_out is not None
+        letter, wanted = self.meaning.left_out
+        found = order_of_error(left, right, self.meaning, [(letter,)])
+        return found is not None and found[1] < wanted
 
     def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
         """Return the entries of matrices to which no row gives a value, if the sides are matrices."""
@@ -602,10 +625,12 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
     return ([changing] if changing else []) + single
 
 
-def order_of_error(left: Expr, right: Expr, meaning: Meaning) -> tuple[tuple[Symbol, ...], int] | None:
+def order_of_error(
+    left: Expr, right: Expr, meaning: Meaning, among: list[tuple[Symbol, ...]] | None = None
+) -> tuple[tuple[Symbol, ...], int] | None:
     """Return letters in which two sides agree to the leading order, and the order of the difference."""
     symbols = left.free_symbols | right.free_symbols
-    for letters in small_letters(symbols, meaning):
+    for letters in among or small_letters(symbols, meaning):
         slopes = []
         for point in _points(symbols, 5):
             sizes = []

@@ -95,6 +95,8 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
     inner = getattr(argument, "inner", argument)
     bare = replace(head, dots=0, primes=0)
     variables = facts.variables_of(bare)
+    if head.base == "O" and "cal" in head.marks:
+        return 0, "terms that are left out", True
     if head.primes and facts.is_function(bare):
         return 0, "a derivative with its argument", True
     if not facts.is_function(bare):

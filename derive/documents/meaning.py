@@ -109,7 +109,7 @@ class Meaning:
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
     evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
     two_signs: bool = False
-    truncated: bool = False  # whether terms of higher order are left out: O(x^2)
+    left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
     sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
 
     def of(self, node: Node) -> Value:
@@ -307,8 +307,7 @@ class Meaning:
                 raise Meaningless("the matrix is not written out", node.argument.span)
             return matrix.det() if node.name == "det" else matrix.trace()
         if node.name == "order":
-            self.truncated = True
-            return Integer(0)
+            return self.terms_left_out(node.argument)
         if node.name in ("min", "max"):
             entries = node.argument.entries if isinstance(node.argument, Vec) else (node.argument,)
             values = [self.scalar(each) for each in entries]
@@ -386,8 +385,7 @@ class Meaning:
     def of_apply(self, node: Apply) -> Any:
         head = node.head
         if head.base == "O" and ("cal" in head.marks or self.facts.alone[head.identity] == 0) and not head.sub:
-            self.truncated = True
-            return Integer(0)
+            return self.terms_left_out(node.arguments[0])
         own = self.facts.variables_of(_replaced(head, dots=0))
         if any(isinstance(each, Text) and each.text == "..." for each in node.arguments):
             return self.function_letter(head)  # y(x_1, ..., x_n)
@@ -410,6 +408,12 @@ class Meaning:
         if variable is not None and isinstance(function := self.function_letter(head), Symbol):
             self.evaluations[symbol] = (function, variable, numbers[0])
         return symbol
+
+    def terms_left_out(self, order: Node) -> Expr:
+        base, power = self.scalar(order).as_base_exp()
+        if isinstance(base, Symbol) and power.is_Integer:
+            self.left_out = (base, int(power))
+        return Integer(0)
 
     def variable_of_call(self, named: Node | None, own: Any) -> Symbol | None:
         """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0)."""

@@ -290,7 +290,10 @@ class _Reader:
                 left = self.inside(tokens[:equals], span)
             right = self.inside(tokens[equals + 1 :], span)
             return Condition(left.span.to(right.span), left, right)
+        letters = _split(tokens, lambda each: each.is_mark(","))
         try:
+            if len(letters) > 1 and all(len(each) == 1 for each in letters):
+                return Vec(span, tuple(self.inside(each, span) for each in letters))  # `\\sum_{i,j}`
             return self.inside(tokens, span)
         except Unreadable:
             return Text(span, "".join(each.text for each in tokens))

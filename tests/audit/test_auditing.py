@@ -195,6 +195,16 @@ def test_an_example_with_numbers_is_real() -> None:
     assert claim.verdict is not None and "I" not in claim.verdict.counterexample
 
 
+def test_the_order_of_the_terms_that_are_left_out_is_compared() -> None:
+    text = "$\\sqrt{1 + y^2} = 1 + \\frac{y^2}{2} + \\mathcal{O}(y^4)$"
+    (claim,) = audit(text).claims
+    assert claim.verdict is not None and claim.verdict.because == "the error is of order 4 in `y`"
+    ((slip,)) = audit(
+        "$$\\begin{aligned} E &= \\sqrt{1 + y^2} \\\\ &= 1 - \\frac{y^2}{2} + \\mathcal{O}(y^4) \\end{aligned}$$"
+    ).claims[1:]
+    assert slip.verdict is not None and str(slip.verdict.outcome) == "differs"
+
+
 def test_a_blank_is_not_a_claim() -> None:
     assert outcomes("$p = ?$ and $q = a$") == ["defines"]
 
