@@ -3,52 +3,42 @@
 from __future__ import annotations
 
 import re
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice, pairwise, product
+from time import process_time
 
 import sympy
 from sympy import MatrixBase, Symbol
 
-from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.assumed import Assumed
+from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import Decision, same
-from derive.audit.known import Definition, Known
+from derive.audit.expected import Compared, Expected, compared
+from derive.audit.known import ASSUMED, Known
+from derive.audit.limited import FAULTS, OutOfTime, limited
 from derive.audit.slips import WHY, nearest_edit
 from derive.documents.choices import Choice, readings
-from derive.documents.facts import Facts, facts_of, shape_of
+from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Int, Letter, Mat, Node
+from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
 
 SECONDS = 3.0  # of processor time for one claim
+LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
+USUAL_SECONDS = 0.3
+MOST_LATE = 40.0  # seconds beyond the usual time of its claims that a document may use before the limit is low
+SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest change
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
-# SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
-FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
+_BRACKETS = re.compile(
+    r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
+)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
-
-
-class _OutOfTime(BaseException):
-    pass
-
-
-@contextmanager
-def _limited(seconds: float) -> Iterator[None]:
-    def stop(*_: object) -> None:
-        raise _OutOfTime
-
-    before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
 
 
 @dataclass
@@ -57,6 +47,7 @@ class Audit:
     facts: Facts
     claims: list[Claim]
     unread: list[tuple[Row, str]] = field(default_factory=list)
+    compared: list[Compared] = field(default_factory=list)  # the answers of a derivation
 
 
 def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, str]]]:
@@ -86,6 +77,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
         if faults:
             unread.append((row, faults[0]))
     facts = facts_of(sides, equations)
+    facts.has_brackets = bool(_BRACKETS.search(document.source.text))
     claims: list[Claim] = []
     last_of: dict[int, Claim] = {}
     for row in document.rows:
@@ -93,6 +85,8 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             before = last_of.get(id(statement.follows)) if statement.follows is not None else None
             read = nodes[id(statement)]
             for index, relation in enumerate(statement.relations):
+                if any(isinstance(node, Text) and node.text == "?" for node, _ in read[index : index + 2]):
+                    continue  # a blank that the reader of the document fills in
                 (left, left_fault), (right, right_fault) = read[index], read[index + 1]
                 claim = Claim(
                     len(claims), row, statement, index, relation, left, right,
@@ -124,48 +118,92 @@ def _head(statement: Statement) -> Statement:
 
 def audited(
     document: Document,
-    assume: list[tuple[str, str]] = [],  # noqa: B006
+    assumed: Sequence[Assumed] = (),
+    declared: Mapping[Identity, str] | None = None,
+    expected: Sequence[Expected] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Audit:
-    """Return the verdict on each claim of a document."""
+    """Return the verdict on each claim of a document.
+
+    assumed    equations that hold everywhere, although the document does not state them
+    declared   the kinds of letters
+    expected   results of a derivation, with which the document is compared
+    """
     claims, facts, unread = claims_of(document)
-    auditor = _Auditor(document, facts)
+    facts.declare(declared or {})
+    auditor = _Auditor(document, facts, assumed)
     for done, claim in enumerate(claims):
-        auditor.decide(claim)
         if progress is not None:
-            progress(done + 1, len(claims))
-    return Audit(document, facts, claims, unread)
+            progress(claim.row.line, len(claims) - done)
+        auditor.decide(claim)
+    scopes = [scope_of(document, claim.row) for claim in claims]
+    found = compared(claims, scopes, auditor.scopes, facts, auditor.meaning_of, expected) if expected else []
+    return Audit(document, facts, claims, unread, found)
 
 
 class _Auditor:
-    def __init__(self, document: Document, facts: Facts):
-        self.document, self.facts = document, facts
+    def __init__(self, document: Document, facts: Facts, assumed: Sequence[Assumed] = ()):
+        self.document, self.facts, self.assumed = document, facts, assumed
         self.scope: int | None = None
         self.meaning = Meaning(facts)
         self.known = Known(self.meaning)
+        self.scopes: dict[int, Known] = {}
+        self.late = 0.0  # seconds used beyond the usual time
+
+    def begin(self, scope: int) -> None:
+        """Begin a problem or section: only what is assumed is known."""
+        self.scope = scope
+        self.meaning.scope = scope
+        self.known = self.scopes[scope] = Known(self.meaning)
+        for each in self.assumed:
+            try:
+                left, right = (self.meaning.of(readings(side, self.facts)[0][0]) for side in (each.left, each.right))
+            except (Meaningless, *FAULTS):
+                continue
+            if isinstance(left, Symbol) and not isinstance(right, MatrixBase):
+                self.known.assume(left, right)
+            elif not isinstance(left, MatrixBase) and not isinstance(right, MatrixBase):
+                self.known.state(sympy.expand(left - right), ASSUMED)
+
+    def meaning_of(self, scope: int, plain: str = "") -> Meaning:
+        """Return a meaning of letters that shares the letters and derivatives of the whole document."""
+        return Meaning(
+            self.facts,
+            derivatives=self.meaning.derivatives,
+            symbols=self.meaning.symbols,
+            parents=self.meaning.parents,
+            defined=self.value_of,
+            evaluations=self.meaning.evaluations,
+            sums=self.meaning.sums,
+            scope=scope,
+            plain=plain,
+        )
 
     def decide(self, claim: Claim) -> None:
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
-            self.scope = scope
-            self.meaning.scope = scope
-            self.known = Known(self.meaning)
+            self.begin(scope)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
         if claim.relation in ("to", "in"):
-            claim.verdict = Verdict(Outcome.UNDECIDED, "this relation is not checked")
+            what = "a limit" if claim.relation == "to" else "a range"
+            claim.verdict = Verdict(Outcome.UNDECIDED, f"{what} is not checked") if claim.is_step else Verdict(
+                Outcome.DEFINES, f"{what} is stated"
+            )  # fmt: skip
             return
+        seconds, begun = max(LEAST_SECONDS, SECONDS - self.late * SECONDS / MOST_LATE), process_time()
         try:
-            with _limited(SECONDS):
+            with limited(seconds):
                 claim.verdict = self.best(claim)
-        except _OutOfTime:
-            claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
+        except OutOfTime:
+            claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
-        if claim.verdict is not None:
+        with suppress(OutOfTime, RecursionError), limited(seconds):
             self.remark(claim, claim.verdict)
-        self.remember(claim)
+            self.remember(claim)
+        self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
         """Point to what is hardly meant: a letter equal to itself, or one entry that breaks a symmetry."""
@@ -214,16 +252,7 @@ class _Auditor:
         pairs = product(readings(left_side, self.facts), readings(claim.right, self.facts))
         for (left_node, left_choices), (right_node, right_choices) in islice(pairs, MOST_READINGS):
             for plain in PLAIN:
-                meaning = Meaning(
-                    self.facts,
-                    derivatives=self.meaning.derivatives,
-                    symbols=self.meaning.symbols,
-                    parents=self.meaning.parents,
-                    defined=self.value_of,
-                    evaluations=self.meaning.evaluations,
-                    scope=self.meaning.scope,
-                    plain=plain,
-                )
+                meaning = self.meaning_of(self.meaning.scope, plain)
                 try:
                     left, right = self.sides(left_node, right_node, meaning)
                     if (left, right) in seen:
@@ -238,19 +267,32 @@ class _Auditor:
                     continue
                 verdict.choices = (*left_choices, *right_choices)
                 if verdict.outcome in GOOD:
-                    claim.values = (left, right)
+                    claim.values, claim.decimals = (left, right), tuple(meaning.decimals)
                     return verdict
                 if first is None or (first.outcome is Outcome.DIFFERS and verdict.outcome is Outcome.UNDECIDED):
-                    first, claim.values = verdict, (left, right)
+                    first, claim.values, claim.decimals = verdict, (left, right), tuple(meaning.decimals)
+        if first is None and isinstance(claim.right, Cases) and not claim.is_step:
+            return Verdict(Outcome.DEFINES, "a value for each case")
         if first is None:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
             )
+        if first.repeated is not None:
+            self.compare_repeated(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
+
+    def compare_repeated(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
+        """A row that repeats an earlier result was copied wrongly if one change makes it this result."""
+        assert claim.right is not None and verdict.repeated is not None
+        right_node = readings(claim.right, self.facts)[0][0]
+        until = process_time() + SECONDS_OF_SUGGESTION
+        if self.find_edit(claim, verdict.repeated.value, right_node, left_side, verdict, until):
+            verdict.outcome = Outcome.DIFFERS
+            verdict.because = "the row repeats an earlier result with a change"
 
     def loses_letters(self, claim: Claim) -> bool:
         """Whether letters of the left side are missing on the right."""
@@ -262,9 +304,18 @@ class _Auditor:
         """Find the nearest change of the right side that makes the claim hold."""
         assert claim.right is not None and claim.values is not None
         right_node = readings(claim.right, self.facts)[0][0]
-        self.find_edit(claim, claim.values[0], right_node, left_side, verdict)
+        until = process_time() + SECONDS_OF_SUGGESTION
+        self.find_edit(claim, claim.values[0], right_node, left_side, verdict, until)
 
-    def find_edit(self, claim: Claim, left: Value, right_node: Node, left_side: Node, verdict: Verdict) -> bool:
+    def find_edit(
+        self,
+        claim: Claim,
+        left: Value,
+        right_node: Node,
+        left_side: Node,
+        verdict: Verdict,
+        until: float = float("inf"),
+    ) -> bool:
         text = self.document.source.text
         letters = {
             (each.identity, each.dots): each
@@ -278,14 +329,10 @@ class _Auditor:
                 letters.setdefault((letter.identity, letter.dots), letter)
 
         def is_right(node: Node) -> bool:
+            if process_time() > until:
+                return False
             for plain in PLAIN[:2]:
-                meaning = Meaning(
-                    self.facts, derivatives=self.meaning.derivatives, symbols=self.meaning.symbols,
-                    parents=self.meaning.parents,
-                    defined=self.value_of,
-                    evaluations=self.meaning.evaluations,
-                    scope=self.meaning.scope, plain=plain,
-                )  # fmt: skip
+                meaning = self.meaning_of(self.meaning.scope, plain)
                 try:
                     value = meaning.of(node)
                     if isinstance(value, MatrixBase) != isinstance(left, MatrixBase):
@@ -398,10 +445,21 @@ class _Auditor:
                 return (named, value) if first else (value, named)
         return meaning.of(left), meaning.of(right)
 
+    def is_special_case(self, claim: Claim) -> bool:
+        """Whether a sentence puts a letter equal to a multiple of another letter in one case only: `if R = a/2`."""
+        assert claim.values is not None
+        left, right = claim.values
+        block = claim.row.block
+        simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
+        return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
+
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
             return
+        if self.is_special_case(claim):
+            return
+        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:
@@ -424,7 +482,7 @@ class _Auditor:
             if isinstance(symbol, Symbol) and wrong:
                 self.known.slips[symbol] = Definition(symbol, value, number)
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
-                self.known.define(symbol, value, number)
+                self.known.define(symbol, value, number, part=claim.row.block.part, chain=first.number)
                 self.known.slips.pop(symbol, None)
         if wrong or isinstance(head, MatrixBase):
             return

@@ -5,11 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from sympy import Expr, Symbol
+
 from derive.documents.choices import Choice
 from derive.documents.layout import Row, Statement
 from derive.documents.meaning import Value
 from derive.documents.source import Span
 from derive.documents.syntax import Node
+
+
+@dataclass
+class Definition:
+    """The value that a claim gives to a letter."""
+
+    symbol: Symbol
+    value: Expr
+    claim: int
+    implied: bool = False  # not written, but needed by a step
+    part: int = -1  # the part of the document in which the letter got this value
+    chain: int = -1  # the first claim of the chain
 
 
 class Outcome(StrEnum):
@@ -34,6 +48,7 @@ class Verdict:
     inherits: int | None = None  # the claim whose slip this one carries on
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
+    repeated: Definition | None = None  # the earlier value that this row says it repeats
 
 
 @dataclass
@@ -53,7 +68,7 @@ class Claim:
     before: Claim | None = None  # the claim whose right side is this one's left side
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
-    difference: Value | None = None
+    decimals: tuple[tuple[Value, int], ...] = ()  # the decimals in its sides, with their digits after the point
     from_head: bool = False  # compared with the first side of its chain, because the sides between have no value
     tags: tuple[str, ...] = field(default_factory=tuple)
 

@@ -9,7 +9,7 @@ tests succeeds.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -27,7 +27,10 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
+CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6
+LARGEST_GOAL = 400  # operations of an equation of motion
+MOST_SIGNS = 3  # of absolute values
 CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
@@ -71,6 +74,7 @@ class Decision:
             self.identity,
             self.with_definitions,
             self.rounded,
+            self.truncated,
             self.approximate,
             self.condition,
             self.consequence,
@@ -112,23 +116,28 @@ class Decision:
 
     def definition(self) -> Verdict | None:
         """A letter that has no value yet gets one."""
-        if self.claim.relation not in ("=", ":="):
+        if self.claim.relation not in ("=", ":=", "~"):
             return None
         if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
             entries = [each for each in self.left if isinstance(each, Symbol)]
-            if len(set(entries)) == len(self.left) and not any(map(self.known.is_defined, entries)):
+            known = [each for each in entries if self.known.latest(each) is not None]
+            if len(set(entries)) == len(self.left) and not known:
                 return Verdict(Outcome.DEFINES, "values for the components of a vector or matrix")
         for letter, value in ((self.left, self.right), (self.right, self.left)):
             if letter is self.right and self.claim.is_step:
                 continue
-            if isinstance(letter, Symbol) and letter not in value.free_symbols and not self.known.is_defined(letter):
+            is_letter = isinstance(letter, Symbol) and letter not in self.meaning.sums
+            if is_letter and letter not in value.free_symbols and not self.known.is_defined(letter):
                 if self.known.computed(letter) is not None or isinstance(value, MatrixBase):
                     continue
                 if not value.free_symbols and not value.is_number:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
-                return Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
+                if letter is self.left and (found := self.solution(self.known.recent())) is not None:
+                    return found
+                about = "an approximate value" if self.claim.relation == "~" else "a value"
+                return Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
         return None
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
@@ -140,10 +149,24 @@ class Decision:
 
     def identity(self) -> Verdict | None:
         if not same(self.left, self.right):
-            return None
+            return self.with_signs(self.left, self.right)
         if self.left == self.right and self.left != 0:
             return Verdict(Outcome.HOLDS, "the two sides are the same")
         return Verdict(Outcome.HOLDS, "the two sides are equal")
+
+    def with_signs(self, left: Value, right: Value) -> Verdict | None:
+        """Compare two sides for one sign of each absolute value: sqrt((L - x)^2) = L - x."""
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+            return None
+        found = sorted((left.atoms(Abs) | right.atoms(Abs)), key=str)[:MOST_SIGNS]
+        if not found or self.claim.relation != "=":
+            return None
+        for signs in product((1, -1), repeat=len(found)):
+            put_in = {each: sign * each.args[0] for each, sign in zip(found, signs, strict=True)}
+            if _equal(left.xreplace(put_in), right.xreplace(put_in)):
+                where = " and ".join(f"{s * a.args[0]} > 0" for a, s in zip(found, signs, strict=True))
+                return Verdict(Outcome.HOLDS, f"the two sides are equal if {where}")
+        return None
 
     @cached_property
     def expansions(self) -> list[tuple[tuple[Value, ...], tuple[int, ...]]]:
@@ -190,7 +213,20 @@ class Decision:
         """The sum of the greatest relative errors that the rounding of the printed decimals can cause."""
         return sum(float(Rational(1, 2) / 10**digits / abs(value)) for value, digits in self.meaning.decimals if value)
 
+    def truncated(self) -> Verdict | None:
+        """Compare the order of the error with the order of the terms that are left out: O(x^4)."""
+        if self.meaning.left_out is None or isinstance(self.left, MatrixBase) or isinstance(self.right, MatrixBase):
+            return None
+        letter, wanted = self.meaning.left_out
+        for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
+            found = order_of_error(left, right, self.meaning, [(letter,)])
+            if found is not None and found[1] >= wanted:
+                return Verdict(Outcome.APPROXIMATES, f"the error is of order {found[1]} in {_word(letter)}", used)
+        return None
+
     def approximate(self) -> Verdict | None:
+        if self.meaning.left_out is not None and self.claim.relation == "=":
+            return None
         if self.claim.relation not in ("~", "prop") and Cue.APPROXIMATE not in self.cues:
             return None
         for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
@@ -252,6 +288,8 @@ class Decision:
         """An equation follows from earlier ones: by a factor, a sum, or the solution for a letter."""
         if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
+        if sympy.count_ops(self.difference) > 2 * LARGEST_GOAL:
+            return None
         recent = self.known.recent()
         wanted = sympy.expand(self.difference)
         for letter, value in ((self.left, self.right), (self.right, self.left)):
@@ -260,8 +298,10 @@ class Decision:
                 if number is not None:
                     return Verdict(Outcome.HOLDS, f"an earlier equation solved for {_word(letter)}", (number,))
         for equation, number in reversed(recent):
-            if _is_multiple(wanted, equation):
+            if is_multiple(wanted, equation):
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
+        if (found := self.solution(recent) or self.lagrange(wanted)) is not None:
+            return found
         if Cue.ZERO in self.cues:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
                 names = [
@@ -269,7 +309,7 @@ class Decision:
                 ]
                 for name in names:
                     at_zero = equation.subs(name, 0)
-                    if _is_multiple(wanted, at_zero):
+                    if is_multiple(wanted, at_zero):
                         return Verdict(Outcome.HOLDS, f"{_word(name)} set to zero", (number,))
                     if Cue.APPROXIMATE in self.cues and _approximate_multiple(wanted, at_zero, self.meaning):
                         return Verdict(
@@ -278,15 +318,55 @@ class Decision:
         if (numbers := _combination(wanted, recent[-MOST_COMBINED:])) is not None:
             return Verdict(Outcome.HOLDS, "a sum or difference of earlier equations", numbers)
         for (left, right), used in self.expansions:
+            if sympy.count_ops(left - right) > LARGEST_GOAL:
+                break
             expanded = sympy.expand(left - right)
             for equation, number in reversed(recent):
-                if expanded.free_symbols == equation.free_symbols and _is_multiple(expanded, equation):
+                if expanded.free_symbols == equation.free_symbols and is_multiple(expanded, equation):
                     return Verdict(Outcome.HOLDS, "an earlier equation with definitions put in", (*used, number))
         for equation, number in reversed(recent[-4:]):
             if Cue.APPROXIMATE in self.cues and equation.free_symbols >= wanted.free_symbols:
                 ratio = _approximate_multiple(wanted, equation, self.meaning)
                 if ratio is not None:
                     return Verdict(Outcome.APPROXIMATES, "an earlier equation to the leading order", (number,))
+        return None
+
+    def solution(self, recent: list[tuple[Expr, int]]) -> Verdict | None:
+        """A motion x(t) holds if it satisfies an earlier equation of motion."""
+        if self.claim.is_step or not isinstance(self.left, Symbol) or isinstance(self.right, MatrixBase):
+            return None
+        letter = self.meaning.symbols.get(self.left)
+        time = next((each for each in self.right.free_symbols if each.name == "t"), None)
+        if letter is None or letter.dots or time is None:
+            return None
+        rates = [self.meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
+        motion = {rate: sympy.diff(self.right, time, dots) if dots else self.right for dots, rate in enumerate(rates)}
+        for equation, number in reversed(recent):
+            if not equation.free_symbols & set(rates[1:]):
+                continue
+            at_motion = equation.xreplace(motion)
+            for value, used in [(at_motion, ()), *((each[0], used) for each, used in self.known.expanded(at_motion))]:
+                if value == 0 or _equal(value, Integer(0)):
+                    return Verdict(Outcome.HOLDS, "it satisfies an earlier equation of motion", (number, *used))
+        return None
+
+    def lagrange(self, wanted: Expr) -> Verdict | None:
+        """An equation of motion follows from the Lagrangian, even if Lagrange's equation is not written."""
+        if not any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
+                   for each in wanted.free_symbols):  # fmt: skip
+            return None
+        equations = list(self.known.lagrange_equations())
+        at = self.expansions[-1:] if equations else []
+        goals = [wanted, *(left - right for (left, right), _ in at)]
+        goals = [sympy.expand(each) for each in goals if sympy.count_ops(each) < LARGEST_GOAL]
+        for coordinate, equation, number in equations:
+            for goal in goals:
+                if goal.free_symbols & equation.free_symbols and is_multiple(goal, equation):
+                    return Verdict(Outcome.HOLDS, f"Lagrange's equation for {_word(coordinate)}", (number,))
+            if Cue.APPROXIMATE in self.cues and wanted.free_symbols <= equation.free_symbols:
+                if _approximate_multiple(wanted, equation, self.meaning):
+                    because = f"Lagrange's equation for {_word(coordinate)}, to the leading order"
+                    return Verdict(Outcome.APPROXIMATES, because, (number,))
         return None
 
     def wants(self, symbol: Symbol) -> bool:
@@ -319,14 +399,17 @@ class Decision:
         """Accuse only a step whose sides are known completely; every other claim stays undecided."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
-        if not self.claim.is_step and not computed:
-            if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
-                return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
-            return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+        display = self.claim.row.block.display
+        if not self.claim.is_step and (not computed or (not display and self.cues & {Cue.GIVEN, Cue.PUT_IN})):
+            return self.stated()
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if self.holds_in_motion_only(left, right):
             return Verdict(Outcome.UNDECIDED, "this may hold for the motion only, by the equations of motion")
+        if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
+            return Verdict(Outcome.UNDECIDED, "sums over an index are compared only as they are written")
+        if entries := self.unknown_entries(left, right):
+            return Verdict(Outcome.UNDECIDED, f"nothing is known about the entry {_word(entries[0])}")
         if opaque := self.opaque(left) | self.opaque(right):
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
@@ -339,10 +422,81 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
         if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
+        if several := self.with_several_values():
+            return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
+        if self.meaning.left_out is not None and not self.shows_the_terms(left, right):
+            return Verdict(Outcome.UNDECIDED, "the order of the terms that are left out is not compared")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def shows_the_terms(self, left: Expr, right: Expr) -> bool:
+        """Whether the error is of a lower order than the terms that are left out."""
+        assert self.meaning.left_out is not None
+        letter, wanted = self.meaning.left_out
+        found = order_of_error(left, right, self.meaning, [(letter,)])
+        return found is not None and found[1] < wanted
+
+    def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
+        """Return the entries of matrices to which no row gives a value, if the sides are matrices."""
+        if not isinstance(left, MatrixBase) or not isinstance(right, MatrixBase) or left.shape[1] == 1:
+            return []
+        letters = self.meaning.symbols
+        return [
+            each
+            for each in sorted(left.free_symbols | right.free_symbols, key=str)
+            if (letter := letters.get(each)) is not None and letter.sub[-2:].isdigit() and len(letter.sub) >= 2
+        ]
+
+    def with_several_values(self) -> Symbol | None:
+        """Return a letter that only one side contains and to which the rows before give several values in one part."""
+        one_side = self.left.free_symbols ^ self.right.free_symbols
+        for symbol in sorted(one_side, key=str):
+            definition = self.known.latest(symbol)
+            inner = definition.value.free_symbols if definition is not None else set()
+            if symbol in self.meaning.evaluations:
+                inner = inner | self.meaning.evaluations[symbol][2].free_symbols
+            for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
+                values = self.known.definitions.get(each, [])
+                if len({found.chain for found in values if found.part == values[-1].part}) > 1:
+                    return each
+        return None
+
+    def stated(self) -> Verdict:
+        """Return the verdict on an equation that is no step: it is a law, it is new, or it is not known to follow."""
+        symbols = self.left.free_symbols | self.right.free_symbols
+        if isinstance(self.left, Symbol) and self.left in self.meaning.evaluations:
+            return Verdict(Outcome.DEFINES, "a condition at one instant or place")
+        if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
+            before = self.known.definitions[self.left][-1]
+            if Cue.REPEATED in self.cues:
+                because = f"another value of {_word(self.left)} than before"
+                return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
+            if before.part not in (-1, self.claim.row.block.part):
+                return Verdict(Outcome.DEFINES, f"another value for {_word(self.left)} in another part")
+            if self.cues & {Cue.DEFINED, Cue.GIVEN}:
+                return Verdict(Outcome.DEFINES, f"a value for {_word(self.left)} in another case")
+            return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
+        if new := self.known.new_letters(symbols):
+            return Verdict(Outcome.DEFINES, f"an equation with the new letter {_word(new[0])}")
+        if self.is_lagrange_form(symbols):
+            return Verdict(Outcome.DEFINES, "Lagrange's equation")
+        if self.cues & {Cue.LAW, Cue.GIVEN, Cue.DEFINED, Cue.CONSTANT} and Cue.APPROXIMATE not in self.cues:
+            return Verdict(Outcome.DEFINES, "stated as a law or a condition")
+        return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+
+    def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
+        """Whether an equation relates the derivatives of one letter by a coordinate and by its rate."""
+        derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
+        letters = {letter.identity for letter, _, _ in derivatives}
+        dots = {
+            found.dots
+            for _, by, _ in derivatives
+            for each, _ in by[:1]
+            if (found := self.meaning.symbols.get(each)) is not None
+        }
+        return len(letters) == 1 and {0, 1} <= dots
 
     def holds_in_motion_only(self, left: Value, right: Value) -> bool:
         """Whether one side only contains second rates, or a rate of a momentum, which equations of motion determine."""
@@ -403,12 +557,12 @@ def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, 
                     if len(ratios) < len(goal) or any(abs(r - ratios[0]) > 1e-7 * abs(ratios[0]) for r in ratios):
                         continue
                 total = sympy.expand(sum(w * each for w, (each, _) in zip(weights, chosen, strict=True)))
-                if total != 0 and _is_multiple(wanted, total):
+                if total != 0 and is_multiple(wanted, total):
                     return tuple(number for _, number in chosen)
     return None
 
 
-def _is_multiple(wanted: Expr, equation: Expr) -> bool:
+def is_multiple(wanted: Expr, equation: Expr) -> bool:
     """Whether one equation is the other times a factor that is a product of numbers and letters."""
     if wanted == 0 or equation == 0:
         return False
@@ -471,10 +625,12 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
     return ([changing] if changing else []) + single
 
 
-def order_of_error(left: Expr, right: Expr, meaning: Meaning) -> tuple[tuple[Symbol, ...], int] | None:
+def order_of_error(
+    left: Expr, right: Expr, meaning: Meaning, among: list[tuple[Symbol, ...]] | None = None
+) -> tuple[tuple[Symbol, ...], int] | None:
     """Return letters in which two sides agree to the leading order, and the order of the difference."""
     symbols = left.free_symbols | right.free_symbols
-    for letters in small_letters(symbols, meaning):
+    for letters in among or small_letters(symbols, meaning):
         slopes = []
         for point in _points(symbols, 5):
             sizes = []
@@ -507,27 +663,39 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
                 leading.append(sympy.series(scaled, scale, 0, 3).removeO().as_leading_term(scale) / scale)
             except (ValueError, NotImplementedError, TypeError, AttributeError):
                 return None
-        if leading[1] != 0 and _is_multiple(sympy.expand(leading[0]), sympy.expand(leading[1])):
+        if leading[1] != 0 and is_multiple(sympy.expand(leading[0]), sympy.expand(leading[1])):
             return True
     return None
 
 
 def counterexample(left: Value, right: Value) -> str:
-    """Return letters with simple values for which the two sides differ, and the values of the sides."""
+    """Return letters with simple values for which the two sides are real and differ, and the values of the sides."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
-    for start in (1, 2, 3):
-        point = {each: Integer(start + i) for i, each in enumerate(symbols)}
+    for point in _simple_points(symbols):
         for one, other in zip(_entries(left), _entries(right), strict=False):
-            numbers = [sympy.N(each.subs(point), 6) for each in (one, other)]
-            if all(each.is_number and each.is_finite for each in numbers) and numbers[0] != numbers[1]:
+            numbers = [sympy.N(each.subs(point), 12) for each in (one, other)]
+            if not all(each.is_number and each.is_finite and each.is_real for each in numbers):
+                continue
+            if abs(numbers[0] - numbers[1]) > CLOSE * max(map(abs, numbers)):
                 at = ", ".join(f"{symbol.name} = {value}" for symbol, value in point.items())
                 sides = f"{_number(numbers[0])} against {_number(numbers[1])}"
                 return f"{sides}" + (f" for {at}" if at and len(at) < 160 else "")
     return ""
 
 
+def _simple_points(symbols: list[Symbol]) -> Iterator[dict[Symbol, Expr]]:
+    """Yield small numbers for letters; the later points have small rates, or other orders of size."""
+    for start in (1, 2, 3):
+        yield {each: Integer(start + i) for i, each in enumerate(symbols)}
+    for size in (10, 100):
+        yield {each: Rational(1 + i, size if each.name.endswith(".") else 1) for i, each in enumerate(symbols)}
+    yield {each: Integer(len(symbols) - i) for i, each in enumerate(symbols)}
+    for turned in (False, True):
+        yield {each: Rational(1, 2 + i) for i, each in enumerate(reversed(symbols) if turned else symbols)}
+
+
 def _number(value: Expr) -> str:
-    return f"{float(value):.6g}" if value.is_real else str(value)
+    return f"{float(value):.6g}"
 
 
-__all__ = ["Decision", "Sequence", "counterexample", "order_of_error", "same"]
+__all__ = ["Decision", "Sequence", "counterexample", "is_multiple", "order_of_error", "same"]

@@ -8,20 +8,16 @@ from dataclasses import dataclass, field, replace
 import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
+from derive.audit.claims import Definition
 from derive.documents.meaning import Meaning, Value
+from derive.documents.source import Span
 from derive.documents.syntax import Letter
 
 ROUNDS = 8  # of substitution
 LARGEST = 4000  # operations of an expression that is still expanded
 LAST_EQUATIONS = 24
-
-
-@dataclass
-class Definition:
-    symbol: Symbol
-    value: Expr
-    claim: int
-    implied: bool = False  # not written, but needed by a step
+MOMENTA = ("p", "l", "L", "J", "ell")
+ASSUMED = -1  # the number of the claim for what is assumed
 
 
 @dataclass
@@ -34,8 +30,12 @@ class Known:
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
+    seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
+    _lagrange: dict[Expr, list[tuple[Symbol, Expr]]] = field(default_factory=dict)
 
-    def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:
+    def define(
+        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
+    ) -> None:
         if symbol in value.free_symbols or value.has(Integral):
             return
         if any(
@@ -51,7 +51,13 @@ class Known:
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
-        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied))
+        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
+
+    def assume(self, symbol: Symbol, value: Expr) -> None:
+        """Take over a value that the document does not state."""
+        where = self.definitions if value.free_symbols else self.numbers
+        if symbol not in value.free_symbols:
+            where.setdefault(symbol, []).append(Definition(symbol, value, ASSUMED))
 
     def state(self, difference: Value, claim: int) -> None:
         """Remember an equation: the difference of its sides vanishes."""
@@ -65,7 +71,45 @@ class Known:
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}
-        return Known(self.meaning, {**self.definitions, **believed}, self.numbers, self.equations)
+        return Known(self.meaning, {**self.definitions, **believed}, self.numbers, self.equations, seen=self.seen)
+
+    def new_letters(self, symbols: set[Symbol]) -> list[Symbol]:
+        """Return the letters that no earlier claim contains; a rate or a derivative is new if its letter is new."""
+        letters = self.meaning.symbols
+        bases = {(found.identity if (found := letters.get(each)) else each) for each in self.seen}
+        new = []
+        for each in sorted(symbols, key=str):
+            letter = letters.get(each)
+            if each in self.meaning.derivatives:
+                letter = self.meaning.derivatives[each][0]
+            if each not in self.seen and (letter is None or letter.identity not in bases) and letter is not None:
+                new.append(each)
+        return new
+
+    def lagrange_equations(self) -> Iterator[tuple[Symbol, Expr, int]]:
+        """Yield Lagrange's equations for each Lagrangian that earlier rows give: coordinate, left side, claim."""
+        time = self.meaning.symbol(Letter(Span(0, 0), "t"))
+        for symbol, definitions in list(self.definitions.items()):
+            letter = self.meaning.symbols.get(symbol)
+            if letter is None or letter.base != "L" or letter.dots or letter.primes:
+                continue
+            for definition in definitions[-2:]:
+                value = self.through(definition.value, set())
+                if value not in self._lagrange:
+                    self._lagrange[value] = list(self._equations_of(value, time))
+                for coordinate, equation in self._lagrange[value]:
+                    yield coordinate, equation, definition.claim
+
+    def _equations_of(self, value: Expr, time: Symbol) -> Iterator[tuple[Symbol, Expr]]:
+        if sympy.count_ops(value) > LARGEST // 8:
+            return
+        for symbol in sorted(value.free_symbols, key=str):
+            rate = self.meaning.symbols.get(symbol)
+            if rate is None or rate.dots != 1:
+                continue
+            coordinate = self.meaning.symbol(replace(rate, dots=0))
+            momentum_rate = self.meaning.differentiated(sympy.diff(value, symbol), time, False)
+            yield coordinate, sympy.expand(momentum_rate - sympy.diff(value, coordinate))
 
     def is_defined(self, symbol: Symbol) -> bool:
         return symbol in self.definitions
@@ -124,11 +168,22 @@ class Known:
         rates = inner.value.free_symbols if inner is not None else set()
         return not any((found := self.meaning.symbols.get(each)) is not None and found.dots for each in rates)
 
+    def is_momentum(self, symbol: Symbol) -> bool:
+        """Whether a letter is a momentum, which stays fixed in derivatives by coordinates: p = m x' in H(x, p)."""
+        letter, definition = self.meaning.symbols.get(symbol), self.definitions.get(symbol, [None])[-1]
+        if letter is None or definition is None or letter.base not in MOMENTA:
+            return False
+        letters = [self.meaning.symbols.get(each) for each in definition.value.free_symbols]
+        return any(each is not None and each.dots for each in letters)
+
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
         """Put in the definitions of letters that depend on the variables of a derivative."""
+        by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}
             for symbol in value.free_symbols - wanted:
+                if wanted and not by_rate and self.is_momentum(symbol):
+                    continue
                 definition = self.definitions.get(symbol, [None])[-1] or (
                     self.computed(symbol) if (letter := self.meaning.symbols.get(symbol)) and letter.dots else None
                 )
@@ -152,7 +207,10 @@ class Known:
                     used.append(definition.claim)
             if not found:
                 return
-            values = tuple(each.xreplace(found) for each in values)
+            try:
+                values = tuple(each.xreplace(found) for each in values)
+            except ValueError:  # a letter is the variable of an integral
+                return
             if any(_size(each) > LARGEST for each in values):
                 return
             yield values, tuple(dict.fromkeys(used))

@@ -10,6 +10,8 @@ from typing import Any
 
 from derive.audit.auditing import Audit
 from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.expected import Compared, Status
+from derive.audit.known import ASSUMED
 from derive.errors import Complaint, Place
 
 WORDS = {
@@ -35,27 +37,49 @@ def summary(audit: Audit) -> dict[str, int]:
 
 def as_text(audit: Audit, every: bool) -> str:
     """Return the rows that differ, each with its place and its probable reading; with `every`, all rows."""
-    shown = [_told(audit, claim) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
+    shown = [_told(audit, claim, every) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
     total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
-    return "\n\n".join([*shown, total])
+    return "\n\n".join([*shown, "\n".join([total, *_of_answers(audit, every)])])
+
+
+def _of_answers(audit: Audit, every: bool) -> Iterator[str]:
+    """Yield a line for each problem with which the document was compared, and the answers that it does not contain."""
+    problems: dict[str, list[Compared]] = {}
+    for each in audit.compared:
+        problems.setdefault(each.expected.problem, []).append(each)
+    for problem, answers in problems.items():
+        counted = Counter(each.status for each in answers)
+        parts = [f"{counted[status]} {status}" for status in Status if counted[status]]
+        yield f"{problem}: {len(answers)} answers: {', '.join(parts)}"
+        for each in answers:
+            if every or each.status is not Status.FOUND:
+                where = f" in line {audit.claims[each.claim].row.line}" if each.claim is not None else ""
+                yield f"  {each.status}{where}: {each.expected.key}: {each.expected.latex}"
 
 
 def _is_noteworthy(verdict: Verdict) -> bool:
     return verdict.outcome is Outcome.DIFFERS or bool(verdict.suggestion)
 
 
-def _told(audit: Audit, claim: Claim) -> str:
+def _told(audit: Audit, claim: Claim, every: bool) -> str:
     verdict = _verdict(claim)
     notes = [f"read as: {reading}" for reading in [_reading(claim)] if reading]
+    if every:
+        text = audit.document.source.text
+        notes += [f"`{text[each.span.start : each.span.end].strip()}`: {each.rule}" for each in verdict.choices]
     if verdict.counterexample:
         notes.append(f"for example {verdict.counterexample}")
-    if verdict.given:
-        notes.append(f"given line {', '.join(map(str, _lines(audit, verdict)))}")
+    if lines := _lines(audit, verdict):
+        notes.append(f"given line {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
         notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
+    if ASSUMED in verdict.given:
+        notes.append("given an assumption of the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
+    if verdict.why_plausible and not suggestion:
+        notes.append(verdict.why_plausible)
     code = str(verdict.outcome)
     return Complaint(code, verdict.because, _place(audit, claim), tuple(notes), suggestion, "row").shown()
 
@@ -80,12 +104,23 @@ def _cut(text: str) -> str:
 
 
 def _lines(audit: Audit, verdict: Verdict) -> list[int]:
-    return list(dict.fromkeys(audit.claims[number].row.line for number in verdict.given))
+    return list(dict.fromkeys(audit.claims[number].row.line for number in verdict.given if number != ASSUMED))
 
 
 def as_data(audit: Audit) -> dict[str, Any]:
     """Return the audit as data: the file, its rows with their verdicts, and the number of each verdict."""
-    return {"file": audit.document.source.path, "rows": list(_rows(audit)), "summary": summary(audit)}
+    answers = [
+        {
+            "problem": each.expected.problem,
+            "answer": each.expected.key,
+            "latex": each.expected.latex,
+            "status": str(each.status),
+            "line": audit.claims[each.claim].row.line if each.claim is not None else None,
+        }
+        for each in audit.compared
+    ]
+    found = {"file": audit.document.source.path, "rows": list(_rows(audit)), "summary": summary(audit)}
+    return {**found, "answers": answers} if answers else found
 
 
 def as_json(audit: Audit) -> str:
@@ -112,32 +147,82 @@ def _rows(audit: Audit) -> Iterator[dict[str, Any]]:
 
 
 _STYLE = """
-body { font: 16px/1.5 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
-table { border-collapse: collapse; width: 100%; }
-td { vertical-align: top; padding: .3rem .6rem; border-top: 1px solid #ddd; }
+body { font: 16px/1.5 Georgia, serif; max-width: 84rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+.line { display: grid; grid-template-columns: 3rem minmax(0, 3fr) minmax(0, 2fr); column-gap: 1rem; }
+.line > span { color: #999; text-align: right; font-size: .8rem; }
 code { font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
-.differs { background: #fbe3df; } .undecided, .unreadable { color: #777; } .approximates { background: #f5f1dc; }
-.verdict { white-space: nowrap; font-weight: bold; } .why { font-size: .9rem; }
+aside { font-size: .9rem; line-height: 1.35; }
+aside p { margin: .1rem 0; padding-left: .6rem; border-left: 3px solid transparent; }
+.differs { border-color: #c0392b; background: #fbe9e6; } .noted { border-color: #d19a00; background: #fdf6e0; }
+.undecided, .unreadable { color: #777; } .holds, .defines, .approximates { color: #3b7a3b; }
+.marked > code { background: #fbe9e6; } small { color: #777; }
 """
+_MARKS = {Outcome.HOLDS: "\u2713", Outcome.APPROXIMATES: "\u2248", Outcome.DEFINES: "\u2254"}
 
 
 def as_html(audit: Audit) -> str:
-    """Return a page with each row of the document and the verdict next to it."""
-    rows = []
-    for row in _rows(audit):
-        more = [row["because"]]
-        if row["suggestion"]:
-            more.append(f"Probably {row['suggestion']}.")
-        if row["counterexample"]:
-            more.append(f"For example {row['counterexample']}.")
-        if row["inherits"] is not None:
-            more.append(f"Carries on the slip of line {row['inherits']}.")
-        rows.append(
-            f'<tr class="{row["verdict"]}"><td>{row["line"]}</td><td><code>{escape(row["latex"])}</code></td>'
-            f'<td class="verdict">{row["verdict"]}</td><td class="why">{escape(" ".join(more))}</td></tr>'
-        )
+    """Return the text of the document with notes in its margin: what each row was read as, and the verdict on it."""
+    notes: dict[int, list[str]] = {}
+    marked: set[int] = set()
+    for claim in audit.claims:
+        line = _place(audit, claim).line
+        notes.setdefault(line, []).append(_note(audit, claim))
+        if _is_noteworthy(_verdict(claim)):
+            marked.add(line)
+    for row, fault in audit.unread:
+        if row.line not in notes:
+            notes[row.line] = [f'<p class="unreadable">I cannot read this: {escape(fault)}.</p>']
+    lines = [
+        f'<div class="line{" marked" if number in marked else ""}" id="L{number}"><span>{number}</span>'
+        f"<code>{escape(text) or '&nbsp;'}</code><aside>{''.join(notes.get(number, ()))}</aside></div>"
+        for number, text in enumerate(audit.document.source.written.split("\n"), 1)
+    ]
     title = escape(audit.document.source.path)
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-        f"<style>{_STYLE}</style></head><body><h1>{title}</h1><table>{''.join(rows)}</table></body></html>\n"
+        f"<style>{_STYLE}</style></head><body><h1>{title}</h1>{_summary_as_html(audit, sorted(marked))}"
+        f"{''.join(lines)}</body></html>\n"
     )
+
+
+def _summary_as_html(audit: Audit, marked: list[int]) -> str:
+    counted = summary(audit)
+    parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
+    look = ", ".join(f'<a href="#L{number}">{number}</a>' for number in marked)
+    told = f"<p>{len(audit.claims)} claims: {', '.join(parts)}.</p>"
+    told += f"<p>Please look at line {look}.</p>" if marked else "<p>I found nothing to correct.</p>"
+    answers = "<br>".join(f"<code>{escape(line)}</code>" for line in _of_answers(audit, every=True))
+    return told + (f"<details><summary>Answers of the derivation</summary>{answers}</details>" if answers else "")
+
+
+def _note(audit: Audit, claim: Claim) -> str:
+    """Return the note next to a row: first the reading, then the verdict in sentences."""
+    verdict = _verdict(claim)
+    noteworthy = _is_noteworthy(verdict)
+    kind = "noted" if noteworthy and verdict.outcome is not Outcome.DIFFERS else str(verdict.outcome)
+    reading = escape(_reading(claim))
+    if verdict.outcome in _MARKS and not noteworthy:
+        given = "".join(f", line {number}" for number in _lines(audit, verdict))
+        because = escape(verdict.because)
+        return f'<p class="{kind}" title="{reading}">{_MARKS[verdict.outcome]} <small>{because}{given}</small></p>'
+    told = [f"<small>Read as {reading}.</small>"] if reading else []
+    told += [escape(each) for each in sentences(audit, verdict)]
+    return f'<p class="{kind}">{" ".join(told)}</p>'
+
+
+def sentences(audit: Audit, verdict: Verdict) -> list[str]:
+    """Return a verdict as sentences: what is wrong, an example, what was probably meant, and which slip it repeats."""
+    found = [_sentence(verdict.because)]
+    if verdict.counterexample:
+        found.append(_sentence(f"for example {verdict.counterexample}"))
+    if verdict.suggestion:
+        found.append(_sentence(f"probably {verdict.suggestion}: {verdict.why_plausible}"))
+    elif verdict.why_plausible:
+        found.append(_sentence(verdict.why_plausible))
+    if verdict.inherits is not None:
+        found.append(f"The slip is in line {audit.claims[verdict.inherits].row.line}; this row only repeats it.")
+    return found
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:].rstrip(".") + "."

@@ -102,6 +102,14 @@ def _audit(audit: argparse.ArgumentParser) -> None:
     audit.add_argument("file", metavar="FILE", help="a .tex, .md, .ipynb or .txt file")
     audit.add_argument("--format", choices=("text", "json", "html"), default="text", help="(default text)")
     audit.add_argument("-v", "--verbose", action="store_true", help="show every row, not only those that differ")
+    compared = audit.add_argument(
+        "--problem", action="append", default=[], metavar="ID", help="compare with this problem (may be repeated)"
+    )
+    named(compared, "ids")
+    audit.add_argument(
+        "--assume", action="append", default=[], metavar="EQUATION", help='such as "rho = M/(6 a^3)" (may be repeated)'
+    )
+    audit.add_argument("--symbols", metavar="FILE", help="YAML file with kinds of letters: `omega: vector`")
 
 
 def _solve(solve: argparse.ArgumentParser) -> None:

@@ -15,6 +15,7 @@ from derive.documents.source import Span
 from derive.documents.syntax import Apply, Diff, EvalBar, Fun, Letter, Mul, Node, Num, Open, Pow
 
 MOST_READINGS = 6
+GREEK_INDICES = frozenset({"mu", "nu", "rho", "sigma", "lambda", "kappa", "alpha", "beta"})
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,8 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
     inner = getattr(argument, "inner", argument)
     bare = replace(head, dots=0, primes=0)
     variables = facts.variables_of(bare)
+    if head.base == "O" and "cal" in head.marks:
+        return 0, "terms that are left out", True
     if head.primes and facts.is_function(bare):
         return 0, "a derivative with its argument", True
     if not facts.is_function(bare):
@@ -136,9 +139,15 @@ def _function_in(node: Node) -> Fun:
 
 
 def _superscript(node: Open, facts: Facts) -> tuple[int, str, bool]:
-    first, _second = node.alternatives
+    first, second = node.alternatives
     if isinstance(first, Fun):
         return 0, "degrees: a number is not raised to zero", False
+    if isinstance(first, Pow) and isinstance(first.exponent, Letter) and isinstance(second, Letter):
+        index = first.exponent.base
+        if index in facts.indices and second.base != "e":
+            return 1, "an index of a sum", False
+        if index in GREEK_INDICES and facts.subscripts[index] and second.base != "e":
+            return 1, "an index, which is a subscript elsewhere", True
     return 0, "a power", False
 
 

@@ -6,7 +6,7 @@ Facts are counted over all formulas of the document, because a letter is often e
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from derive.documents.syntax import (
@@ -26,11 +26,13 @@ from derive.documents.syntax import (
     Num,
     Open,
     Pow,
+    Sum,
     Vec,
 )
 
 Identity = tuple[str, str, frozenset[str], int, str]
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
+KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
 
 
@@ -45,6 +47,22 @@ class Facts:
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
+    subscripts: Counter[str] = field(default_factory=Counter)
+    has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or a product
+    indices: set[str] = field(default_factory=set)  # of sums
+    declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document gives
+
+    def declare(self, kinds: Mapping[Identity, str]) -> None:
+        """Take over the kinds of letters that the reader of the document gives."""
+        self.declared.update(kinds)
+        for (base, sub, marks, _, label), kind in kinds.items():
+            if kind == "changes":
+                self.timed.add((base, sub, marks, label))
+            elif kind in ("constant", "positive", "integer"):
+                self.timed.discard((base, sub, marks, label))
+
+    def kind_of(self, letter: Letter) -> str:
+        return self.declared.get((letter.base, letter.sub, letter.marks, letter.primes, letter.label), "")
 
     def is_function(self, letter: Letter) -> bool:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
@@ -59,6 +77,8 @@ class Facts:
         """Whether a letter changes with time."""
         if _timeless(letter) in self.timed:
             return True
+        if self.kind_of(letter) in ("constant", "integer"):
+            return False
         return any(base == "t" for base, *_ in self.variables_of(letter))
 
     def shape(self, letter: Letter, scope: int) -> tuple[int, int] | None:
@@ -66,6 +86,8 @@ class Facts:
         return self.shapes.get((scope, letter.identity))
 
     def is_vector(self, letter: Letter, scope: int) -> bool:
+        if kind := self.kind_of(letter):
+            return kind == "vector"
         shape = self.shape(letter, scope)
         if shape is None:
             return "vec" in letter.marks and "hat" not in letter.marks
@@ -77,6 +99,8 @@ class Facts:
         return all(self.seen[each, "", frozenset({"vec"}), 0, ""] for each in "ijk")
 
     def is_tensor(self, letter: Letter, scope: int) -> bool:
+        if kind := self.kind_of(letter):
+            return kind == "tensor"
         shape = self.shape(letter, scope)
         return shape is not None and shape[1] > 1
 
@@ -147,6 +171,7 @@ def _preferred(node: Node) -> Iterable[Node]:
 def _look_at(node: Node, facts: Facts) -> None:
     if isinstance(node, Letter):
         facts.seen[node.identity] += 1
+        facts.subscripts[node.sub] += 1
         if node.dots:
             facts.timed.add(_timeless(node))
         if "vec" in node.marks:
@@ -168,6 +193,9 @@ def _look_at(node: Node, facts: Facts) -> None:
                 facts.timed.add(_timeless(of))
             if isinstance(by, Letter) and isinstance(of, Letter) and not node.partial and by.base != "t":
                 facts.functions[of.identity][by.identity] += 1
+    elif isinstance(node, Sum):
+        if isinstance(index := _bare(node.index) if node.index is not None else None, Letter):
+            facts.indices.add(index.base)
     elif isinstance(node, Diff):
         if isinstance(of := _bare(node.of), Letter):
             facts.integrated[of.identity] += 1

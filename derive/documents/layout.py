@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 
@@ -39,12 +39,14 @@ ALIGNED = frozenset(
         "subequations",
     ]
 )
+SYSTEMS = ("cases", "dcases", "rcases", "empheq")
 RELATIONS = {
     "=": "=", "<": "<", ">": ">",
     "leq": "<=", "le": "<=", "leqslant": "<=", "geq": ">=", "ge": ">=", "geqslant": ">=", "lt": "<", "gt": ">",
-    "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop", "ll": "<<",
+    "approx": "~", "simeq": "~", "cong": "~", "sim": "~", "approxeq": "~", "doteq": "~", "propto": "prop",
+    "lesssim": "<", "gtrsim": ">", "lessapprox": "<", "gtrapprox": ">", "asymp": "~", "ll": "<<",
     "gg": ">>", "neq": "!=", "ne": "!=", "equiv": ":=", "coloneqq": ":=", "triangleq": ":=", "in": "in", "to": "to",
-    "rightarrow": "to", "longrightarrow": "to", "mapsto": "to",
+    "rightarrow": "to", "longrightarrow": "to", "mapsto": "to", "leftarrow": "to", "leftrightarrow": "to",
 }  # fmt: skip
 ARROWS = {
     "Rightarrow": "implies", "implies": "implies", "Longrightarrow": "implies", "therefore": "implies", "iff": "and",
@@ -52,6 +54,12 @@ ARROWS = {
     "lor": "or", "leadsto": "implies",
 }  # fmt: skip
 WIDE = {"quad", "qquad", "qq", "hspace", "hfill", "hskip"}
+# Words of the package physics, such as `\qthen`, and their like.
+SPOKEN = {
+    "qif": "if", "qthen": "then", "qelse": "else", "qotherwise": "otherwise", "qunless": "unless", "qgiven": "given",
+    "qusing": "using", "qassume": "assume", "qsince": "since", "qlet": "let", "qfor": "for", "qall": "all",
+    "qand": "and", "qor": "or", "qas": "as", "qwhere": "where", "qwith": "with", "qthus": "thus", "qwhile": "while",
+}  # fmt: skip
 WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
 
 
@@ -67,6 +75,8 @@ class Cue(StrEnum):
     CONSTANT = "constant"
     INCORRECT = "not"
     ZERO = "set to zero"
+    LAW = "law"
+    REPEATED = "repeated"
 
 
 CUES = {
@@ -74,12 +84,18 @@ CUES = {
     r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
     Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
     r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
-    Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b",
+    Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b"
+    r"|\bcases?\b|\blimit\w*",
     Cue.SINCE: r"\bsince\b|\bbecause\b|\bas\b|\brecall\w*|\bknow\b|\bremember\b",
     Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
     Cue.CONSTANT: r"\bconstant\b|\bconst\b",
     Cue.ZERO: r"\bzero\b|\bvanish\w*|\bstationary\b|\bextrem\w+|\bminimum\b",
+    Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b"
+    r"|\bequations? of motion\b"
+    r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
+    Cue.REPEATED: r"\brepeat\w*|\bonce more\b|\brecall\w*|\bwe (?:already )?found\b|\bfound (?:above|earlier|before)\b"
+    r"|\bfrom (?:above|before|part)\b|\bcopied\b",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
 _CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}
@@ -131,6 +147,7 @@ class Block:
     sentence: str
     heading: int
     rows: list[Row] = field(default_factory=list)
+    part: int = 0  # how many headings, items and marks such as (a) come before it
 
     @cached_property
     def cues(self) -> frozenset[Cue]:
@@ -179,6 +196,11 @@ _HEADING = re.compile(
     r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}",
     re.MULTILINE,
 )
+_PART = re.compile(
+    r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*\*\*\w+"
+    r"|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)|^:::+\s*\{|^[ \t]*\d+\.\s",
+    re.MULTILINE,
+)
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
 _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 
@@ -225,6 +247,8 @@ class _Reading:
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
         self.last: Statement | None = None
+        self.main: Statement | None = None  # the statement with which a row that begins with a relation goes on
+        self.parts = sorted([*(each.span.start for each in headings), *(m.start() for m in _PART.finditer(self.text))])
 
     def blocks(self) -> list[Block]:
         found: list[Block] = []
@@ -236,6 +260,7 @@ class _Reading:
             if heading >= 0 and self.headings[heading].span.end > done:
                 before = self.text[max(self.headings[heading].span.end, outer.start - 2000) : outer.start]
             block = Block(display, environment, outer, before, self.sentence(outer, display), heading)
+            block.part = bisect_right(self.parts, outer.start)
             self.read_rows(block, inner)
             found.append(block)
             done = outer.end
@@ -286,7 +311,8 @@ class _Reading:
     def read_rows(self, block: Block, inner: Span) -> None:
         """Read the rows of a formula and the statements in them."""
         try:
-            tokens = _unboxed(expanded(tokens_of(self.text, inner.start, inner.end), self.macros))
+            written = _without_definitions(tokens_of(self.text, inner.start, inner.end))
+            tokens = _simplified(expanded(written, self.macros))
         except TooLarge as error:
             row = self.row(block, inner)
             row.fault = (str(error), error.span)
@@ -297,14 +323,17 @@ class _Reading:
                 continue
             rest = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
+            if solid[0].kind is Kind.SCRIPT and not any(map(_is_relation, solid)):
+                continue  # the sign of degrees after a number in the text: 30$^\circ$
             row = rest or self.row(block, Span(solid[0].span.start, solid[-1].span.end))
             row.tag, row.label = tag or row.tag, label or row.label
             if rest is not None:
                 row.latex += " " + self.text[flat[0].span.start : flat[-1].span.end]
                 continue
-            for statement in statements_of(cells, row, self.last if block.display and block.rows[:-1] else None):
+            for statement in statements_of(cells, row, self.main if block.display and block.rows[:-1] else None):
                 row.statements.append(statement)
                 self.last = statement
+            self.main = _main(row.statements) or self.main
 
     def row(self, block: Block, span: Span) -> Row:
         self.count += 1
@@ -326,30 +355,139 @@ class _Reading:
         open_end = bool(last.tokens) and (
             last.tokens[-1].is_mark("+", "-", "*", "/") or last.tokens[-1].is_command("cdot", "times", "pm", "mp")
         )
-        open_end = open_end or _is_open(last.tokens)
+        open_end = open_end or _is_open(last.tokens) or not last.tokens
         begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
         if not open_end and not (begins and len(cells) > 1 and not without_spaces(cells[0])):
             return None
         if not _is_open(last.tokens) and any(map(_is_relation, _outside_brackets(tokens))):
             return None
-        joined = Side((*last.tokens, *tokens), Span(last.span.start, tokens[-1].span.end))
+        start = last.span.start if last.tokens else tokens[0].span.start
+        joined = Side((*last.tokens, *tokens), Span(start, tokens[-1].span.end))
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return block.rows[-1]
 
 
-def _unboxed(tokens: list[Token]) -> list[Token]:
-    """Leave out the frames around equations."""
+def _without_definitions(tokens: list[Token]) -> list[Token]:
+    """Leave out the commands that are defined inside of a formula; they are known already."""
     found: list[Token] = []
     at = 0
     while at < len(tokens):
-        if tokens[at].is_command("boxed", "fbox", "tightboxed"):
-            inner, at = argument_at(tokens, at + 1)
-            found += _unboxed(inner)
-            continue
-        found.append(tokens[at])
+        token = tokens[at]
         at += 1
+        if not token.is_command("newcommand", "renewcommand", "providecommand", "DeclareMathOperator"):
+            found.append(token)
+            continue
+        _, at = argument_at(tokens, at)
+        while at < len(tokens) and tokens[at].is_mark("["):
+            at = next((i + 1 for i in range(at, len(tokens)) if tokens[i].is_mark("]")), len(tokens))
+        _, at = argument_at(tokens, at)
     return found
+
+
+def _simplified(tokens: list[Token]) -> list[Token]:
+    r"""Leave out frames around equations and lines between rows, and write words and relations in one form.
+
+    `\qq{so}` and `\qthus` of the package physics become `\text{so}`, `\stackrel{(1)}{=}` becomes `=`.
+    """
+    found: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        at += 1
+        if token.is_command("boxed", "fbox", "tightboxed", "Aboxed"):
+            inner, at = argument_at(tokens, at)
+            found += _simplified(inner)
+        elif token.is_command("underline", "ensuremath", "textcolor", "colorbox") and _has_relation(
+            argument_at(tokens, argument_at(tokens, at)[1] if token.text.endswith("color") else at)[0]
+        ):
+            if token.text.endswith("color"):
+                _, at = argument_at(tokens, at)
+            inner, at = argument_at(tokens, at)
+            found += _simplified(inner)
+        elif token.is_command("left") and (system := _system_at(tokens, at - 1)) is not None:
+            inner, at = system
+            found += [*_environment_sign(token, "begin", "cases"), *inner, *_environment_sign(token, "end", "cases")]
+        elif token.is_command("mqty", "pmqty", "bmqty", "vmqty", "smqty") and at < len(tokens):
+            inner, at = _bracket_at(tokens, at)
+            name = "vmatrix" if token.text == "vmqty" else "pmatrix"
+            found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
+        elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
+            while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
+                at += 1  # the note `| \\cdot 2` says what both sides are multiplied by
+        elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
+            continue
+        elif token.is_command("qq"):
+            if at < len(tokens) and tokens[at].is_mark("*"):
+                at += 1
+            found.append(replace(token, text="text"))
+        elif token.is_command("qc", "qcomma"):
+            found += [replace(token, kind=Kind.MARK, text=","), replace(token, text="quad")]
+        elif token.kind is Kind.COMMAND and (word := SPOKEN.get(token.text.removesuffix("*"))):
+            found += [
+                replace(token, text="text"),
+                replace(token, kind=Kind.OPEN, text="{"),
+                *(replace(token, kind=Kind.LETTER, text=letter) for letter in word),
+                replace(token, kind=Kind.CLOSE, text="}"),
+            ]
+        elif token.is_command("stackrel", "overset", "underset"):
+            _, after = argument_at(tokens, at)
+            inner, after = argument_at(tokens, after)
+            if len(without_spaces(inner)) == 1 and _is_relation(without_spaces(inner)[0]):
+                found += without_spaces(inner)
+                at = after
+            else:
+                found.append(token)
+        else:
+            found.append(token)
+    return _without_outer_braces(found)
+
+
+def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
+    r"""Return the rows of `\left\{ \begin{array}{l} ... \end{array} \right.` and the position after it, or None."""
+    head = without_spaces(tokens[at : at + 8])
+    if len(head) < 3 or not head[1].is_command("{", "lbrace") or not head[2].is_command("begin"):
+        return None
+    begin = next(i for i in range(at, len(tokens)) if tokens[i] is head[2])
+    name, after = _environment(tokens, begin + 1)
+    end = next((i for i in range(after, len(tokens)) if tokens[i].is_command("end")), None)
+    if name != "array" or end is None:
+        return None
+    last, close = _environment(tokens, end + 1)
+    rest = without_spaces(tokens[close : close + 4])
+    if last != "array" or len(rest) < 2 or not rest[0].is_command("right") or not rest[1].is_mark("."):
+        return None
+    _, after = argument_at(tokens, after)
+    stop = next(i for i in range(close, len(tokens)) if tokens[i] is rest[1])
+    return tokens[after:end], stop + 1
+
+
+def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
+    """Return the tokens inside the bracket or the braces at a position, and the position after it."""
+    if not tokens[at].is_mark("(", "["):
+        return argument_at(tokens, at)
+    for end, (token, depth) in enumerate(depths(tokens[at:])):
+        if end and depth == 0 and token.is_mark(")", "]"):
+            return tokens[at + 1 : at + end], at + end + 1
+    return tokens[at + 1 :], len(tokens)
+
+
+def _environment_sign(token: Token, sign: str, name: str) -> list[Token]:
+    return [
+        replace(token, text=sign),
+        replace(token, kind=Kind.OPEN, text="{"),
+        *(replace(token, kind=Kind.LETTER, text=letter) for letter in name),
+        replace(token, kind=Kind.CLOSE, text="}"),
+    ]
+
+
+def _without_outer_braces(tokens: list[Token]) -> list[Token]:
+    """Leave out braces around a whole formula with a relation."""
+    solid = without_spaces(tokens)
+    if len(solid) < 3 or solid[0].kind is not Kind.OPEN or solid[-1].kind is not Kind.CLOSE:
+        return tokens
+    inner, after = argument_at(solid, 0)
+    return inner if after == len(solid) and any(map(_is_relation, inner)) else tokens
 
 
 def _depth_change(token: Token) -> int:
@@ -394,6 +532,7 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
     cells: list[list[Token]] = [[]]
     tag = label = ""
     inside = depth = at = 0  # depth in environments that are not split, and in braces
+    system = False  # whether the rows are those of a system of equations behind a brace
     while at < len(tokens):
         token = tokens[at]
         at += 1
@@ -401,6 +540,10 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
             name, after = _environment(tokens, at)
             bare = name.rstrip("*")
             splits = bare in ALIGNED or (bare == "array" and not inside and _is_alignment(tokens, at - 1))
+            if bare in SYSTEMS and not inside and not splits:
+                begins = token.text == "begin" and not without_spaces([each for cell in cells for each in cell])
+                splits = system if token.text == "end" else begins and _is_alignment(tokens, at - 1)
+                system = splits and token.text == "begin"
             if splits and not inside:
                 if token.text == "begin" and bare in ("alignat", "alignedat", "array", "IEEEeqnarray"):
                     _, after = argument_at(tokens, after)
@@ -470,7 +613,7 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
             if statement is None:
                 continue
             if not statement.sides[0].tokens:
-                previous = found[-1] if found else before
+                previous = _main(found) or before
                 if previous is None or not statement.sides[1:]:
                     statement.sides, statement.relations = statement.sides[1:], statement.relations[1:]
                     if not statement.sides:
@@ -483,6 +626,15 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                 continue
             found.append(statement)
     return found
+
+
+def _main(statements: list[Statement]) -> Statement | None:
+    """Return the last statement that is not an aside: `where k = ...`."""
+    main, aside = None, False
+    for each in statements:
+        aside = each.link in ("where", "if", "since") or (aside and each.link in ("and", "list"))
+        main = main if aside else each
+    return main
 
 
 def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
@@ -572,11 +724,31 @@ def _link(said: str) -> str:
     said = said.lower()
     for word, link in (
         ("or", "or"), ("and", "and"), ("so", "implies"), ("hence", "implies"), ("thus", "implies"), ("where", "where"),
-        ("with", "where"), ("if", "if"), ("when", "if"), ("for", "if"), ("since", "since"),
+        ("with", "where"), ("using", "where"), ("since", "since"), ("while", "where"), ("if", "if"), ("when", "if"),
+        ("for", "if"), ("as", "since"), ("given", "where"), ("let", "where"),
     ):  # fmt: skip
         if re.search(rf"\b{word}\b", said):
             return link
     return "and"
+
+
+def _without_range(tokens: list[Token]) -> list[Token]:
+    r"""Leave out the range of an index behind an equation: `\\quad (i = 1, 2, \\ldots, n)`."""
+    if not tokens or not tokens[-1].is_mark(")"):
+        return tokens
+    begins = [at for at, (token, depth) in enumerate(depths(tokens)) if depth == 0 and token.is_mark("(")]
+    if not begins or not begins[-1]:
+        return tokens
+    inside = tokens[begins[-1] + 1 : -1]
+    parts = [each for each in inside if each.is_mark(",") or each.is_command("ldots", "cdots", "dots", "in")]
+    if not parts or not any(each.is_mark("=") or each.is_command("in") for each in inside[:6]):
+        return tokens
+    before = tokens[begins[-1] - 1]
+    apart = before.is_command("quad", "qquad", " ", ";", ",", ":") or before.kind in (Kind.CLOSE, Kind.NUMBER)
+    rest = tokens[: begins[-1]]
+    while rest and rest[-1].is_command("quad", "qquad", " ", ";", ",", ":"):
+        rest.pop()
+    return rest if apart and any(map(_is_relation, rest)) else tokens
 
 
 def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | None:
@@ -589,6 +761,7 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         tokens.pop(0)
     if not tokens:
         return None
+    tokens = _without_range(tokens)
     sides: list[list[Token]] = [[]]
     relations: list[str] = []
     for at, (token, depth) in enumerate(depths(tokens)):
@@ -597,12 +770,18 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
             sides[-1].pop()
             relation = ":="
         if relation is not None and token.is_mark("=") and sides[-1] and sides[-1][-1].is_mark("!"):
-            sides[-1].pop()
+            if len(sides[-1]) < 2 or sides[-1][-2].kind is not Kind.NUMBER:  # not the factorial of a number
+                sides[-1].pop()
         if relation is None:
             sides[-1].append(token)
         else:
             relations.append(relation)
             sides.append([])
+    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \\to B` is a kind of function
+        sides[0] = sides[0][next(i for i, each in enumerate(sides[0]) if each.is_mark(":")) + 1 :]
+    for side in sides:
+        while len(side) > 1 and side[-1].is_mark(".", ",", ";", ":"):
+            side.pop()
     made = []
     at_end = tokens[-1].span.end
     for side in sides:

@@ -42,6 +42,7 @@ from derive.documents.syntax import (
     Abs,
     Add,
     Apply,
+    Cases,
     Condition,
     Der,
     Diff,
@@ -53,6 +54,7 @@ from derive.documents.syntax import (
     Letter,
     Mat,
     Mul,
+    Nabla,
     Node,
     Num,
     Open,
@@ -68,6 +70,7 @@ from derive.units import read_unit
 
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
+MOST_TERMS = 20  # of a sum between numbers
 LONGEST_NUMBER = 60
 
 
@@ -84,7 +87,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "arcsin": sympy.asin, "arccos": sympy.acos, "arctan": sympy.atan, "arccot": sympy.acot, "sinh": sympy.sinh,
     "cosh": sympy.cosh, "tanh": sympy.tanh, "coth": sympy.coth, "arcsinh": sympy.asinh, "arccosh": sympy.acosh,
     "arctanh": sympy.atanh, "ln": log, "exp": exp, "sign": sympy.sign, "sech": sympy.sech, "csch": sympy.csch,
-    "factorial": sympy.factorial,
+    "factorial": sympy.factorial, "Re": sympy.re, "Im": sympy.im,
 }  # fmt: skip
 INVERSE = {"sin": sympy.asin, "cos": sympy.acos, "tan": sympy.atan, "sinh": sympy.asinh, "cosh": sympy.acosh,
            "tanh": sympy.atanh}  # fmt: skip
@@ -106,6 +109,8 @@ class Meaning:
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
     evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
     two_signs: bool = False
+    left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
+    sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -137,6 +142,8 @@ class Meaning:
             return pi
         if node.base == "infty":
             return sympy.oo
+        if node.base == "imaginary unit":
+            return sympy.I
         if "hat" in node.marks or "bb" in node.marks:
             return self.unit_vector(node)
         if "vec" in node.marks and node.base in "ijk" and not node.sub and self.facts.has_axes:
@@ -168,7 +175,13 @@ class Meaning:
         name = node.named() + ("." * node.dots)
         free = node.dots or self.facts.changes(node) or node.base in ANGLES or node.primes
         free = free or node.base in ("x", "y", "z", "q", "p", "u", "w", "X", "Y", "Z", "eta", "xi", "A", "B", "C", "c")
-        symbol = Symbol(name, real=True) if free or self.facts.is_function(node) else Symbol(name, positive=True)
+        kind = "" if node.dots else self.facts.kind_of(node)
+        if kind == "integer":
+            symbol = Symbol(name, integer=True)
+        elif kind == "positive" or not (kind == "real" or free or self.facts.is_function(node)):
+            symbol = Symbol(name, positive=True)
+        else:
+            symbol = Symbol(name, real=True)
         self.symbols.setdefault(symbol, node)
         return symbol
 
@@ -181,7 +194,10 @@ class Meaning:
     def of_text(self, node: Text) -> Any:
         if node.text.startswith("unit "):
             return self.unit(node)
-        reason = "dots stand for terms that are left out" if node.text == "..." else f"`{node.text}` is a word"
+        reason = {
+            "...": "dots stand for terms that are left out",
+            "?": "the document leaves this open",
+        }.get(node.text, f"`{node.text}` is a word")
         raise Meaningless(reason, node.span)
 
     def unit(self, node: Text) -> Expr:
@@ -290,6 +306,12 @@ class Meaning:
             if not isinstance(matrix, MatrixBase):
                 raise Meaningless("the matrix is not written out", node.argument.span)
             return matrix.det() if node.name == "det" else matrix.trace()
+        if node.name == "order":
+            return self.terms_left_out(node.argument)
+        if node.name in ("min", "max"):
+            entries = node.argument.entries if isinstance(node.argument, Vec) else (node.argument,)
+            values = [self.scalar(each) for each in entries]
+            return sympy.Min(*values) if node.name == "min" else sympy.Max(*values)
         argument = self.scalar(node.argument)
         if node.name in ("log", "ln"):
             value = log(argument)
@@ -319,9 +341,12 @@ class Meaning:
     def of_mat(self, node: Mat) -> Any:
         if len({len(row) for row in node.rows}) > 1:
             raise Meaningless("the rows of this matrix have different lengths", node.span)
-        entries = [[self.entry(each) for each in row] for row in node.rows]
         if node.determinant:
             return self.determinant(node)
+        letters = [_letter_in(each) for row in node.rows for each in row]
+        if len(node.rows) > 1 and any(letter is not None and "vec" in letter.marks for letter in letters):
+            raise Meaningless("the entries of this matrix are vectors or matrices", node.span)
+        entries = [[self.entry(each) for each in row] for row in node.rows]
         matrix = Matrix(entries)
         return matrix.T if matrix.shape[0] == 1 and matrix.shape[1] > 1 else matrix
 
@@ -346,6 +371,9 @@ class Meaning:
         return Matrix([[self.entry(each) for each in row] for row in node.rows]).det()
 
     def of_vec(self, node: Vec) -> Any:
+        if len(node.entries) == 2 and (node.brackets == "]" or (node.brackets in "}>" and self.facts.has_brackets)):
+            one, other = (str(self._of(each)) for each in node.entries)
+            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator or a Poisson bracket
         if len(node.entries) not in (2, 3):
             raise Meaningless("this list is not a vector", node.span)
         if any(isinstance(each, Condition) for each in node.entries):
@@ -356,7 +384,11 @@ class Meaning:
 
     def of_apply(self, node: Apply) -> Any:
         head = node.head
+        if head.base == "O" and ("cal" in head.marks or self.facts.alone[head.identity] == 0) and not head.sub:
+            return self.terms_left_out(node.arguments[0])
         own = self.facts.variables_of(_replaced(head, dots=0))
+        if any(isinstance(each, Text) and each.text == "..." for each in node.arguments):
+            return self.function_letter(head)  # y(x_1, ..., x_n)
         values: list[tuple[Node | None, Node]] = []
         for argument in node.arguments:
             if isinstance(argument, Condition):
@@ -376,6 +408,12 @@ class Meaning:
         if variable is not None and isinstance(function := self.function_letter(head), Symbol):
             self.evaluations[symbol] = (function, variable, numbers[0])
         return symbol
+
+    def terms_left_out(self, order: Node) -> Expr:
+        base, power = self.scalar(order).as_base_exp()
+        if isinstance(base, Symbol) and power.is_Integer:
+            self.left_out = (base, int(power))
+        return Integer(0)
 
     def variable_of_call(self, named: Node | None, own: Any) -> Symbol | None:
         """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0)."""
@@ -460,8 +498,32 @@ class Meaning:
                 total += sympy.diff(value, symbol) * rate
         return total
 
+    def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
+        """Return the derivative of the one member of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
+        letter = self.symbols.get(by)
+        members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
+        if letter is None or not any(
+            each is not None and each.base == letter.base and each.dots == letter.dots and each.sub == index.name
+            for each in members
+        ):
+            return Integer(0)
+        put_in = {}
+        for symbol in term.free_symbols:
+            if self.has_index(symbol, index):
+                member = self.symbols.get(symbol)
+                if member is None or symbol == index:
+                    raise Meaningless("this is the derivative of a sum by one of its members", letter.span)
+                put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
+        return sympy.diff(term.xreplace(put_in), by)
+
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
         """Return the derivative of a letter by another: its rate, zero, or a symbol if the document says nothing."""
+        if symbol in self.sums:
+            term, index, bounds = self.sums[symbol]
+            if self.has_index(by, index):
+                return Symbol(f"d({symbol})/d{by}", real=True)
+            others = self.summed(self.differentiated(term, by, partial), index, bounds)
+            return others + self.of_member(term, index, by)
         if symbol in self.derivatives:
             letter, already, was_partial = self.derivatives[symbol]
             if by.name == "t" or any(self.is_variable(each, by) for each in self.facts.variables_of(letter)):
@@ -526,6 +588,7 @@ class Meaning:
             parents=self.parents,
             defined=self.defined,
             evaluations=self.evaluations,
+            sums=self.sums,
         )
         factors = [inner._of(each) for each in nodes]
         self.decimals += inner.decimals
@@ -577,12 +640,28 @@ class Meaning:
             left = _inner_letter(node.lower.left)
             if left is None:
                 raise Meaningless("this condition has no single letter", node.lower.span)
-            return inner.subs(self.symbol(left), self.scalar(node.lower.right))
+            return self.evaluated(inner, self.symbol(left), self.scalar(node.lower.right))
         if node.lower is None or node.upper is None:
             raise Meaningless("a limit is missing", node.span)
         variable = self.variable_of(inner, node)
         ends = [self.scalar(each.right if isinstance(each, Condition) else each) for each in (node.upper, node.lower)]
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
+
+    def evaluated(self, inner: Expr, variable: Symbol, at: Expr) -> Expr:
+        """Return a value at a place; what depends on the variable, although it does not contain it, gets a symbol."""
+        put_in = {}
+        for symbol in inner.free_symbols - {variable}:
+            letter = self.symbols.get(symbol)
+            definition = self.defined(symbol)
+            depends = symbol in self.derivatives or symbol in self.parents
+            depends = depends or (definition is not None and variable in definition.free_symbols)
+            depends = depends or (letter is not None and any(
+                self.is_variable(each, variable) for each in self.facts.variables_of(letter)
+            ))  # fmt: skip
+            if depends:
+                put_in[symbol] = Symbol(f"{symbol.name}({variable}={at})", real=True)
+                self.evaluations[put_in[symbol]] = (symbol, variable, at)
+        return inner.xreplace(put_in).subs(variable, at)
 
     def with_label(self, value: Any, label: str) -> Any:
         """Return a value with a label, of which nothing else is known: the rate of L in the body."""
@@ -609,20 +688,137 @@ class Meaning:
         raise Meaningless("the variable of these limits is not clear", node.span)
 
     def of_sum(self, node: Sum) -> Any:
-        index = _inner_letter(node.index) if node.index is not None else None
-        if index is None or node.lower is None or node.upper is None:
-            raise Meaningless("the limits of this sum are not numbers", node.span)
-        lower, upper = self.scalar(node.lower), self.scalar(node.upper)
-        if not (lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= 20):
-            raise Meaningless("the limits of this sum are not numbers", node.span)
-        values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(int(lower), int(upper) + 1)]
+        indices = _indices(node)
+        if not indices:
+            raise Meaningless("this sum has no index", node.span)
+        if len(indices) == 1 and node.lower is not None and node.upper is not None:
+            lower, upper = self.scalar(node.lower), self.scalar(node.upper)
+            if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
+                return self.terms_of(node, indices[0], int(lower), int(upper))
+        if node.name != "sum":
+            raise Meaningless("the limits of this product are not numbers", node.span)
+        value = self._of(node.body)
+        bounds = [self.range_of(each) for each in (node.lower, node.upper)]
+        for index in reversed(indices):
+            value = self.summed(value, self.symbol(index), "..".join(bounds))
+        return value
+
+    def terms_of(self, node: Sum, index: Letter, lower: int, upper: int) -> Any:
+        values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(lower, upper + 1)]
         value = values[0]
         for each in values[1:]:
             value = value + each if node.name == "sum" else value * each
         return value
 
+    def range_of(self, bound: Node | None) -> str:
+        """Return a bound as a word; a sum from 1 to N is written without its bounds, too."""
+        if bound is None or (isinstance(bound, Num) and bound.text == "1"):
+            return ""
+        letter = _letter_in(bound)
+        return "" if letter is not None and letter.base in ("N", "n", "d", "s") else str(self._of(bound))
+
+    def summed(self, value: Any, index: Symbol, bounds: str) -> Any:
+        """Return a sum over an index: factors without the index stand before it, and each term is a symbol."""
+        if isinstance(value, MatrixBase):
+            return value.applyfunc(lambda each: self.summed(each, index, bounds))
+        total: Expr = Integer(0)
+        for term in Total.make_args(sympy.expand(value)):
+            inside, outside = Integer(1), Integer(1)
+            for factor in sympy.Mul.make_args(term):
+                if any(self.has_index(each, index) for each in factor.free_symbols):
+                    inside *= factor
+                else:
+                    outside *= factor
+            total += outside * self.sum_symbol(inside, index, bounds)
+        return total
+
+    def sum_symbol(self, term: Expr, index: Symbol, bounds: str) -> Expr:
+        """Return the symbol for the sum of a term; its name does not depend on the letter of the index."""
+        depth = 1 + str(term).count("sum[")
+        mark = f"#{depth}"
+        names = {each: Symbol(self.renamed(each, index, mark), real=True) for each in term.free_symbols
+                 if self.has_index(each, index)}  # fmt: skip
+        symbol = Symbol(f"sum[{term.xreplace(names)}]{bounds}", real=True)
+        self.sums[symbol] = (term, index, bounds)
+        return symbol
+
+    def has_index(self, symbol: Symbol, index: Symbol) -> bool:
+        if symbol == index:
+            return True
+        if symbol in self.sums:
+            term, inner, _ = self.sums[symbol]
+            return inner != index and any(self.has_index(each, index) for each in term.free_symbols)
+        if symbol in self.derivatives:
+            letter, by, _ = self.derivatives[symbol]
+            return _carries(letter, index) or any(self.has_index(each, index) for each, _ in by)
+        found = self.symbols.get(symbol)
+        return found is not None and _carries(found, index)
+
+    def renamed(self, symbol: Symbol, index: Symbol, mark: str) -> str:
+        """Return the name of a symbol with a mark in place of the index in its subscripts."""
+        if symbol == index:
+            return mark
+        letter = self.symbols.get(symbol)
+        if letter is not None:
+            sub = letter.sub.replace(index.name, mark)
+            label = letter.label.replace(index.name, mark)
+            return _replaced(letter, sub=sub, label=label).named() + "." * letter.dots
+        return str(symbol.name).replace(f"_{index.name}", f"_{mark}")
+
+    def of_nabla(self, node: Nabla) -> Any:
+        """Return a gradient or its like; the derivatives of a letter by x, y and z are symbols."""
+        axes = [self.symbol(Letter(node.span, each)) for each in "xyz"]
+        of = _inner_letter(node.of) or (node.of.head if isinstance(node.of, Apply) else None)
+        if isinstance(node.of, Open) and node.of.kind == "apply":
+            call = node.of.alternatives[0]
+            of = call.head if isinstance(call, Apply) else None
+        if of is not None and node.kind == "" and not self.facts.is_vector(of, self.scope):
+            return ImmutableDenseMatrix([self.derivative_symbol(of, ((axis, 1),), True) for axis in axes])
+        value = self._of(node.of)
+        if not value.free_symbols & set(axes) or any(
+            (letter := self.symbols.get(each)) is not None and letter.base in ("r", "rho", "s")
+            for each in value.free_symbols
+        ):
+            raise Meaningless("this is not given by coordinates x, y, z", node.span)
+
+        def derivative(entry: Any, axis: Symbol) -> Any:
+            return self.differentiated(entry, axis, True)
+
+        if isinstance(value, MatrixBase):
+            if node.kind == "cdot" and value.shape == (3, 1):
+                return Total(*(derivative(value[i], axes[i]) for i in range(3)))
+            if node.kind == "times" and value.shape == (3, 1):
+                pairs = ((2, 1), (0, 2), (1, 0))
+                return ImmutableDenseMatrix(
+                    [derivative(value[i], axes[j]) - derivative(value[j], axes[i]) for i, j in pairs]
+                )
+        elif node.kind == "":
+            return ImmutableDenseMatrix([derivative(value, axis) for axis in axes])
+        elif node.kind == "squared":
+            return Total(*(derivative(derivative(value, axis), axis) for axis in axes))
+        raise Meaningless("the operand of nabla does not fit", node.span)
+
+    def of_cases(self, node: Cases) -> Any:
+        raise Meaningless("this has a value for each case", node.span)
+
     def of_condition(self, node: Condition) -> Any:
         raise Meaningless("this is a condition", node.span)
+
+
+def _indices(node: Sum) -> list[Letter]:
+    index = node.index
+    while isinstance(index, Group):
+        index = index.inner
+    if isinstance(index, Mul):  # `\sum_{ij}`
+        found = [_letter_in(each) for _, each in index.factors]
+    else:
+        found = [_letter_in(each) for each in (index.entries if isinstance(index, Vec) else (index,)) if each]
+    return [] if any(each is None for each in found) else [each for each in found if each is not None]
+
+
+def _carries(letter: Letter, index: Symbol) -> bool:
+    """Whether a letter has an index in its subscript or in its superscript."""
+    return index.name in letter.sub or index.name in letter.label
 
 
 def _replaced(letter: Letter, **changes: Any) -> Letter:

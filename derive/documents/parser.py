@@ -11,6 +11,7 @@ from derive.documents.syntax import (
     Abs,
     Add,
     Apply,
+    Cases,
     Condition,
     Der,
     Diff,
@@ -22,6 +23,7 @@ from derive.documents.syntax import (
     Letter,
     Mat,
     Mul,
+    Nabla,
     Node,
     Num,
     Open,
@@ -34,19 +36,24 @@ from derive.documents.syntax import (
 )
 from derive.documents.tokens import Kind, Token, tokens_of, without_spaces
 from derive.documents.vocabulary import (
+    AVERAGES,
     DECORATED,
+    DIFFERENTIALS,
     DOTS,
     ELLIPSES,
+    FREQUENT_DERIVATIVES,
     FUNCTIONS,
     GREEK,
     IGNORED,
     IGNORED_WITH_ARGUMENT,
+    IMAGINARY,
     INTEGRALS,
     MARKS,
     MATRICES,
     OPENERS,
     SAME_LETTER,
     TEXTS,
+    UNIT_COMMANDS,
     UNIT_WORDS,
 )
 
@@ -244,7 +251,9 @@ class _Reader:
         if token.kind in (Kind.CLOSE, Kind.CELL):
             return True
         if token.kind is Kind.MARK:
-            return not (token.text in "([|" and not (token.text == "|" and self.bar_closes()))
+            return not (token.text in "([|?" and not (token.text == "|" and self.bar_closes()))
+        if token.is_command("eval"):
+            return self.is_bar_with_limits()
         return token.is_command("right", "}", "rbrace", "rangle", "rvert", "rVert", "end", "pm", "mp", "\\")
 
     bars = 0
@@ -254,7 +263,7 @@ class _Reader:
 
     def is_bar_with_limits(self) -> bool:
         token, after = self.peek(), self.peek(1)
-        bar = token is not None and (token.is_mark("|") or token.is_command("vert", "|"))
+        bar = token is not None and (token.is_mark("|") or token.is_command("vert", "|", "eval"))
         return bar and after is not None and after.kind is Kind.SCRIPT and self.bars == 0
 
     def evaluated(self, inner: Node) -> Node:
@@ -274,20 +283,29 @@ class _Reader:
     def limit(self, tokens: list[Token], span: Span) -> Node:
         """Return a limit or condition: a value, or `x = value`."""
         tokens = without_spaces(tokens)
-        equals = next((i for i, each in enumerate(tokens) if each.is_mark("=")), None)
+        equals = _equals_sign(tokens)
         if equals:
-            left = self.inside(tokens[:equals], span)
+            letters = _split(tokens[:equals], lambda each: each.is_mark(","))
+            if len(letters) > 1 and all(letters):
+                left: Node = Vec(span, tuple(self.inside(each, span) for each in letters))
+            else:
+                left = self.inside(tokens[:equals], span)
             right = self.inside(tokens[equals + 1 :], span)
             return Condition(left.span.to(right.span), left, right)
+        letters = _split(tokens, lambda each: each.is_mark(","))
         try:
+            if len(letters) > 1 and all(len(each) == 1 for each in letters):
+                return Vec(span, tuple(self.inside(each, span) for each in letters))  # `\\sum_{i,j}`
             return self.inside(tokens, span)
         except Unreadable:
             return Text(span, "".join(each.text for each in tokens))
 
     def divide(self, factors: list[tuple[str, Node]]) -> None:
         """Read the denominator after a slash; a run of factors is open between `(a/b)c` and `a/(bc)`."""
-        top = _product(factors)
         self.skip_spacing()
+        if self.divided_differentials(factors):
+            return
+        top = _product(factors)
         if self.ends():
             raise Unreadable("a denominator is missing here", self.tokens[min(self.at, len(self.tokens) - 1)].span)
         first = self.factor()
@@ -309,6 +327,35 @@ class _Reader:
         far = Frac(span, top, _product(rest))
         factors[:] = [("", Open(span, "slash", (Mul(span, (("", near), *rest[1:])), far)))]
 
+    def divided_differentials(self, factors: list[tuple[str, Node]]) -> bool:
+        r"""Read the denominator of `\partial f/\partial x` or `df/dt`, if a differential stands before the slash."""
+        mark, top = factors[-1]
+        differential = top.alternatives[0] if isinstance(top, Open) and top.kind == "letter d" else top
+        if not isinstance(differential, Diff):
+            return False
+        begins = self.at
+        by: list[tuple[Node, int]] = []
+        while not self.ends() and (self.next_is("partial") if differential.partial else self.is_differential()):
+            bottom: Node = self.factor()
+            if isinstance(bottom, Open) and bottom.kind == "letter d":
+                bottom = bottom.alternatives[0]
+            order = 1
+            exponent = bottom.exponent if isinstance(bottom, Pow) else None
+            if isinstance(bottom, Pow) and isinstance(exponent, Num) and exponent.text.isdigit():
+                bottom, order = bottom.base, int(exponent.text)
+            if not isinstance(bottom, Diff) or bottom.partial != differential.partial or order > 9:
+                break
+            by.append((bottom.of, order))
+            if not differential.partial:
+                break
+        if not by:
+            self.at = begins
+            return False
+        alone = isinstance(differential.of, Text)
+        made = Der(top.span.to(by[-1][0].span), differential.partial, tuple(by), None if alone else differential.of)
+        factors[-1] = (mark, self.with_operand(made) if alone else made)
+        return True
+
     def with_operand(self, operator: Der) -> Node:
         """Return a derivative with the factor in brackets after it, or the rest of the product."""
         self.skip_spacing()
@@ -322,7 +369,7 @@ class _Reader:
             while not self.ends():
                 self.skip_spacing()
                 token = self.peek()
-                if token is None or token.is_mark("/"):
+                if token is None or token.is_mark("/") or self.ends():
                     break
                 mark = ""
                 if token.is_command("cdot", "times"):
@@ -402,8 +449,8 @@ class _Reader:
         token = self.peek()
         if token is None:
             return False
-        if token.is_command("dd", "diff", "differential"):
-            return True
+        if token.is_command(*DIFFERENTIALS):
+            return not self.has_two_groups(1)
         upright = token.is_command("mathrm", "rm", "text", "operatorname") and self.word_at(1) == "d"
         plain = token.kind is Kind.LETTER and token.text == "d"
         if not (upright or plain):
@@ -424,6 +471,14 @@ class _Reader:
         )
         return letter and (upright or self.in_integral or after.kind is Kind.COMMAND or after.text != "d")
 
+    def has_two_groups(self, ahead: int = 0) -> bool:
+        """Whether two arguments in braces follow: the second one is the variable of a derivative."""
+        at = self.at + ahead
+        if at >= len(self.tokens) or self.tokens[at].kind is not Kind.OPEN:
+            return False
+        _, after = argument_at(self.tokens, at)
+        return after < len(self.tokens) and self.tokens[after].kind is Kind.OPEN
+
     def word_at(self, ahead: int) -> str:
         value, _ = argument_at(self.tokens, self.at + ahead)
         return "".join(each.text for each in value if each.kind is not Kind.SPACE)
@@ -432,14 +487,14 @@ class _Reader:
         token = self.tokens[self.at]
         self.at += 1
         plain = token.kind is Kind.LETTER
-        if not plain and token.text not in ("dd", "diff", "differential"):
+        if not plain and token.text not in DIFFERENTIALS:
             _, self.at = argument_at(self.tokens, self.at)
         order = 1
         if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and script.text == "^":
             self.at += 1
             raised = self.argument()
             order = int(raised[0].text) if len(raised) == 1 and raised[0].text.isdigit() else 1
-        if token.text == "dd" and (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
+        if token.text in DIFFERENTIALS and (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
             of = self.inside(self.argument(), token.span)
         else:
             self.skip_spacing()
@@ -479,6 +534,10 @@ class _Reader:
             if token.is_mark("'"):
                 self.at += 1
                 node = self.primed(node, 1, token.span)
+                continue
+            if token.is_command("indices") and isinstance(node, Letter):
+                self.at += 1
+                node = replace(node, label=_joined(node.label, self.label(self.argument())))
                 continue
             if token.is_mark("!") and not isinstance(node, Text):
                 self.at += 1
@@ -547,11 +606,15 @@ class _Reader:
         if plain and (plain[0].is_command("circ", "degree", "textdegree") or "".join(t.text for t in plain) == "o"):
             return Fun(node.span.to(plain[0].span), "degrees", node)
         if plain and (
-            plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal") or plain[0].is_mark("*", "+")
+            plain[0].is_command(*TEXTS, "dagger", "ast", "star", "top", "intercal")
+            or plain[0].is_mark("*", "+")
+            or (len(plain) == 1 and plain[0].is_mark("-"))
         ):
             label = self.label(plain)
             if isinstance(node, Letter):
                 return replace(node, label=_joined(node.label, label))
+            if isinstance(node, Group | Mat | Vec | Frac):
+                return EvalBar(node.span.to(script.span), node, Text(script.span, label), None)
             raise Unreadable("a superscript in words can stand only at a letter", script.span)
         if plain and plain[0].is_mark("(") and plain[-1].is_mark(")") and isinstance(node, Letter):
             return replace(node, label=_joined(node.label, self.label(plain[1:-1])))
@@ -566,6 +629,8 @@ class _Reader:
         made = Pow(node.span.to(span), node, power)
         if isinstance(node, Num) and isinstance(power, Num) and power.text == "0":
             return Open(made.span, "superscript", (Fun(made.span, "degrees", node), made))
+        if isinstance(node, Letter) and isinstance(power, Letter) and not power.sub and not power.dots:
+            return Open(made.span, "superscript", (made, replace(node, label=_joined(node.label, power.base))))
         if isinstance(node, Letter) and isinstance(power, Mul) and _is_word(power):
             word = "".join(each.base for _, each in power.factors if isinstance(each, Letter))
             return Open(made.span, "superscript", (made, replace(node, label=_joined(node.label, word))))
@@ -609,6 +674,9 @@ class _Reader:
             return self.between_bars()
         if token.is_mark("<"):
             return self.bracketed()
+        if token.is_mark("?"):
+            self.at += 1
+            return Text(token.span, "?")
         if token.kind is Kind.COMMAND:
             return self.command(token)
         raise Unreadable(f"`{token.text}` was not expected here", token.span)
@@ -630,7 +698,7 @@ class _Reader:
             return self.fraction(top, bottom, self.since(token))
         if name == "sqrt" or name == "root":
             return self.root(token)
-        if name in ("dv", "pdv", "derivative", "pderivative", "odv", "fdv", "deriv", "pd", "od"):
+        if name in FREQUENT_DERIVATIVES or (name == "diff" and self.has_two_groups()):
             return self.short_derivative(token)
         if name in FUNCTIONS:
             return self.function(token, name)
@@ -653,7 +721,7 @@ class _Reader:
         if name in ("left", "{", "lbrace", "langle", "lvert", "lVert", "|", "vert", "Vert"):
             self.at -= 1
             return self.between_bars() if name in ("|", "vert", "Vert") else self.bracketed()
-        if name in ("abs", "norm", "qty", "pqty", "bqty", "Bqty", "vqty", "paren", "order"):
+        if name in ("abs", "norm", "qty", "pqty", "bqty", "Bqty", "vqty", "paren"):
             return self.quantity(token)
         if name in DECORATED:
             if name == "raisebox":
@@ -673,21 +741,37 @@ class _Reader:
             return self.environment(token)
         if name in ("infty",):
             return Letter(token.span, "infty")
-        if name in ("nabla", "grad", "div", "curl", "laplacian"):
-            return Text(token.span, "nabla")
-        if name in ("partial",):
+        if name in ("nabla", "grad", "curl", "laplacian"):
+            return self.nabla(token)
+        if name == "partial":
             return self.curly_differential(token)
+        if name in AVERAGES:
+            return self.average(token)
+        if name in IMAGINARY:
+            return Letter(token.span, "imaginary unit")
+        if name == "order":
+            self.skip_spacing()
+            group = self.bracketed() if self.next_is_mark("(") else self.inside(self.argument(), token.span)
+            return Fun(self.since(token), "order", group)
+        if name == "var":
+            return Letter(token.span, "delta")
+        if name == "eval":
+            inner = self.inside(self.argument(), token.span)
+            lower, upper = self.scripts()
+            return EvalBar(self.since(token), inner, lower, upper)
         if name in ELLIPSES:
             return Text(token.span, "...")
         if name in ("circ", "degree"):
             return Text(token.span, "degrees")
-        if name in ("ell", "hbar", "prime"):
+        if name in ("ell", "hbar", "prime", "angle", "triangle"):
             return Letter(token.span, name)
         if name in ("SI", "qty*", "si", "unit", "num", "ang"):
             return self.with_unit(token)
         if name in ("i", "j", "k"):
             return Letter(token.span, name)
-        if name in ("&", "%", "#", "$", "_"):
+        if name == "%":
+            return Frac(token.span, Num(token.span, "1"), Num(token.span, "100"))
+        if name in ("&", "#", "$", "_"):
             raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
@@ -697,14 +781,25 @@ class _Reader:
 
     def with_unit(self, token: Token) -> Node:
         if token.text in ("si", "unit"):
-            return Text(token.span, "unit " + self.label(self.argument()))
+            return Text(token.span, "unit " + self.unit(self.argument()))
         number = self.inside(self.argument(), token.span)
         if token.text == "ang":
             return Fun(number.span, "degrees", number)
         if token.text == "num":
             return number
-        unit = Text(token.span, "unit " + self.label(self.argument()))
+        unit = Text(token.span, "unit " + self.unit(self.argument()))
         return Mul(self.since(token), (("", number), ("", unit)))
+
+    def unit(self, tokens: list[Token]) -> str:
+        r"""Return a unit as a word: `m/s^2` for `m/s^2`, `m.s^{-2}` and `\\metre\\per\\second\\squared`."""
+        word = ""
+        for token in without_spaces(tokens):
+            if token.kind in (Kind.OPEN, Kind.CLOSE):
+                continue
+            piece = UNIT_COMMANDS.get(token.text, token.text) if token.kind is Kind.COMMAND else token.text
+            apart = token.kind is Kind.COMMAND and word and piece[0] not in "/^" and word[-1] not in "/kcM"
+            word += f" {piece}" if apart else piece.replace(".", " ")
+        return word
 
     def fraction(self, top: list[Token], bottom: list[Token], span: Span) -> Node:
         top, bottom = without_spaces(top), without_spaces(bottom)
@@ -782,10 +877,46 @@ class _Reader:
         return Der(self.since(token), partial, tuple((each, order) for each in letters), of)
 
     def curly_differential(self, token: Token) -> Node:
-        node = self.subscripted(self.atom()) if not self.ends() else Text(token.span, "partial")
-        if (script := self.peek()) is not None and script.kind is Kind.SCRIPT and isinstance(node, Text):
-            return Text(token.span, "partial")
-        return Text(token.span, "partial")
+        r"""Read `\partial f` before a slash, or the operator `\partial_x`."""
+        order = 1
+        while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+            self.at += 1
+            value = self.argument()
+            if script.text == "_":
+                letter = self.inside(value, script.span)
+                if not isinstance(letter, Letter):
+                    raise Unreadable("this is not a variable of differentiation", script.span)
+                return Der(self.since(token), True, ((letter, order),), None)
+            order = int(value[0].text) if len(value) == 1 and value[0].text.isdigit() else 1
+        self.skip_spacing()
+        if self.ends():
+            return Diff(token.span, Text(token.span, "partial"), order, partial=True)
+        atom = self.atom()
+        of = self.subscripted(atom) if isinstance(atom, Letter) else atom
+        return Diff(token.span.to(of.span), of, order, partial=True)
+
+    def nabla(self, token: Token) -> Node:
+        kind = {"curl": "times", "laplacian": "squared"}.get(token.text, "")
+        while (script := self.peek()) is not None and script.kind is Kind.SCRIPT:
+            self.at += 1
+            value = self.argument()
+            kind = "squared" if script.text == "^" and "".join(each.text for each in value) == "2" else kind
+        self.skip_spacing()
+        if self.next_is("cdot", "times", "vdot", "cross") and not kind:
+            kind = "cdot" if self.next_is("cdot", "vdot") else "times"
+            self.at += 1
+            self.skip_spacing()
+        if self.ends():
+            return Text(token.span, "nabla")
+        of = self.factor()
+        return Nabla(token.span.to(of.span), kind, of)
+
+    def average(self, token: Token) -> Node:
+        """Read an average or a product of states as one letter; nothing else is known about its value."""
+        words = [self.label(self.argument())]
+        while (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
+            words.append(self.label(self.argument()))
+        return Letter(self.since(token), "<" + "|".join(words) + ">")
 
     def root(self, token: Token) -> Node:
         index = None
@@ -810,6 +941,8 @@ class _Reader:
         if self.next_is_mark("*"):
             self.at += 1
         value = self.argument()
+        if len(value) == 1 and value[0].is_command("nabla"):
+            return self.nabla(value[0])
         inner = self.inside(value, token.span)
         while isinstance(inner, Group):
             inner = inner.inner
@@ -852,6 +985,12 @@ class _Reader:
             self.at += 1
             value = self.inside(self.argument(), script.span)
             power, base = (value, base) if script.text == "^" else (power, value)
+        number, close, after = self.peek(1), self.peek(2), self.peek(3)
+        if self.next_is_mark("[") and number is not None and close is not None and after is not None:
+            opens = after.is_mark("(") or after.is_command("left") or after.kind is Kind.OPEN
+            if number.kind is Kind.NUMBER and close.is_mark("]") and opens and power is None:
+                power = Num(number.span, number.text)  # `\sin[2](x)` of the package physics is a square
+                self.at += 3
         self.skip_spacing()
         while self.next_is(*IGNORED):
             self.skip_spacing()
@@ -1110,10 +1249,12 @@ class _Reader:
         return self.contents(inner, span, OPENERS.get(kind, ")") if kind != "." else ".")
 
     def contents(self, tokens: list[Token], span: Span, closing: str) -> Node:
+        if closing == ">" and not any(each.is_mark(",") for each in tokens):
+            return Letter(span, f"<{self.label(tokens)}>")  # an average
         pieces = _split(tokens, lambda each: each.is_mark(",", ";"))
         if len(pieces) > 1:
             return Vec(span, tuple(self.limit(each, span) if each else Text(span, "") for each in pieces), closing)
-        node = self.limit(tokens, span) if any(each.is_mark("=") for each in tokens) else self.inside(tokens, span)
+        node = self.limit(tokens, span) if _equals_sign(tokens) else self.inside(tokens, span)
         if isinstance(node, Mat):
             return node
         return Group(span, node, closing)
@@ -1150,7 +1291,8 @@ class _Reader:
             self.at += 1
         following = self.peek()
         if following is not None and following.kind is Kind.OPEN:
-            node = self.inside(self.argument(), token.span)
+            value = self.argument()
+            node = self.contents(value, self.since(token), "}") if value else self.inside(value, token.span)
         else:
             node = self.bracketed()
         return Abs(node.span, node) if token.text in ("abs", "norm", "vqty") else node if isinstance(
@@ -1170,6 +1312,8 @@ class _Reader:
             raise Unreadable(f"`\\begin{{{name}}}` is not closed", token.span)
         inner = self.tokens[after:close]
         _, self.at = argument_at(self.tokens, close + 1)
+        if name in ("cases", "dcases", "rcases"):
+            return self.cases(inner, self.since(token))
         if name not in MATRICES:
             raise Unreadable(f"`{name}` inside of a formula is not read", token.span)
         if name == "array":
@@ -1190,6 +1334,20 @@ class _Reader:
         if not rows:
             raise Unreadable("this matrix is empty", token.span)
         return Mat(self.since(token), tuple(rows), name in ("vmatrix",))
+
+    def cases(self, tokens: list[Token], span: Span) -> Node:
+        values, conditions = [], []
+        for row in _split(tokens, lambda each: each.is_command("\\", "cr", "newline")):
+            cells = _split(row, lambda each: each.kind is Kind.CELL)
+            value = without_spaces(cells[0])
+            while value and (value[-1].is_mark(",", ";") or value[-1].is_command("quad", "qquad", ",")):
+                value.pop()
+            if value:
+                values.append(self.inside(value, span))
+                conditions.append(" ".join(each.text for cell in cells[1:] for each in without_spaces(cell)))
+        if not values:
+            raise Unreadable("these cases are empty", span)
+        return Cases(span, tuple(values), tuple(conditions))
 
 
 def _without_empty_braces(tokens: list[Token]) -> list[Token]:
@@ -1219,6 +1377,16 @@ def _is_product_with_bracket(node: Node) -> bool:
     while isinstance(call, Pow | EvalBar):
         call = call.base if isinstance(call, Pow) else call.inner
     return isinstance(call, Apply) and not isinstance(call.arguments[0], Letter | Num | Condition)
+
+
+def _equals_sign(tokens: Sequence[Token]) -> int | None:
+    """Return the position of the first sign of equality outside of braces."""
+    depth = 0
+    for at, token in enumerate(tokens):
+        depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
+        if depth == 0 and token.is_mark("="):
+            return at
+    return None
 
 
 def _product(factors: Sequence[tuple[str, Node]]) -> Node:
@@ -1251,6 +1419,8 @@ def _head_of(tokens: Sequence[Token]) -> str | None:
         return "d"
     if tokens[0].is_command("partial"):
         return "partial"
+    if tokens[0].is_command(*DIFFERENTIALS):
+        return "d"
     if tokens[0].is_command("mathrm", "text", "operatorname", "rm"):
         value, _ = argument_at(tokens, 1)
         if "".join(each.text for each in value) == "d":

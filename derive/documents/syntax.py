@@ -127,6 +127,23 @@ class Der(Node):
 class Diff(Node):
     of: Node
     order: int = 1
+    partial: bool = False
+
+
+@dataclass(frozen=True)
+class Nabla(Node):
+    """A gradient, divergence (`cdot`), curl (`times`) or Laplacian (`squared`)."""
+
+    kind: str
+    of: Node
+
+
+@dataclass(frozen=True)
+class Cases(Node):
+    """Values, each with the words or the formula that say when it holds."""
+
+    values: tuple[Node, ...]
+    conditions: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -147,6 +164,8 @@ class Int(Node):
 
 @dataclass(frozen=True)
 class Sum(Node):
+    """A sum or product over an index, or over a list of indices."""
+
     name: str  # sum or prod
     index: Node | None
     lower: Node | None

@@ -8,7 +8,7 @@ def _words(text: str) -> frozenset[str]:
 
 
 GREEK = _words(
-    "varphi varepsilon varrho varsigma varpi imath jmath Re Im wp digamma hslash phi epsilon vartheta theta hbar ell "
+    "varphi varepsilon varrho varsigma varpi imath jmath wp digamma hslash phi epsilon vartheta theta hbar ell "
     "Delta Gamma Lambda Omega Phi Pi Psi Sigma Theta Xi alpha beta chi delta eta gamma iota kappa lambda mu nu omega "
     "pi psi rho sigma tau upsilon xi zeta"
 )
@@ -22,14 +22,16 @@ SAME_LETTER = {
 }
 FUNCTIONS = _words(
     "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin "
-    "acos atan ln log exp sgn sign det tr Tr min max arg cosec arsinh arcosh artanh"
+    "acos atan ln log exp sgn sign det tr Tr min max arg cosec Re Im arsinh arcosh artanh"
 )
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 MARKS = {
     "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
     "bar": "bar", "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "boldsymbol": "vec", "mathbf": "vec",
-    "bm": "vec", "vb": "vec", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
+    "bm": "vec", "vb": "vec", "vect": "vec", "vv": "vec", "mat": "vec", "uv": "hat",
+    "unitvec": "hat", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
     "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
+    "uvect": "hat",
 }  # fmt: skip
 TEXTS = _words(
     "text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf hbox symrm "
@@ -55,4 +57,17 @@ CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": 
 INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
 MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
 ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
+# Commands that many authors define alike; a definition in the document itself goes before them.
+DIFFERENTIALS = _words("dd diff differential d dif ud mathd")
+IMAGINARY = _words("I ii iu")
+AVERAGES = _words("braket ev expval mean avg expectationvalue ket bra mel innerproduct ip")
+FREQUENT_DERIVATIVES = _words(
+    "dv pdv derivative pderivative odv fdv deriv pd od pdiff pder pderiv parder partialderivative"
+)
+# The commands of the package siunitx, as units and as what stands between them.
+UNIT_COMMANDS = {
+    "newton": "N", "meter": "m", "metre": "m", "second": "s", "kilogram": "kg", "gram": "g", "joule": "J", "watt": "W",
+    "radian": "rad", "hertz": "Hz", "pascal": "Pa", "kelvin": "K", "ampere": "A", "minute": "min", "hour": "h",
+    "degree": "deg", "kilo": "k", "centi": "c", "milli": "m", "mega": "M", "per": "/", "squared": "^2", "cubed": "^3",
+}  # fmt: skip
 UNIT_WORDS = _words("sec min rad rpm RPM rev deg kg cm mm km ms Hz kHz hr yr mol Pa")

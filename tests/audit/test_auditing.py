@@ -117,11 +117,96 @@ def test_a_row_that_follows_from_a_wrong_row_carries_its_slip_on() -> None:
         "$S^2 \\geq 4 a \\geq 3 a$",
         "$\\dot\\phi = 49.98 \\pm 48.40$ or $\\dot\\phi = 98.38$ or $1.58$",
         "$\\int_V \\rho \\, dV = M = \\rho V$",
+        "The commutator is $k [X, P^2] = k (P [X, P] + [X, P] P) = 2 k h P$.",
+        "The Poisson bracket is $\\{f, g h\\} = \\{f, g\\} h + g \\{f, h\\}$, so $\\{f, g^2\\} = 2 g \\{f, g\\}$.",
+        "The inner product has $\\langle a, c b \\rangle = c \\langle a, b \\rangle = c d$.",
+        "$\\mathbf{J} = \\begin{pmatrix} \\mathbf{0} & \\mathbf{I} \\\\ -\\mathbf{I} & \\mathbf{0} \\end{pmatrix}$, "
+        "so $\\mathbf{J}^T = \\mathbf{J}^{-1} = -\\mathbf{J}$",
+        "$z_i = x_i$, so $Y = \\sum_i z_i y_i = \\sum_i x_i y_i$",
+        "$x_\\nu x^\\nu = s$, so $a = 4 x_\\nu x^\\nu - 2 x^\\nu x_\\nu = 2 x_\\nu x^\\nu$",
         "$f(x) = x^2$, so $f(a+h) = a^2 + 2 a h + h^2$",
     ],
 )
 def test_what_is_not_known_is_not_accused(text: str) -> None:
     assert wrong(text) == []
+
+
+def test_a_motion_that_satisfies_its_equation_holds() -> None:
+    text = "$$ \\ddot x = -\\omega^2 x $$\n\n$$ x = A \\cos\\omega t + B \\sin\\omega t $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("A \\cos\\omega t", "A \\cos 2\\omega t"))[-1] != "holds"
+
+
+def test_an_equation_of_motion_follows_from_the_lagrangian_alone() -> None:
+    text = "$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$\n\n$$ m \\ddot x + k x = 0 $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("m \\ddot x + k", "m \\ddot x + 2 k"))[-1] != "holds"
+
+
+def test_a_row_goes_on_from_the_chain_and_not_from_an_aside() -> None:
+    text = (
+        "\\begin{align*}\nT &= m a^2 \\omega^2 \\qquad \\text{where } \\omega^2 = \\frac{g}{a} \\\\\n&= m g a\n"
+        "\\end{align*}"
+    )
+    assert outcomes(text) == ["defines", "defines", "holds"]
+
+
+def test_an_absolute_value_holds_for_one_sign() -> None:
+    (claim,) = audit("$\\sqrt{(L - x)^2} = L - x$").claims
+    assert claim.verdict is not None and claim.verdict.because == "the two sides are equal if L - x > 0"
+
+
+def test_a_letter_is_used_again_in_another_part() -> None:
+    assert outcomes("(a) $x = a^2$\n\n(b) $x = a^3$") == ["defines", "defines"]
+    assert outcomes("We find $x = a^2$ and $x = a^3$") == ["defines", "undecided"]
+
+
+def test_a_result_that_is_copied_wrongly_is_found() -> None:
+    text = "(a) $T = \\frac{1}{2} m v^2 + m g h$\n\n(b) From part (a) we found $T = \\frac{1}{2} m v + m g h$."
+    (claim,) = wrong(text)
+    assert claim.verdict is not None and claim.verdict.suggestion == "v^2 instead of v"
+    assert wrong(text.replace("we found", "it is clear that now").replace("From part (a)", "Here")) == []
+
+
+def test_a_case_of_a_sentence_is_not_a_definition() -> None:
+    text = (
+        "$w = a + b$ and $s = w R$. In the limiting case $R = b$ we get $s = w b$.\n\n"
+        "$$\\begin{aligned} s &= w R \\\\ &= (a + b) R \\end{aligned}$$"
+    )
+    assert outcomes(text)[-2:] == ["holds", "holds"] and wrong(text) == []
+
+
+def test_a_value_at_a_place_is_not_the_value_elsewhere() -> None:
+    text = "$$ U = k x^2 $$\n\n$$ \\left.\\frac{dU}{dx}\\right|_{x=a} = 2 k a $$"
+    assert outcomes(text)[-1] == "holds"
+    assert outcomes(text.replace("= 2 k a", "= 2 k x"))[-1] != "holds"
+
+
+def test_a_momentum_stays_fixed_in_a_derivative_by_a_coordinate() -> None:
+    text = (
+        "$$ l = m r^2 \\dot\\phi $$\n\n$$ U = \\frac{l^2}{2 m r^2} + \\frac12 k r^2 $$\n\n"
+        "$$ \\frac{dU}{dr} = -\\frac{l^2}{m r^3} + k r $$"
+    )
+    assert outcomes(text)[-1] == "holds"
+
+
+def test_an_example_with_numbers_is_real() -> None:
+    (claim,) = wrong("$$\\begin{aligned} E &= \\sqrt{1 - v^2} \\\\ &= 2 \\sqrt{1 - v^2} \\end{aligned}$$")
+    assert claim.verdict is not None and "I" not in claim.verdict.counterexample
+
+
+def test_the_order_of_the_terms_that_are_left_out_is_compared() -> None:
+    text = "$\\sqrt{1 + y^2} = 1 + \\frac{y^2}{2} + \\mathcal{O}(y^4)$"
+    (claim,) = audit(text).claims
+    assert claim.verdict is not None and claim.verdict.because == "the error is of order 4 in `y`"
+    ((slip,)) = audit(
+        "$$\\begin{aligned} E &= \\sqrt{1 + y^2} \\\\ &= 1 - \\frac{y^2}{2} + \\mathcal{O}(y^4) \\end{aligned}$$"
+    ).claims[1:]
+    assert slip.verdict is not None and str(slip.verdict.outcome) == "differs"
+
+
+def test_a_blank_is_not_a_claim() -> None:
+    assert outcomes("$p = ?$ and $q = a$") == ["defines"]
 
 
 def test_a_number_set_equal_to_a_list_is_a_slip() -> None:
@@ -160,6 +245,18 @@ def test_json_has_each_row_with_its_verdict() -> None:
         "suggestion",
         "inherits",
     } == set(data["rows"][0])
+
+
+def test_the_page_has_notes_beside_the_lines_of_the_document() -> None:
+    page = as_html(audit(RIGHT.replace(r"\frac{x^3}{3}", r"\frac{x^3}{2}", 1)))
+    line = page.partition('id="L8"')[2].partition("</div>")[0]
+    assert "Read as" in line and line.index("Read as") < line.index("Probably 3 instead of 2: a number was mistyped.")
+    assert '<a href="#L8">8</a>' in page and "A rod of mass $M$" in page
+    assert "I found nothing to correct." in as_html(audit(RIGHT))
+
+
+def test_every_row_shows_the_evidence_for_its_reading() -> None:
+    assert "`f(a)`: " in as_text(audit("$f(x) = x^2$ and $f(a) = a^2$"), every=True)
 
 
 def test_the_page_escapes_what_the_document_says() -> None:

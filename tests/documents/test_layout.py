@@ -7,7 +7,7 @@ import pytest
 from derive.documents.layout import Cue, read_document
 from derive.documents.source import Format, source_of
 from derive.documents.tokens import MOST_TOKENS
-from tests.documents.reading import document
+from tests.documents.reading import document, values
 
 
 def relations(text: str, kind: Format = Format.MARKDOWN) -> list[list[str]]:
@@ -77,3 +77,19 @@ def test_a_row_has_the_line_of_its_formula() -> None:
         5,
         6,
     ]
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        "\\begin{cases} N = m g \\\\ F = \\mu N \\end{cases}",
+        "\\left\\{ \\begin{array}{l} N = m g \\\\ F = \\mu N \\end{array} \\right.",
+    ],
+)
+def test_a_system_behind_a_brace_has_an_equation_in_each_row(system: str) -> None:
+    assert values(f"$$ {system} $$") == [("N", "g*m"), ("F", "N*mu")]
+
+
+def test_a_list_in_braces_is_not_a_system() -> None:
+    ((_, right),) = values("$$ L = \\left\\{ \\begin{array}{l} a \\\\ b \\end{array} \\right\\} $$")
+    assert right == "Matrix([[a], [b]])"

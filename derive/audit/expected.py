@@ -1,0 +1,307 @@
+"""The comparison of a document with the results of a derivation, so that a wrong method is found, too.
+
+The results arrive as LaTeX and are read like the rows of the document, so that both are written in the same letters.
+Each problem is compared with the one section that contains most of its results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import sympy
+from sympy import Abs as AbsoluteValue
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.deciding import Decision, is_multiple, same
+from derive.audit.known import Known
+from derive.audit.limited import FAULTS, OutOfTime, limited
+from derive.documents.choices import readings
+from derive.documents.facts import Facts
+from derive.documents.layout import read_document
+from derive.documents.meaning import Meaning, Meaningless, Value
+from derive.documents.parser import Unreadable, parsed
+from derive.documents.source import Format, source_of
+from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
+
+SECONDS = 5.0  # of processor time for one result
+LEAST_SCORE = 3  # steps that a section states; a second solution may have fewer of them than the first
+NAMED = (Letter, Abs, Der, EvalBar, Fun)
+
+
+@dataclass(frozen=True)
+class Expected:
+    """A result of a derivation; `asked` if it is an answer to a part of the problem."""
+
+    problem: str
+    key: str
+    latex: str
+    asked: bool = True
+
+
+class Status(StrEnum):
+    FOUND = "found"
+    DIFFERS = "differs"
+    MISSING = "not found"
+    UNREAD = "not compared"
+
+
+@dataclass
+class Compared:
+    """A result, whether the document contains it, and the number of the claim that contains or contradicts it."""
+
+    expected: Expected
+    status: Status
+    claim: int | None = None
+
+
+@dataclass(frozen=True)
+class _Result:
+    """A result in the letters of the document: the value of `name`, or an equation or condition without a name."""
+
+    expected: Expected
+    name: Node
+    relation: str
+    left: Value
+    right: Value
+
+    @property
+    def is_named(self) -> bool:
+        return self.relation in ("=", "~") and isinstance(self.name, NAMED)
+
+    @property
+    def symbols(self) -> set[Symbol]:
+        is_equation = not self.is_named and not isinstance(self.left, MatrixBase)
+        return set(self.left.free_symbols | self.right.free_symbols if is_equation else self.right.free_symbols)
+
+    @property
+    def entries(self) -> list[Expr]:
+        """Return the different entries of a list or matrix that are not zero or one."""
+        if not isinstance(self.right, MatrixBase):
+            return []
+        return [each for each in dict.fromkeys(self.right) if each.free_symbols]
+
+
+def compared(
+    claims: Sequence[Claim],
+    scopes: Sequence[int],
+    known: dict[int, Known],
+    facts: Facts,
+    meaning_of: Callable[[int], Meaning],
+    expected: Iterable[Expected],
+) -> list[Compared]:
+    """Return what the document says about each answer, and set the verdict of the claims that contradict one.
+
+    scopes       the scope of each claim
+    known        what the rows of each scope gave
+    meaning_of   the meaning of letters in a scope
+    """
+    problems: dict[str, list[Expected]] = {}
+    for each in expected:
+        problems.setdefault(each.problem, []).append(each)
+    found: list[Compared] = []
+    for results in problems.values():
+        sections = []
+        for scope in known:
+            here = [claim for claim, number in zip(claims, scopes, strict=True) if number == scope]
+            section = _Section(here, known[scope], [_read(each, facts, meaning_of(scope)) for each in results], facts)
+            sections.append((section.score(), section))
+        scores = [score for score, _ in sections]
+        best = scores.index(max(scores)) if scores else 0
+        near = [
+            section
+            for at, (score, section) in enumerate(sections)
+            if at == best or score >= LEAST_SCORE or (abs(at - best) == 1 and score > 0)
+        ]
+        found += [_of(each, near) for each in results if each.asked]
+    return found
+
+
+def _of(expected: Expected, sections: list[_Section]) -> Compared:
+    """Return where the sections state an answer; a row with another value is blamed if it is the last of its letter."""
+    found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
+                     Status.MISSING)  # fmt: skip
+    for section in sections:
+        try:
+            with limited(SECONDS):
+                section.compare(found)
+        except OutOfTime:
+            found.status = Status.UNREAD if found.status is Status.MISSING else found.status
+    return found
+
+
+def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
+    """Return a result with the values of its sides, or None if derive's own LaTeX is not read."""
+    document = read_document(source_of(f"$${expected.latex}$$", Format.TEX))
+    statements = [statement for row in document.rows for statement in row.statements]
+    if len(statements) != 1 or len(statements[0].sides) != 2:
+        return None
+    relation = statements[0].relations[0]
+    try:
+        left, right = (readings(parsed(side.tokens), facts)[0][0] for side in statements[0].sides)
+        value = meaning.of(right)
+        is_named = relation in ("=", "~") and isinstance(left, NAMED)
+        name = sympy.Integer(0) if is_named else meaning.of(left)
+    except (Unreadable, Meaningless, *FAULTS):
+        return None
+    return _Result(expected, left, relation, name, value)
+
+
+def _is_equal(result: _Result, claim: Claim) -> bool:
+    """Whether a claim states a result, in the letters in which both are written."""
+    if claim.values is None:
+        return False
+    return _states(result, claim, *claim.values, result.left, result.right)
+
+
+def _states(result: _Result, claim: Claim, left: Value, right: Value, name: Value, value: Value) -> bool:
+    try:
+        if result.is_named:
+            trivial = isinstance(value, Expr) and value.is_Integer
+            if trivial and not _has_name(claim, result.name):
+                return False
+            return any(type(each) is type(value) or _both_scalar(each, value) for each in (left, right)) and (
+                any(_comparable(each, value) and same(each, value) for each in (left, right))
+            )
+        if any(isinstance(each, MatrixBase) for each in (left, right, name, value)):
+            return False
+        if claim.relation == "=" and result.relation == "=":
+            return is_multiple(sympy.expand(left - right), sympy.expand(name - value))
+        return _same_condition(claim.relation, left - right, result.relation, name - value)
+    except FAULTS:
+        return False
+
+
+def _both_scalar(one: Value, other: Value) -> bool:
+    return not isinstance(one, MatrixBase) and not isinstance(other, MatrixBase)
+
+
+def _comparable(one: Value, other: Value) -> bool:
+    if isinstance(one, MatrixBase) and isinstance(other, MatrixBase):
+        return bool(one.shape == other.shape)
+    return _both_scalar(one, other)
+
+
+def _same_condition(relation: str, difference: Expr, wanted: str, other: Expr) -> bool:
+    """Whether two inequalities are the same up to a positive factor."""
+    if relation[:1] not in "<>" or wanted[:1] not in "<>":
+        return False
+    signs = [1 if each[:1] == ">" else -1 for each in (relation, wanted)]
+    ratio = sympy.simplify(difference * signs[0] / (other * signs[1]))
+    return bool(ratio.is_positive)
+
+
+def _has_name(claim: Claim, name: Node) -> bool:
+    """Whether the first side of the chain of a claim is the letter of a result, whatever its marks are."""
+    head = claim
+    while head.before is not None:
+        head = head.before
+    one, other = head.left, name
+    if isinstance(one, Abs) and isinstance(other, Abs):
+        one, other = one.inner, other.inner
+    if not isinstance(one, Letter) or not isinstance(other, Letter):
+        return False
+    return (one.base, one.sub, one.dots, one.primes) == (other.base, other.sub, other.dots, other.primes)
+
+
+class _Section:
+    """The claims of one scope, with which the results of one problem are compared."""
+
+    def __init__(self, claims: list[Claim], known: Known, results: list[_Result | None], facts: Facts):
+        self.claims, self.known, self.facts = claims, known, facts
+        self.results = {result.expected.key: result for result in results if result is not None}
+        asked = [result.symbols for result in self.results.values() if result.expected.asked]
+        self.allowed = set[Symbol]().union(*asked)
+        goes_on = {id(claim.before) for claim in claims if claim.before is not None}
+        self.last = [claim for claim in claims if id(claim) not in goes_on]
+
+    def score(self) -> int:
+        """Return how many steps of the derivation the section states."""
+        return sum(any(_is_equal(result, claim) for claim in self.claims) for result in self.results.values())
+
+    def compare(self, found: Compared) -> None:
+        result = self.results.get(found.expected.key)
+        if result is None:
+            return
+        stated = next((claim for claim in self.claims if _is_equal(result, claim)), None)
+        stated = stated or next((claim for claim in self.claims if self.states(result, claim)), None)
+        stated = stated or self.entries_of(result)
+        if stated is not None and found.status is not Status.DIFFERS:
+            found.status, found.claim = Status.FOUND, stated.number
+        wrong = [] if not result.is_named else [
+            claim for claim in self.last
+            if _has_name(claim, result.name) and self.contradicts(result, claim, found.claim)
+        ]  # fmt: skip
+        for claim in wrong if found.claim is not None else wrong[-1:]:
+            self.blame(result, claim)
+            found.status, found.claim = Status.DIFFERS, claim.number
+
+    def entries_of(self, result: _Result) -> Claim | None:
+        """Return the last of the claims that state the entries of a list or matrix one by one."""
+        found = None
+        for entry in result.entries:
+            found = next((claim for claim in self.claims if claim.values is not None and any(
+                isinstance(each, Expr) and same(each, entry) for each in claim.values
+            )), None)  # fmt: skip
+            if found is None:
+                return None
+        return found
+
+    def states(self, result: _Result, claim: Claim) -> bool:
+        """Whether a claim states a result when the definitions of the document are put in, or to the printed digits."""
+        if claim.values is None:
+            return False
+        if any(_states(result, claim, *values) for values in self.expanded(result, claim)):
+            return True
+        return result.is_named and self.is_rounded(result, claim)
+
+    def expanded(self, result: _Result, claim: Claim) -> Iterator[tuple[Value, Value, Value, Value]]:
+        assert claim.values is not None
+        for values, _ in self.known.expanded(*claim.values, result.left, result.right):
+            left, right, name, value = values
+            yield left, right, name, value
+
+    def is_rounded(self, result: _Result, claim: Claim) -> bool:
+        assert claim.values is not None
+        if not claim.decimals or not _comparable(claim.values[1], result.right):
+            return False
+        meaning = Meaning(self.facts, decimals=list(claim.decimals))
+        decision = Decision(claim, result.right, claim.values[1], meaning, self.known, frozenset())
+        return decision.rounded() is not None
+
+    def contradicts(self, result: _Result, claim: Claim, stated: int | None) -> bool:
+        """Whether the last value of a letter is another one than the derived value, in the same letters."""
+        if claim.values is None or claim.relation not in ("=", "~") or (stated is not None and claim.number <= stated):
+            return False
+        value = claim.values[1]
+        if not _comparable(value, result.right) or _is_equal(result, claim) or self.states(result, claim):
+            return False
+        pairs = [(value, result.right), *((right, wanted) for _, right, _, wanted in self.expanded(result, claim))]
+        written, wanted = pairs[-1]
+        if bool(written.free_symbols) != bool(wanted.free_symbols):
+            return False
+        if stated is not None and written.free_symbols < wanted.free_symbols:
+            return False  # perhaps a special case
+        return any(one.free_symbols <= self.allowed for one, _ in pairs)
+
+    def blame(self, result: _Result, claim: Claim) -> None:
+        problem, latex = result.expected.problem, result.expected.latex
+        because = f"the derivation of {problem} gives ${latex}$"
+        before = claim.verdict
+        if before is not None and before.outcome is Outcome.DIFFERS:
+            before.because += f"; {because}"
+            return
+        inherits = before.inherits if before is not None else None
+        claim.verdict = Verdict(Outcome.DIFFERS, because, inherits=inherits, choices=before.choices if before else ())
+        value = claim.values[1] if claim.values is not None else None
+        if isinstance(value, Expr) and isinstance(result.right, Expr) and result.right != 0:
+            ratio = sympy.simplify(value / result.right)
+            if ratio == -1:
+                claim.verdict.why_plausible = "the sign is turned"
+            elif ratio.is_number and ratio.is_Rational:
+                claim.verdict.why_plausible = f"the row is {AbsoluteValue(ratio)} times the derived result"
+
+
+__all__ = ["Compared", "Expected", "Status", "compared"]

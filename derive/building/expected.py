@@ -1,0 +1,25 @@
+"""The results of a problem as LaTeX, with which `derive audit --problem` compares a document."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from derive.audit.expected import Expected
+from derive.building.solution import derived
+from derive.course.problem import load_problem
+from derive.render.notation.latex import latex
+from derive.render.notation.notation import Notation
+from derive.render.printing.said import named_result
+from derive.steps.homogeneity import dimension_table
+
+
+def expected_results(root: Path, problem_id: str) -> list[Expected]:
+    """Derive a problem and return its steps; those that answer a part are marked as asked."""
+    problem = load_problem(root, problem_id)
+    derivation, *_ = derived(problem)
+    notation = Notation(dimension_table(problem.dimensions, derivation.steps)[0])
+    asked = {step.key for part in problem.parts for step in derivation.answering(part.answers)}
+    return [
+        Expected(problem_id, step.key, latex(named_result(step, notation)), step.key in asked)
+        for step in derivation.steps
+    ]

@@ -1,0 +1,116 @@
+"""The audit compares a document with the answers of a derivation, and takes assumptions and kinds of letters."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.audit.assumed import assumed_of
+from derive.audit.auditing import Audit, audited
+from derive.audit.expected import Expected, Status
+from derive.audit.report import as_data, as_text, exit_code
+from derive.cli.options import main
+from derive.errors import Misused
+from tests.documents.reading import document
+
+FREQUENCY = Expected("set/rod", "frequency", r"\omega_{0}=\sqrt{\frac{3g}{2l}}")
+INERTIA = Expected("set/rod", "inertia", r"I=\frac{1}{3}\,Ml^{2}")
+WRONG_METHOD = r"""
+The inertia about the end is $I = \frac{1}{12} M l^2$.
+
+$$ I \ddot\theta = -\frac{1}{2} M g l \theta $$
+
+$$ \omega_0^2 = \frac{M g l}{2 I}, \qquad \omega_0 = \sqrt{\frac{6 g}{l}} $$
+"""
+
+
+def compare(text: str, *expected: Expected) -> Audit:
+    return audited(document(text), expected=expected)
+
+
+def test_a_wrong_method_with_correct_algebra_is_found() -> None:
+    found = compare(WRONG_METHOD, FREQUENCY, INERTIA)
+    assert [each.status for each in found.compared] == [Status.DIFFERS, Status.DIFFERS]
+    told = as_text(found, every=False)
+    assert "the derivation of set/rod gives" in told and exit_code(found) == 1
+    assert exit_code(audited(document(WRONG_METHOD))) == 0
+
+
+def test_a_right_result_is_found_in_another_form_and_after_definitions() -> None:
+    text = WRONG_METHOD.replace(r"\frac{1}{12}", r"\frac{1}{3}").replace(r"\sqrt{\frac{6 g}{l}}", r"\sqrt{1.5 g/l}")
+    found = compare(text, FREQUENCY, INERTIA)
+    assert [each.status for each in found.compared] == [Status.FOUND, Status.FOUND]
+
+
+def test_an_equation_of_motion_is_found_up_to_a_factor() -> None:
+    expected = Expected("set/rod", "motion", r"\frac{1}{3}\,Ml^{2}\ddot{\theta}+\frac{1}{2}\,Mgl\sin \theta=0")
+    (found,) = compare(r"$$ \ddot\theta = -\frac{3 g}{2 l} \sin\theta $$", expected).compared
+    assert found.status is Status.FOUND
+    (found,) = compare(r"$$ \ddot\theta = -\frac{g}{2 l} \sin\theta $$", expected).compared
+    assert found.status is Status.MISSING
+
+
+def test_a_condition_is_found_in_another_form() -> None:
+    expected = Expected("set/slab", "stable", r"R>\frac{a}{2}")
+    (found,) = compare("$$ M g (2 R - a) > 0 $$", expected).compared
+    assert found.status is Status.FOUND
+    (found,) = compare("$$ M g (2 R - a) < 0 $$", expected).compared
+    assert found.status is Status.MISSING
+
+
+def test_a_general_formula_and_a_special_case_do_not_contradict_an_answer() -> None:
+    text = (
+        r"In general $\omega_0 = \sqrt{k/m}$. Here $\omega_0 = \sqrt{3 g/(2 l)}$. For $l = g$ we get $\omega_0 = 1.22$."
+    )
+    (found,) = compare(text, FREQUENCY).compared
+    assert found.status is Status.FOUND
+
+
+def test_the_answers_are_part_of_the_data() -> None:
+    data = as_data(compare(WRONG_METHOD, FREQUENCY))
+    assert data["answers"][0]["status"] == "differs" and data["answers"][0]["line"] == 6
+
+
+def test_a_document_is_compared_with_a_problem(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "worked.md"
+    file.write_text(
+        r"$$ (m_1 + m_2) \ddot x = (m_1 - m_2) g $$" + "\n\n" + r"$$ S = \frac{m_1 m_2 g}{m_1 + m_2} $$",
+        encoding="utf-8",
+    )
+    assert main(["audit", str(file), "--problem", "library/atwood"]) == 1
+    told = capsys.readouterr().out
+    assert "differs in line 3: S" in told and "1/2 times the derived result" in told
+
+
+DENSITY = r"""
+$$ J = \int_0^a \rho\, 6 a^2 x^2 \, dx = \frac{1}{3} M a^2 $$
+"""
+
+
+def test_an_assumption_decides_a_row(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "worked.md"
+    file.write_text(DENSITY, encoding="utf-8")
+    main(["audit", str(file), "--format", "json"])
+    assert "holds" not in [row["verdict"] for row in json.loads(capsys.readouterr().out)["rows"]]
+    assert main(["audit", str(file), "--assume", "rho = M/(6 a^3)", "-v"]) == 0
+    assert "1 hold" in capsys.readouterr().out
+    assert main(["audit", str(file), "--assume", "rho = M/(3 a^3)"]) == 1
+
+
+@pytest.mark.parametrize("text", ["rho", "a = b = c", "a = ", "__import__('os') = 1 +", "a = \\write18{x}"])
+def test_an_assumption_that_is_not_an_equation_is_an_error(text: str) -> None:
+    with pytest.raises(Misused):
+        assumed_of(text)
+
+
+def test_the_kinds_of_letters_are_declared(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, symbols = tmp_path / "worked.md", tmp_path / "letters.yaml"
+    file.write_text(r"$\frac{d}{dt} (m u^2) = 2 m u \dot u$ and $\cos k\pi = (-1)^k$", encoding="utf-8")
+    symbols.write_text("k: integer\nu: changes\nm: constant\n", encoding="utf-8")
+    assert main(["audit", str(file), "--symbols", str(symbols)]) == 0
+    assert "2 hold" in capsys.readouterr().out
+    symbols.write_text("k: number\n", encoding="utf-8")
+    assert main(["audit", str(file), "--symbols", str(symbols)]) == 2
+    assert "not a kind" in capsys.readouterr().err
