@@ -37,6 +37,7 @@ class Unread(Exception):
     def __init__(self, message: str, span: Span | None = None):
         super().__init__(message)
         self.message, self.span = message, span
+        self.source: Source | None = None
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,14 @@ def typed(text: str, names: Names) -> Typed:
     if odd := re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]", text):
         raise Unread("this character is not part of a formula", Span(odd.start(), odd.end()))
     source = source_of(text, Format.PLAIN, "answer")
+    try:
+        return _typed(source, names)
+    except Unread as error:
+        error.source = error.source or source
+        raise
+
+
+def _typed(source: Source, names: Names) -> Typed:
     notes: list[str] = []
     _tidy(source, names, notes)
     tokens = tokens_of(source.text)

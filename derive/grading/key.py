@@ -1,0 +1,271 @@
+"""The answers that a problem asks for, as far as a grader needs them: values, dimensions, numbers, and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from sympy import Expr, Integer, MatrixBase, MatrixSymbol, Symbol
+
+from derive.algebra.amplitudes import Amplitudes
+from derive.algebra.dimensions import Dimension
+from derive.algebra.equality import Grade
+from derive.algebra.expressions import (
+    PLUS_MINUS,
+    TIME,
+    Amount,
+    At,
+    BodyRate,
+    CarriedRate,
+    Relation,
+    Slope,
+    TimeRate,
+    explicit,
+    rate,
+)
+from derive.algebra.kinds import dimension_of_kind
+from derive.algebra.order import Order
+from derive.algebra.ranges import Range
+from derive.algebra.rounding import Rounded
+from derive.course.problem import Problem
+from derive.grading.names import Names, parts_of
+from derive.render.notation.notation import Notation
+from derive.render.notation.text import in_one_line
+from derive.render.printing.said import named_result
+from derive.steps.derivation import Derivation
+from derive.steps.homogeneity import dimension_of, dimension_table
+from derive.steps.step import Step
+
+_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these defines it
+FAULTS = (ValueError, TypeError, AttributeError, NotImplementedError, KeyError, ArithmeticError)
+
+
+@dataclass(frozen=True)
+class Number:
+    """The exact number of an answer in the SI, and the unit and the figures that the problem asks for."""
+
+    exact: Expr
+    unit: str = ""
+    factor: Expr = Integer(1)
+    figures: int = 4
+
+
+@dataclass(frozen=True)
+class Target:
+    """One answer of a part.
+
+    symbol   the name of the answer, if it has one: a symbol, or an expression such as tan(delta)
+    value    a formula, a matrix or a relation
+    of_set   whether the value is a set of numbers, in any order
+    scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
+    own      its points in the rubric; `whole` also has the points of the steps before it
+    """
+
+    key: str
+    label: str
+    symbol: Any
+    value: Any
+    kind: str | None
+    dimension: Dimension | None
+    text: str
+    number: Number | None = None
+    of_set: bool = False
+    scaled: bool = False
+    own: Fraction = Fraction(1)
+    whole: Fraction = Fraction(1)
+
+    @property
+    def is_relation(self) -> bool:
+        return isinstance(self.value, Relation)
+
+
+@dataclass(frozen=True)
+class Part:
+    label: str
+    targets: tuple[Target, ...]
+    extra: bool = False
+
+
+@dataclass(frozen=True)
+class Key:
+    """The answers of a problem, part by part, and what is known about its symbols.
+
+    steps         each step of the derivation with its value, to recognise an answer to something else
+    definitions   the value of each symbol that a step introduces
+    allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
+    points        whether the problem has points; without points each answer counts 1
+    """
+
+    problem: str
+    parts: tuple[Part, ...]
+    steps: tuple[Target, ...]
+    names: Names
+    wholes: Mapping[tuple[str, str], MatrixBase]
+    definitions: Mapping[Symbol, Expr]
+    allowed: frozenset[Symbol]
+    dimensions: Mapping[Any, Dimension | None]
+    coordinates: frozenset[Symbol]
+    ranges: Mapping[Symbol, Range]
+    order: Order
+    points: bool = False
+    notation: Notation = field(default_factory=Notation, compare=False, repr=False)
+
+    def part(self, label: str) -> Part | None:
+        """Return a part by its label: `b`, `(b)`, `B`, `2` or `part b`."""
+        plain = label.strip().lower().removeprefix("part").strip(" ().:")
+        known = {part.label: part for part in self.parts}
+        if plain in known:
+            return known[plain]
+        return self.parts[int(plain) - 1] if plain.isdecimal() and 0 < int(plain[:4]) <= len(self.parts) else None
+
+    @cached_property
+    def targets(self) -> tuple[Target, ...]:
+        return tuple(target for part in self.parts for target in part.targets)
+
+
+def key_of(
+    problem: Problem,
+    derivation: Derivation,
+    values: Mapping[str, Step],
+    credits: Mapping[str, Mapping[str, Fraction]] | None = None,
+) -> Key:
+    """Return the key of a derived problem; `credits` are the points of each step of the rubric, by label and key."""
+    dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
+    notation = Notation(dimensions)
+    made = _Making(problem, derivation, values, dimensions, notation)
+    parts = []
+    for index, part in enumerate(problem.parts):
+        label = chr(ord("a") + index)
+        steps = derivation.answering(part.answers)
+        points = dict((credits or {}).get(label, {}))
+        targets = [made.target(step, label) for step in steps]
+        parts.append(Part(label, tuple(_with_points(targets, points)), part.extra))
+    moving = {q for step in derivation.steps for q, _ in step.coordinates}
+    return Key(
+        problem.id, tuple(parts), tuple(made.target(step, made.label_of(step)) for step in derivation.steps),
+        Names.of(made.symbols), made.wholes, made.definitions, frozenset(made.allowed), dimensions, frozenset(moving),
+        problem.ranges, problem.order, bool(credits), notation,
+    )  # fmt: skip
+
+
+def _with_points(targets: list[Target], points: Mapping[str, Fraction]) -> Iterator[Target]:
+    """Divide the points of a part among its answers: each has its own points, and shares those of the other steps."""
+    from dataclasses import replace
+
+    total = sum(points.values(), Fraction(0))
+    if not total:
+        yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
+        return
+    own = [points.get(each.key, Fraction(0)) + points.get(f"{each.key}_value", Fraction(0)) for each in targets]
+    stated = sum(own, Fraction(0))
+    for each, mine in zip(targets, own, strict=True):
+        part = mine / stated if stated else Fraction(1, len(targets))
+        yield replace(each, own=mine or total * part, whole=total * part)
+
+
+class _Making:
+    def __init__(
+        self,
+        problem: Problem,
+        derivation: Derivation,
+        values: Mapping[str, Step],
+        dimensions: Mapping[Any, Dimension | None],
+        notation: Notation,
+    ):
+        self.problem, self.derivation, self.values = problem, derivation, values
+        self.dimensions, self.notation = dimensions, notation
+        self.symbols: dict[Any, None] = {TIME: None}
+        self.wholes: dict[tuple[str, str], MatrixBase] = {}
+        self.definitions: dict[Symbol, Expr] = {}
+        self.allowed: set[Symbol] = {each.symbol for each in problem.defined}
+        self._collect()
+
+    def _collect(self) -> None:
+        for declared in self.problem.letters:
+            self.symbols[declared.symbol] = None
+        for step in self.derivation.steps:
+            for coordinate, _ in step.coordinates:
+                for order in range(3):
+                    self.symbols[rate(coordinate, order) if order else coordinate] = None
+            value = _explicit(step.result)
+            for name, of in self._named(step, value):
+                self.symbols.setdefault(name)
+                if isinstance(name, Symbol) and isinstance(of, Expr) and name not in of.free_symbols:
+                    self.definitions.setdefault(name, of)
+                    if all(each.grade is Grade.DEFINITION for each in step.evidence):
+                        self.allowed.add(name)
+            if isinstance(step.symbol, MatrixSymbol):
+                self.symbols.setdefault(step.symbol)
+                if isinstance(value, MatrixBase):
+                    base, sub, _ = parts_of(step.symbol.name)
+                    self.wholes.setdefault((base, sub), value)
+            for symbol in sorted(getattr(value, "free_symbols", ()), key=str):
+                self.symbols.setdefault(symbol)
+        for asked in (step for part in self.problem.parts for step in self.derivation.answering(part.answers)):
+            free = getattr(_explicit(asked.result), "free_symbols", set())
+            self.allowed |= {each for each in free if each in self.definitions}
+        self.symbols.pop(PLUS_MINUS, None)
+
+    def _named(self, step: Step, value: Any) -> Iterator[tuple[Any, Any]]:
+        yield from ((name, _explicit(of)) for name, of in step.names if isinstance(name, Symbol))
+        if isinstance(step.symbol, Symbol):
+            yield step.symbol, value
+        elif isinstance(step.symbol, MatrixBase) and isinstance(value, MatrixBase):
+            yield from zip(step.symbol, value, strict=True)
+
+    def label_of(self, step: Step) -> str:
+        index = next((i for i, part in enumerate(self.derivation.parts) if step.key in part), None)
+        return "" if index is None else chr(ord("a") + index)
+
+    def target(self, step: Step, label: str) -> Target:
+        value, symbol = _explicit(step.result), step.symbol
+        scaled = isinstance(step.result, Amplitudes) or (step.kind == "number" and isinstance(value, MatrixBase))
+        if isinstance(step.result, Relation) and step.result.left.has(*_NAMED_RATES):
+            symbol, value = step.result.left, _explicit(step.result.right)
+        of_set = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
+        text = in_one_line(named_result(step, self.notation))
+        number = self._number(step, value)
+        return Target(
+            step.key, label, symbol, value, step.kind, self._dimension(step, value), text, number, of_set, scaled
+        )
+
+    def _dimension(self, step: Step, value: Any) -> Dimension | None:
+        if step.kind:
+            return dimension_of_kind(step.kind)
+        if isinstance(value, Relation):
+            return None
+        try:
+            return dimension_of(value, self.dimensions)
+        except Exception:  # noqa: BLE001  an expression without a rule has no known dimension
+            return None
+
+    def _number(self, step: Step, value: Any) -> Number | None:
+        shown = self.values.get(step.key)
+        expr = value.right if isinstance(value, Relation) else value
+        if not isinstance(expr, Expr):
+            return None
+        exact = expr.xreplace({m.symbol: m.si for m in self.problem.measured})
+        if exact.free_symbols or not exact.is_number or exact.is_real is False:
+            return None
+        for form in reversed(shown.chain if shown else ()):
+            amount = form.expr.right if isinstance(form.expr, Relation) else form.expr
+            if isinstance(amount, Amount) and isinstance(amount.args[0], Rounded):
+                return Number(exact, str(amount.args[1].name), amount.args[2], int(amount.args[0].args[1]))
+            if isinstance(amount, Rounded):
+                return Number(exact, "", Integer(1), int(amount.args[1]))
+        return Number(exact, figures=self.problem.figures)
+
+
+def _explicit(value: Any) -> Any:
+    """Return a value without unevaluated nodes; a relation between a name and a value stays as it is."""
+    try:
+        return explicit(value)
+    except FAULTS:
+        return value
+
+
+def labels(parts: Iterable[Part]) -> str:
+    return ", ".join(part.label for part in parts)
