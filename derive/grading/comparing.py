@@ -12,7 +12,7 @@ from itertools import combinations, permutations
 from typing import Any
 
 import sympy
-from sympy import Expr, Integer, MatrixBase, Rational, Symbol, diff
+from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, diff
 
 from derive.algebra.dimensions import NUMBER, Dimension, exponents
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
@@ -54,6 +54,7 @@ class _Comparison:
     read: Read
     target: Target
     key: Key
+    is_entry: bool = False  # of a matrix
 
     def verdict(self) -> Verdict:
         value, right = self.read.value, self.target.value
@@ -81,6 +82,8 @@ class _Comparison:
             self.unknown_letters,
             self.factor,
             self.slip,
+            self.longer_factor,
+            self.approximate_quantity,
             self.special,
         ):
             if (found := test(value, right)) is not None:
@@ -204,13 +207,21 @@ class _Comparison:
         return None
 
     def other_quantity(self, value: Expr, right: Expr) -> Verdict | None:
-        if not value.free_symbols or isinstance(value, Symbol):
+        return self.quantity(value, right, exact=True)
+
+    def approximate_quantity(self, value: Expr, right: Expr) -> Verdict | None:
+        return self.quantity(value, right, exact=False)
+
+    def quantity(self, value: Expr, right: Expr, exact: bool) -> Verdict | None:
+        if not value.free_symbols or isinstance(value, Symbol) or self.is_entry:
             return None
         full = self.expanded(value)
         for other in (*self.key.targets, *self.key.steps):
-            if other.key == self.target.key or not isinstance(other.value, Expr) or not other.value.free_symbols:
+            if other.key == self.target.key or other.exact is not exact or other.value == right:
                 continue
-            if are_surely_equal(full, self.expanded(other.value)) and other.value != right:
+            if not isinstance(other.value, Expr) or not other.value.free_symbols:
+                continue
+            if are_surely_equal(full, self.expanded(other.value)):
                 where = f" of part ({other.label})" if other.label else ""
                 is_asked = any(each.key == other.key for each in self.key.targets)
                 what = "the answer" if is_asked else "a step"
@@ -249,9 +260,15 @@ class _Comparison:
         return Verdict(Outcome.DIFFERENT, f"the problem has no {names}")
 
     def factor(self, value: Expr, right: Expr) -> Verdict | None:
-        for left, goal in ((value, right), (self.expanded(value), self.expanded(right))):
+        return self.ratio(value, right, with_sums=False)
+
+    def longer_factor(self, value: Expr, right: Expr) -> Verdict | None:
+        return self.ratio(value, right, with_sums=True)
+
+    def ratio(self, value: Expr, right: Expr, with_sums: bool) -> Verdict | None:
+        for left, goal in dict.fromkeys(((value, right), (self.expanded(value), self.expanded(right)))):
             ratio = factor_between(left, goal)
-            if ratio is not None and ratio not in (0, 1):
+            if ratio is not None and ratio not in (0, 1) and (with_sums or not ratio.has(Add)):
                 if ratio == -1:
                     return Verdict(Outcome.SIGN, "it is the negative of the right answer")
                 return Verdict(Outcome.FACTOR, f"it is {shown(ratio, self.key)} times the right answer")
@@ -311,6 +328,7 @@ class _Comparison:
             value = sympy.diag(*value)
         if value.shape != right.shape:
             return Verdict(Outcome.DIFFERENT, f"it has {_size(value)}, but {_size(right)} is asked for")
+        self.is_entry = True
         if self.target.scaled:
             return self.up_to_a_factor(value, right)
         entries = [self.of_scalar(a, b) for a, b in zip(value, right, strict=True)]

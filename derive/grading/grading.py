@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 
-from derive.algebra.expressions import Relation
+from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
 from derive.documents.source import Source, Span
@@ -148,9 +148,27 @@ class _Grading:
                 found.append(_Statement(None, texts, each.relations, error))
         vectors = [self.entries_of(each) for each in found]
         count = len(self.part.targets)
+        if len(found) == 1 and count > 1 and not any(_has_two_signs(each.value) for each in self.part.targets):
+            found = self.of_each_sign(found[0])
         if len(found) == 1 and vectors[0] and count > 1 and not any(t.scaled or _is_list(t) for t in self.part.targets):
             return vectors[0]
         return found
+
+    @staticmethod
+    def of_each_sign(statement: _Statement) -> list[_Statement]:
+        """Return a statement with plus or minus as two statements."""
+        if statement.read is None or not any(_has_two_signs(read.value) for side in statement.read.sides for read in side):
+            return [statement]
+
+        def signed(sign: int) -> _Statement:
+            assert statement.read is not None
+            put_in = {PLUS_MINUS: sympy.Integer(sign)}
+            sides = tuple(
+                tuple(replace(read, value=read.value.xreplace(put_in)) for read in side) for side in statement.read.sides
+            )
+            return replace(statement, read=replace(statement.read, sides=sides))
+
+        return [signed(1), signed(-1)]
 
     def entries_of(self, statement: _Statement) -> list[_Statement]:
         """Return the entries of a list in brackets as statements of their own."""
@@ -165,13 +183,9 @@ class _Grading:
     def text_of(span: Span, source: Source) -> str:
         if not source.origins or span.end <= span.start:
             return ""
-        start, end = source.origins[span.start], source.origins[min(span.end, len(source.origins)) - 1] + 1
-        text = source.written[start:end]
-        after = source.written[end : end + 24]  # a unit or a brace that the tidying took away
-        closing = text.count("{") - text.count("}")
-        while closing > 0 and after.startswith("}"):
-            text, after, closing = text + "}", after[1:], closing - 1
-        return text
+        last = source.origins[span.end - 1]
+        ends = next((each for each in source.origins[span.end :] if each > last), len(source.written))
+        return source.written[source.origins[span.start] : ends].strip(" \n\t$.,;")
 
     # --- which statement answers which question -----------------------------------------------------------------------
 
@@ -424,6 +438,10 @@ def _short_name(target: Target) -> str:
 
 def _is_list(target: Target) -> bool:
     return isinstance(target.value, MatrixBase)
+
+
+def _has_two_signs(value: Any) -> bool:
+    return PLUS_MINUS in getattr(value, "free_symbols", ())
 
 
 def _has_letters(statement: _Statement, target: Target) -> bool:

@@ -74,6 +74,7 @@ class Target:
     number: Number | None = None
     of_set: bool = False
     scaled: bool = False
+    exact: bool = True
     own: Fraction = Fraction(1)
     whole: Fraction = Fraction(1)
 
@@ -228,15 +229,16 @@ class _Making:
         of_set = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
         text = in_one_line(named_result(step, self.notation))
         number = self._number(step, value)
-        return Target(
-            step.key, label, symbol, value, step.kind, self._dimension(step, value), text, number, of_set, scaled
+        return Target(  # fmt: skip
+            step.key, label, symbol, value, step.kind, self._dimension(step, value), text, number, of_set, scaled,
+            step.exact,
         )
 
     def _dimension(self, step: Step, value: Any) -> Dimension | None:
         if step.kind:
             return dimension_of_kind(step.kind)
         if isinstance(value, Relation):
-            return None
+            value = value.right
         try:
             return dimension_of(value, self.dimensions)
         except Exception:  # noqa: BLE001  an expression without a rule has no known dimension

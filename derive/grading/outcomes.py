@@ -15,8 +15,8 @@ class Outcome(StrEnum):
     MISSING = "missing term"
     EXTRA = "extra term"
     SPECIAL = "equal only for special values"
-    DIMENSION = "wrong dimension"
     ANOTHER = "another quantity of this problem"
+    DIMENSION = "wrong dimension"
     DIFFERENT = "different"
     UNREADABLE = "unreadable"
 

@@ -6,9 +6,9 @@ not have stays in the expression and is reported.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from itertools import islice
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from itertools import islice, pairwise
 from typing import Any
 
 import sympy
@@ -20,7 +20,7 @@ from derive.documents.facts import Facts
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Letter, Node, Num, Open, Pow, Vec
+from derive.documents.syntax import Apply, Letter, Mat, Mul, Node, Num, Open, Pow, Vec
 from derive.grading.names import Names, bare
 from derive.grading.typed import Typed, TypedSide, TypedStatement, Unread
 
@@ -77,7 +77,7 @@ class Reader:
         fault: Unread | None = None
         for each, _ in islice(readings(node, self.facts), MOST_READINGS):
             try:
-                read = self.value(each)
+                read = self.value(_with_products(each, self.names))
             except Meaningless as error:
                 fault = fault or Unread(error.reason, error.span)
                 continue
@@ -184,6 +184,40 @@ class _InProblem(Meaning):
         return self.symbol(Letter(letter.span, letter.base, letter.sub, letter.marks, letter.dots + 1, letter.primes))
 
 
+def _with_products(node: Any, names: Names) -> Any:
+    """Return a node in which `x(t)` is x, `omega^2 (1, 0, 0)` is a product, and `diag(1, 2, 3)` is a matrix."""
+    if isinstance(node, tuple):
+        return tuple(_with_products(each, names) for each in node)
+    if not isinstance(node, Node):
+        return node
+    call = node.base if isinstance(node, Pow) and isinstance(node.base, Apply) else node
+    if isinstance(call, Apply):
+        head, arguments = call.head, _with_products(call.arguments, names)
+        power = replace(node, base=head) if isinstance(node, Pow) else head
+        if len(arguments) == 1 and isinstance(arguments[0], Letter) and arguments[0].base == "t" and head.base != "t":
+            return power
+        if head.base == "diag":
+            return _diagonal(node.span, arguments)
+        if len(arguments) > 1 and names.meant(head)[0] is not None:
+            return Mul(node.span, (("", power), ("", Vec(node.span, arguments))))
+    node = replace(node, **{
+        each.name: _with_products(getattr(node, each.name), names) for each in fields(node) if each.name != "span"
+    })  # fmt: skip
+    if isinstance(node, Mul):
+        for i, ((_, one), (_, other)) in enumerate(pairwise(node.factors)):
+            name = one.alternatives[0] if isinstance(one, Open) else one
+            if isinstance(name, Letter) and name.base == "diag" and isinstance(other, Vec):
+                diagonal = _diagonal(other.span, other.entries)
+                factors = (*node.factors[:i], (node.factors[i][0], diagonal), *node.factors[i + 2 :])
+                return replace(node, factors=factors)
+    return node
+
+
+def _diagonal(span: Span, entries: tuple[Node, ...]) -> Mat:
+    zero = Num(span, "0")
+    return Mat(span, tuple(tuple(e if i == j else zero for j, _ in enumerate(entries)) for i, e in enumerate(entries)))
+
+
 def _bits(number: Rational) -> int:
     return int(max(abs(number.p).bit_length(), number.q.bit_length()))
 
@@ -200,11 +234,3 @@ def _check_size(value: Any, span: Span) -> None:
                     raise Meaningless(f"too large: a power is at most {HIGHEST_POWER}", span)
                 if terms > 1 and sympy.binomial(int(power) + terms, terms) > MOST_TERMS:
                     raise Meaningless("too large: this power of a sum has too many terms", span)
-
-
-def pairs(statement: ReadStatement) -> Iterator[tuple[Read, Read]]:
-    """Yield the readings of an equation with two sides, the likeliest first."""
-    left, right = statement.sides[0], statement.sides[-1]
-    for one in left[:3]:
-        for other in right[:MOST_READINGS]:
-            yield one, other

@@ -156,7 +156,8 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
     if not isinstance(symbol, Symbol):
         return verdict_on_value(right, target, key) if left.value == _plain(symbol) else None
     if symbol not in residual.free_symbols:
-        others = [each for each in (*left.unknown, *right.unknown) if _base(each) == _base(symbol)]
+        alone = left.value.free_symbols - right.value.free_symbols
+        others = [each for each in alone if isinstance(each, Symbol) and _base(each) == _base(symbol)]
         if len(others) != 1:
             return None
         residual = residual.xreplace({others[0]: symbol})

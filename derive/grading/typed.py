@@ -83,7 +83,7 @@ def _typed(source: Source, names: Names) -> Typed:
     tokens = tokens_of(source.text)
     if len(tokens) > MOST_TOKENS:
         raise Unread(f"too large: an answer has at most {MOST_TOKENS} tokens")
-    tokens = _wrapped(without_spaces(tokens))
+    tokens = _wrapped(_without_cells(without_spaces(tokens)))
     _check_depth(tokens)
     statements = [each for piece in _pieces(_without_frame(tokens)) if (each := _statement(piece)) is not None]
     if not statements:
@@ -112,7 +112,6 @@ _PLAIN = {
     r"\\(?:text|mathrm|textrm|mbox)\{\s*(?:and|or|,|;)\s*\}": "; ",
     r"(?<![A-Za-z\\])(?:and|or)(?![A-Za-z])": ";",
     r"\\(?:qquad|quad)": "; ",
-    r"&": " ",
 }
 
 
@@ -225,6 +224,8 @@ def _segments(word: str, names: Names) -> list[str]:
 
 
 def _known_word(piece: str, names: Names) -> str | None:
+    if piece == "diag":
+        return r"\mathit{diag} "
     if piece in TYPED_FUNCTIONS:
         return rf"\{TYPED_FUNCTIONS[piece]} "
     if piece in GREEK_WORDS or piece == "pi":
@@ -265,6 +266,16 @@ def _wrapped(tokens: list[Token]) -> list[Token]:
             span = inner[0].span if inner else token.span
             found += [Token(Kind.OPEN, "{", span), *_wrapped(inner), Token(Kind.CLOSE, "}", span)]
             at = at_next
+    return found
+
+
+def _without_cells(tokens: list[Token]) -> list[Token]:
+    """Leave out the signs that align rows, outside of matrices."""
+    found, depth = [], 0
+    for token in tokens:
+        depth += token.is_command("begin") - token.is_command("end")
+        if token.kind is not Kind.CELL or depth:
+            found.append(token)
     return found
 
 
