@@ -45,6 +45,7 @@ FLOORS = (
     ("stock", "audit"),
     ("page",),
     ("render",),
+    ("grading",),
     ("building",),
     ("preview",),
     ("cli",),

@@ -16,7 +16,7 @@ from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, diff
 
 from derive.algebra.dimensions import NUMBER, Dimension, exponents
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
-from derive.algebra.kinds import Inhomogeneous, named
+from derive.algebra.kinds import Inhomogeneous, kind_with_article, named
 from derive.grading.key import Key, Target
 from derive.grading.outcomes import Outcome, Verdict
 from derive.grading.reading import FAULTS, Read
@@ -184,7 +184,9 @@ class _Comparison:
         moving = self.key.coordinates & {_without_dots(each) for each in right.free_symbols | value.free_symbols}
         free = {each for q in moving for each in (q, rate(q), rate(q, 2))} | {TIME}
         if not difference.free_symbols & free:
-            return Verdict(Outcome.CONVENTION, f"with another zero of the energy: it differs by {shown(difference, self.key)}")
+            return Verdict(
+                Outcome.CONVENTION, f"with another zero of the energy: it differs by {shown(difference, self.key)}"
+            )
         if "lagrangian" in self.target.key and moving and self.is_rate(difference, moving):
             return Verdict(
                 Outcome.CONVENTION, "it leads to the same equations of motion: it differs by the rate of a function"
@@ -195,9 +197,7 @@ class _Comparison:
         """Whether Lagrange's equations of an expression are empty, so that it is the rate of a function."""
 
         def along(value: Expr) -> Expr:
-            return diff(value, TIME) + sum(
-                diff(value, each) * rate(each) for q in moving for each in (q, rate(q))
-            )
+            return diff(value, TIME) + sum(diff(value, each) * rate(each) for q in moving for each in (q, rate(q)))
 
         return all(are_equal(along(diff(difference, rate(q))), diff(difference, q)) for q in moving)
 
@@ -247,7 +247,8 @@ class _Comparison:
         wanted = self.target.dimension or NUMBER
         if found is None or found == wanted or value == 0:
             return None
-        because = f"it is {_named(found)}, but {_named(wanted)} is asked for"
+        asked = f"{kind_with_article(self.target.kind)} ({exponents(wanted)})" if self.target.kind else _named(wanted)
+        because = f"it is {_named(found)}, but {asked} is asked for"
         ratio = factor_between(value, right)
         if ratio is not None:
             because += f"; it is {shown(ratio, self.key)} times the right answer"
@@ -295,8 +296,12 @@ class _Comparison:
 
     def of_two_signs(self, value: Expr, right: Expr) -> Verdict:
         """Compare the two values of a formula with plus or minus."""
-        given = [value.xreplace({PLUS_MINUS: Integer(s)}) for s in ((1, -1) if PLUS_MINUS in value.free_symbols else (1,))]
-        wanted = [right.xreplace({PLUS_MINUS: Integer(s)}) for s in ((1, -1) if PLUS_MINUS in right.free_symbols else (1,))]
+        given = [
+            value.xreplace({PLUS_MINUS: Integer(s)}) for s in ((1, -1) if PLUS_MINUS in value.free_symbols else (1,))
+        ]
+        wanted = [
+            right.xreplace({PLUS_MINUS: Integer(s)}) for s in ((1, -1) if PLUS_MINUS in right.free_symbols else (1,))
+        ]
         if len(given) == len(wanted) == 2:
             orders = [self.worst(given, order) for order in (wanted, wanted[::-1])]
             return min(orders, key=lambda each: each.rank)
@@ -381,14 +386,14 @@ class _Comparison:
         if all(each == 0 for each in value):
             return Verdict(Outcome.DIFFERENT, "all its entries are zero")
         full, goal = self.expanded(value), self.expanded(right)
-        crossed = all(
-            are_equal(full[i] * goal[j], full[j] * goal[i]) for i in range(len(goal)) for j in range(i)
-        )
+        crossed = all(are_equal(full[i] * goal[j], full[j] * goal[i]) for i in range(len(goal)) for j in range(i))
         if crossed:
             return Verdict(Outcome.EQUAL, "up to a factor, which is free" if full != goal else "")
         for i in range(len(goal)):
             turned = sympy.Matrix([-e if j == i else e for j, e in enumerate(full)])
-            if all(are_surely_equal(turned[i] * goal[j], turned[j] * goal[i]) for i in range(len(goal)) for j in range(i)):
+            if all(
+                are_surely_equal(turned[i] * goal[j], turned[j] * goal[i]) for i in range(len(goal)) for j in range(i)
+            ):
                 return Verdict(Outcome.SIGN, "the entries have the wrong relative sign")
         return Verdict(Outcome.DIFFERENT, "its entries do not have the right ratio")
 

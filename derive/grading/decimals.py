@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from sympy import Expr, Integer, Rational, pi
 
 from derive.algebra.dimensions import NUMBER, Dimension
-from derive.algebra.kinds import named
+from derive.algebra.kinds import kind_with_article, named
 from derive.algebra.rounding import rounded
 from derive.course.units import Unit, read_unit
 from derive.errors import DeriveError
@@ -100,7 +100,9 @@ def verdict_on_number(
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:
-        return Verdict(Outcome.DIMENSION, f"`{unit.text}` measures {named(unit.dimension)}, not {named(dimension)}")
+        return Verdict(
+            Outcome.DIMENSION, f"`{unit.text}` measures {named(unit.dimension)}, not {_asked(target, dimension)}"
+        )
     if unit is None:
         return _without_unit(value, is_decimal, figures, places, target, number, dimension)
     return _in_unit(value, is_decimal, figures, places, number, unit.factor, unit.text)
@@ -119,16 +121,25 @@ def _without_unit(
             return plain  # an angle in radians is a number
         degrees = _in_unit(value, is_decimal, figures, places, number, pi / 180, "degrees")
         if degrees.is_right:
-            return Verdict(Outcome.CONVENTION, f"the angle is read in degrees, although no unit is typed; {degrees.because}")
+            return Verdict(
+                Outcome.CONVENTION, f"the angle is read in degrees, although no unit is typed; {degrees.because}"
+            )
         return plain
     for factor, name in tried:
         found = _in_unit(value, is_decimal, figures, places, number, factor, name)
         if found.is_right:
             unit = name if name and name != "the SI" else "SI units"
             return Verdict(
-                Outcome.DIMENSION, f"the number is right in {unit}, but its unit is missing: {named(dimension)} is asked for"
+                Outcome.DIMENSION,
+                f"the number is right in {unit}, but its unit is missing: {_asked(target, dimension)} is asked for",
             )
-    return Verdict(Outcome.DIFFERENT, f"the number is wrong, and its unit is missing: {named(dimension)} is asked for")
+    return Verdict(
+        Outcome.DIFFERENT, f"the number is wrong, and its unit is missing: {_asked(target, dimension)} is asked for"
+    )
+
+
+def _asked(target: Target, dimension: Dimension) -> str:
+    return kind_with_article(target.kind) if target.kind else named(dimension)
 
 
 def _in_unit(

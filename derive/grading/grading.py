@@ -157,14 +157,17 @@ class _Grading:
     @staticmethod
     def of_each_sign(statement: _Statement) -> list[_Statement]:
         """Return a statement with plus or minus as two statements."""
-        if statement.read is None or not any(_has_two_signs(read.value) for side in statement.read.sides for read in side):
+        if statement.read is None or not any(
+            _has_two_signs(read.value) for side in statement.read.sides for read in side
+        ):
             return [statement]
 
         def signed(sign: int) -> _Statement:
             assert statement.read is not None
             put_in = {PLUS_MINUS: sympy.Integer(sign)}
             sides = tuple(
-                tuple(replace(read, value=read.value.xreplace(put_in)) for read in side) for side in statement.read.sides
+                tuple(replace(read, value=read.value.xreplace(put_in)) for read in side)
+                for side in statement.read.sides
             )
             return replace(statement, read=replace(statement.read, sides=sides))
 
@@ -175,9 +178,7 @@ class _Grading:
         if not statement.is_single or not statement.last or not isinstance(statement.last[0].value, MatrixBase):
             return []
         read = statement.last[0]
-        return [
-            _Statement(ReadStatement(((replace(read, value=entry),),), ()), ("",), ()) for entry in read.value
-        ]
+        return [_Statement(ReadStatement(((replace(read, value=entry),),), ()), ("",), ()) for entry in read.value]
 
     @staticmethod
     def text_of(span: Span, source: Source) -> str:
@@ -318,7 +319,9 @@ class _Grading:
                 if not isinstance(read.value, Expr):
                     return Verdict(Outcome.DIFFERENT, "it is a list, but an equation is asked for")
                 if isinstance(goal.left, Symbol) and not goal.right.has(goal.left):
-                    alone = replace(target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left))
+                    alone = replace(
+                        target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left)
+                    )
                     found = verdict_on_value(read, alone, self.key)
                     if found.is_right and goal.operator != "=":
                         found = Verdict(Outcome.CONVENTION, f"as the border of the condition {target.text}")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -114,17 +115,44 @@ class Key:
     points: bool = False
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
-    def part(self, label: str) -> Part | None:
-        """Return a part by its label: `b`, `(b)`, `B`, `2` or `part b`."""
-        plain = label.strip().lower().removeprefix("part").strip(" ().:")
-        known = {part.label: part for part in self.parts}
-        if plain in known:
-            return known[plain]
-        return self.parts[int(plain) - 1] if plain.isdecimal() and 0 < int(plain[:4]) <= len(self.parts) else None
+    def part(self, name: str) -> Part | None:
+        """Return a part by its name, or one of its answers: `b(2)` is the second answer that part b asks for."""
+        plain, inner = _split(name)
+        label = label_in([part.label for part in self.parts], plain)
+        if label is None:
+            return None
+        part = next(part for part in self.parts if part.label == label)
+        if not inner:
+            return part
+        index = int(inner) - 1 if inner.isdecimal() and len(inner) < 4 else None
+        chosen = [t for i, t in enumerate(part.targets) if i == index or t.key == inner]
+        return replace(part, targets=tuple(chosen)) if chosen else None
+
+    @property
+    def told(self) -> list[tuple[str, str]]:
+        """Return the labels of the parts, and the names of the answers that each asks for."""
+        return [(part.label, ", ".join(target.key for target in part.targets)) for part in self.parts]
 
     @cached_property
     def targets(self) -> tuple[Target, ...]:
         return tuple(target for part in self.parts for target in part.targets)
+
+
+def label_in(labels: Sequence[str], name: str) -> str | None:
+    """Return the label that the name of a part means: `b`, `(b)`, `B`, `2`, `part b`; None if there is none."""
+    plain = _split(name)[0]
+    if plain in labels:
+        return plain
+    return labels[int(plain) - 1] if plain.isdecimal() and len(plain) < 4 and 0 < int(plain) <= len(labels) else None
+
+
+def _split(name: str) -> tuple[str, str]:
+    """Split `2(1)` or `b.1` into the names of a part and of an answer in it."""
+    plain = name.strip().lower().removeprefix("part").strip()
+    found = re.fullmatch(r"\(?([a-z]|\d{1,3})[).:]?(?:\s*[(.]?\s*(\w+)\s*\)?)?", plain, re.ASCII)
+    if found is None:
+        return plain, ""
+    return found[1], found[2] or ""
 
 
 def key_of(
@@ -154,8 +182,6 @@ def key_of(
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction]) -> Iterator[Target]:
     """Divide the points of a part among its answers: each has its own points, and shares those of the other steps."""
-    from dataclasses import replace
-
     total = sum(points.values(), Fraction(0))
     if not total:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
@@ -230,7 +256,16 @@ class _Making:
         text = in_one_line(named_result(step, self.notation))
         number = self._number(step, value)
         return Target(  # fmt: skip
-            step.key, label, symbol, value, step.kind, self._dimension(step, value), text, number, of_set, scaled,
+            step.key,
+            label,
+            symbol,
+            value,
+            step.kind,
+            self._dimension(step, value),
+            text,
+            number,
+            of_set,
+            scaled,
             step.exact,
         )
 
@@ -267,7 +302,3 @@ def _explicit(value: Any) -> Any:
         return explicit(value)
     except FAULTS:
         return value
-
-
-def labels(parts: Iterable[Part]) -> str:
-    return ", ".join(part.label for part in parts)

@@ -63,8 +63,7 @@ class Reader:
 
     def statements(self, answer: Typed) -> list[ReadStatement]:
         return [
-            ReadStatement(tuple(self.side(each) for each in one.sides), one.relations, one)
-            for one in answer.statements
+            ReadStatement(tuple(self.side(each) for each in one.sides), one.relations, one) for one in answer.statements
         ]
 
     def side(self, side: TypedSide) -> tuple[Read, ...]:

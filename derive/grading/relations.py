@@ -67,7 +67,11 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
         (STRICT.get(typed.operator), "whether the border itself belongs to it is left open", Outcome.CONVENTION),
         (TURNED.get(typed.operator), "the inequality has the wrong direction", Outcome.SIGN),
         (STRICT.get(TURNED.get(typed.operator, ""), ""), "the inequality has the wrong direction", Outcome.SIGN),
-        ("=" if goal.operator == "=" else None, "an inequality is typed, but an equation is asked for", Outcome.DIFFERENT),
+        (
+            "=" if goal.operator == "=" else None,
+            "an inequality is typed, but an equation is asked for",
+            Outcome.DIFFERENT,
+        ),
     ):
         if operator and _are_equivalent(Relation(typed.left, operator, typed.right), goal):
             return Verdict(outcome, because)
@@ -129,7 +133,9 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
     except Inhomogeneous as error:
         term = shown(error.term, comparison.key)
         other = error.other if isinstance(error.other, str) else shown(error.other, comparison.key)
-        return Verdict(Outcome.DIMENSION, f"`{term}` is {named(error.dimension)}, but `{other}` is {named(error.expected)}")
+        return Verdict(
+            Outcome.DIMENSION, f"`{term}` is {named(error.dimension)}, but `{other}` is {named(error.expected)}"
+        )
     return None
 
 

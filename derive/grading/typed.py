@@ -128,7 +128,9 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
     source.replace(r"(?<=\d)[eE]([+-]?\d{1,4})(?![\w.])", r"\\cdot 10^{\1}")
     source.replace(r"(?<=\d)\s*[x×]\s*(?=10\s*\^)", r"\\cdot ")
     _read_commas(source, notes)
-    source.replace(r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([A-Za-z\\]\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?", _derivative)
+    source.replace(
+        r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([A-Za-z\\]\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?", _derivative
+    )
     source.replace(
         r"\\(?:text|mathrm|operatorname|rm|textrm|mbox|SI|si|qty|unit|num|mathit)\s*\*?\s*\{[^{}]*\}|\\[A-Za-z]+"
         r"|[A-Za-z]+(?:_[A-Za-z0-9]+)*",
