@@ -40,7 +40,7 @@ def shown(value: Any, key: Key) -> str:
     """Return an expression as one line of text for an explanation."""
     try:
         return in_one_line(key.notation.layout(value))
-    except Exception:  # noqa: BLE001  an expression of a stranger that the notation cannot print
+    except Exception:
         return str(value)[:120]
 
 
@@ -82,9 +82,9 @@ class _Comparison:
             self.unknown_letters,
             self.factor,
             self.slip,
-            self.longer_factor,
             self.approximate_quantity,
             self.special,
+            self.longer_factor,
         ):
             if (found := test(value, right)) is not None:
                 return found
@@ -234,7 +234,7 @@ class _Comparison:
             return dimension_of(value, self.key.dimensions)
         except Inhomogeneous:
             raise
-        except Exception:  # noqa: BLE001  a letter or a function without a known dimension
+        except Exception:
             return None
 
     def dimensions(self, value: Expr, right: Expr) -> Verdict | None:
@@ -368,9 +368,8 @@ class _Comparison:
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
         """A number instead of a matrix: right if the matrix is this number times the unit matrix."""
-        if right.shape[0] == right.shape[1] and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(
-            right.shape[0]
-        ):  # fmt: skip
+        rows, columns = right.shape
+        if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")
         if right.shape[1] == 1 and sum(each != 0 for each in right) == 1:
             only = next(each for each in right if each != 0)

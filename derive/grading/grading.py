@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 
-from derive.algebra.expressions import PLUS_MINUS, Relation
+from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
 from derive.documents.source import Source, Span
@@ -20,9 +20,9 @@ from derive.grading.comparing import verdict_on_value
 from derive.grading.decimals import figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
-from derive.grading.outcomes import SLIPS, Outcome, Verdict, share_of
+from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
 from derive.grading.reading import FAULTS, Read, Reader, ReadStatement
-from derive.grading.relations import verdict_on_equation_for, verdict_on_relation
+from derive.grading.relations import angle_of, verdict_on_equation_for, verdict_on_relation
 from derive.grading.shown import RELATIONS, latex_of
 from derive.grading.time_limit import OutOfTime, limited
 from derive.grading.typed import Unread, typed
@@ -308,7 +308,7 @@ class _Grading:
             verdicts.append(self.with_reading(verdict_on_value(read, target, self.key), statement, read))
             if verdicts[-1].is_right:
                 break
-        return min(verdicts, key=lambda each: each.rank)
+        return best_of(verdicts)
 
     def as_relation(self, statement: _Statement, target: Target) -> Verdict:
         goal = target.value
@@ -337,15 +337,17 @@ class _Grading:
                     verdicts.append(self.with_reading(found, statement, right, left))
                     if found.is_right:
                         return verdicts[-1]
-        return min(verdicts, key=lambda each: each.rank) if verdicts else Verdict(
-            Outcome.DIFFERENT, "an equation is asked for, but a value is given"
-        )  # fmt: skip
+        if not verdicts:
+            return Verdict(Outcome.DIFFERENT, "an equation is asked for, but a value is given")
+        return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
         """Judge a number, with or without a unit; None if the answer has no number or no number is typed."""
+        if target.is_relation and (angle := angle_of(target, statement.name)) is not None:
+            target = angle
         if target.number is None or (not statement.is_equation and not target.is_relation):
             return None
-        if not statement.is_single and statement.name is None and not statement.read is None:
+        if not statement.is_single and statement.name is None and statement.read is not None:
             return None
         text = statement.texts[-1]
         for number, unit in with_units(text):
@@ -413,9 +415,8 @@ class _Grading:
         points = sum(
             (share_of(found[t.key][0].outcome, t.own, t.whole) for t in targets if t.key in found), Fraction(0)
         )
-        read = list(dict.fromkeys(
-            found[t.key][0].reading or "; ".join(map(self.reading_of, found[t.key][1])) for t in targets if t.key in found
-        ))  # fmt: skip
+        judged = [found[target.key] for target in targets if target.key in found]
+        read = list(dict.fromkeys(one.reading or "; ".join(map(self.reading_of, of)) for one, of in judged))
         reading = "; ".join(read) + (f" ({'; '.join(self.remarks)})" if self.remarks else "")
         worst = max(verdicts, key=lambda each: each.rank)
         told = [self.told(target, found[target.key][0]) for target in targets if target.key in found]
@@ -474,18 +475,11 @@ def _places(value: Expr, text: str) -> int:
     import re
 
     number = re.search(r"\d[\d,]*(?:\.(\d*))?|\.(\d+)", text.replace(" ", ""))
-    digits = len((number[1] or number[2] or "")) if number else 0
+    digits = len(number[1] or number[2] or "") if number else 0
     if number and not number[1] and "," in number[0] and re.fullmatch(r"\d+,\d{1,2}|0,\d+|\d+,\d{4,}", number[0]):
         digits = len(number[0].partition(",")[2])
     power = re.search(r"(?:[eE]|10\s*(?:\^|\*\*)\s*[{(]?\s*)([-−+]?\d+)", text)
     return digits - (int(power[1].replace("−", "-")) if power else 0)
 
 
-def graded_all(answers: Iterable[tuple[str, str]], key: Key, seconds: float = SECONDS) -> Iterator[Graded | None]:
-    """Yield the verdict on each pair of a part and an answer; None if the problem has no such part."""
-    for label, answer in answers:
-        part = key.part(label)
-        yield grade(answer, part, key, seconds) if part is not None else None
-
-
-__all__ = ["SLIPS", "Graded", "Relation", "grade", "graded_all"]
+__all__ = ["Graded", "grade"]

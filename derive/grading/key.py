@@ -40,6 +40,7 @@ from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
+ONE: Expr = Integer(1)
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these defines it
 FAULTS = (ValueError, TypeError, AttributeError, NotImplementedError, KeyError, ArithmeticError)
 
@@ -50,7 +51,7 @@ class Number:
 
     exact: Expr
     unit: str = ""
-    factor: Expr = Integer(1)
+    factor: Expr = ONE
     figures: int = 4
 
 
@@ -232,9 +233,12 @@ class _Making:
             for symbol in sorted(getattr(value, "free_symbols", ()), key=str):
                 self.symbols.setdefault(symbol)
         for asked in (step for part in self.problem.parts for step in self.derivation.answering(part.answers)):
-            free = getattr(_explicit(asked.result), "free_symbols", set())
+            free: set[Any] = getattr(_explicit(asked.result), "free_symbols", set())
             self.allowed |= {each for each in free if each in self.definitions}
         self.symbols.pop(PLUS_MINUS, None)
+        for moving in {q for step in self.derivation.steps for q, _ in step.coordinates}:
+            for symbol in (moving, rate(moving), rate(moving, 2)):  # a motion does not define its coordinate
+                self.definitions.pop(symbol, None)
 
     def _named(self, step: Step, value: Any) -> Iterator[tuple[Any, Any]]:
         yield from ((name, _explicit(of)) for name, of in step.names if isinstance(name, Symbol))
@@ -255,7 +259,7 @@ class _Making:
         of_set = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
         text = in_one_line(named_result(step, self.notation))
         number = self._number(step, value)
-        return Target(  # fmt: skip
+        return Target(
             step.key,
             label,
             symbol,
@@ -276,7 +280,7 @@ class _Making:
             value = value.right
         try:
             return dimension_of(value, self.dimensions)
-        except Exception:  # noqa: BLE001  an expression without a rule has no known dimension
+        except Exception:
             return None
 
     def _number(self, step: Step, value: Any) -> Number | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -51,6 +52,14 @@ class Verdict:
 
     def adding(self, remark: str) -> Verdict:
         return replace(self, because=f"{self.because}; {remark}" if self.because else remark) if remark else self
+
+
+def best_of(verdicts: Sequence[Verdict]) -> Verdict:
+    """Return the verdict on the reading that is right, else on one with a slip, else on the likeliest reading."""
+    for accepted in (RIGHT, SLIPS, (Outcome.SPECIAL,)):
+        if found := [each for each in verdicts if each.outcome in accepted]:
+            return min(found, key=lambda each: each.rank)
+    return verdicts[0]
 
 
 def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:

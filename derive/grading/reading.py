@@ -20,7 +20,7 @@ from derive.documents.facts import Facts
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Apply, Letter, Mat, Mul, Node, Num, Open, Pow, Vec
+from derive.documents.syntax import Apply, Frac, Fun, Letter, Mat, Mul, Node, Num, Open, Pow, Vec
 from derive.grading.names import Names, bare
 from derive.grading.typed import Typed, TypedSide, TypedStatement, Unread
 
@@ -74,7 +74,10 @@ class Reader:
             raise Unread(error.message, error.span if error.span.end else side.span) from None
         found: list[Read] = []
         fault: Unread | None = None
-        for each, _ in islice(readings(node, self.facts), MOST_READINGS):
+        strokes = {token.span.start for token in side.tokens if token.is_mark("/")}
+        nodes = [each for each, _ in islice(readings(node, self.facts), MOST_READINGS)]
+        nodes = [other for each in nodes for other in _by_stroke(each, strokes)]
+        for each in nodes:
             try:
                 read = self.value(_with_products(each, self.names))
             except Meaningless as error:
@@ -210,6 +213,30 @@ def _with_products(node: Any, names: Names) -> Any:
                 factors = (*node.factors[:i], (node.factors[i][0], diagonal), *node.factors[i + 2 :])
                 return replace(node, factors=factors)
     return node
+
+
+def _by_stroke(node: Node, strokes: set[int]) -> list[Node]:
+    """Return the readings of `sin a/b`: the sine of a, divided by b, and the sine of a/b, the likelier one first."""
+    found: list[bool] = []
+    divided = _divided(node, strokes, found)
+    if not found:
+        return [node]
+    return [divided, node] if any(found) else [node, divided]
+
+
+def _divided(node: Any, strokes: set[int], found: list[bool]) -> Any:
+    if isinstance(node, tuple):
+        return tuple(_divided(each, strokes, found) for each in node)
+    if not isinstance(node, Node):
+        return node
+    if isinstance(node, Fun) and isinstance(node.argument, Frac):
+        top, bottom = node.argument.top, node.argument.bottom
+        if any(top.span.end <= each < bottom.span.start for each in strokes):
+            found.append(not isinstance(bottom, Num))
+            return Frac(node.span, replace(node, argument=top), _divided(bottom, strokes, found))
+    return replace(node, **{
+        each.name: _divided(getattr(node, each.name), strokes, found) for each in fields(node) if each.name != "span"
+    })  # fmt: skip
 
 
 def _diagonal(span: Span, entries: tuple[Node, ...]) -> Mat:

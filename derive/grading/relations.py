@@ -6,15 +6,17 @@ quantity, such as `omega^2 = g/l`, is right if the value of the quantity fulfils
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import sympy
-from sympy import Expr, Integer, MatrixBase, Symbol
+from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan, cos, pi, sin, tan
 
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.equality import equal
 from derive.algebra.expressions import PLUS_MINUS, Relation
-from derive.grading.comparing import _Comparison, shown, verdict_on_value
-from derive.grading.key import Key, Target
+from derive.grading.comparing import _Comparison, factor_is_near, shown, verdict_on_value
+from derive.grading.key import Key, Number, Target
 from derive.grading.outcomes import Outcome, Verdict
 from derive.grading.reading import FAULTS, Read
 from derive.grading.structure import are_equal, are_surely_equal, factor_between, slips_between
@@ -46,6 +48,8 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         if names:
             return Verdict(Outcome.CONVENTION, f"with {names} as the solution defines it")
         return Verdict(Outcome.EQUAL, "with the definitions of the problem")
+    if (of_angles := _with_function(typed, goal)) is not None and _are_equivalent(of_angles, goal):
+        return Verdict(Outcome.EQUAL, "")
     if goal.operator == "=" and mark == "=":
         return _wrong_equation(comparison, full, expanded)
     return _wrong_inequality(full, expanded, key)
@@ -60,6 +64,28 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
         return bool(equal(one, other))
     except FAULTS:
         return False
+
+
+def _with_function(typed: Relation, goal: Relation) -> Relation | None:
+    """Return a condition on an angle as a condition on its tangent, sine or cosine, as the problem has it."""
+    left = goal.left
+    if not isinstance(left, sin | cos | tan) or typed.left != left.args[0]:
+        return None
+    operator = TURNED.get(typed.operator, typed.operator) if isinstance(left, cos) else typed.operator
+    return Relation(left, operator, left.func(typed.right))
+
+
+def angle_of(target: Target, name: Any) -> Target | None:
+    """Return the answer as an angle, if it is a number for the sine, cosine or tangent of the angle with this name."""
+    left = target.value.left
+    if not isinstance(left, sin | cos | tan) or left.args[0] != name or target.number is None:
+        return None
+    inverse = {sin: asin, cos: acos, tan: atan}[left.func]
+    operator = target.value.operator
+    operator = TURNED.get(operator, operator) if isinstance(left, cos) else operator
+    exact = inverse(target.number.exact)
+    number = Number(exact, "deg", pi / 180, target.number.figures)
+    return replace(target, value=Relation(name, operator, exact), kind="angle", dimension=NUMBER, number=number)
 
 
 def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
@@ -178,6 +204,11 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
         doubled = are_equal(rest.xreplace({symbol: -full}), Integer(0)) and len(signs) == 1
         note = "its sign is left open" if doubled and not symbol.is_positive else ""
         return Verdict(Outcome.EQUAL, f"as an equation for {shown(symbol, key)}" + (f"; {note}" if note else ""))
+    if inexact := (*left.decimals, *right.decimals):
+        within = sum(Rational(1, 2) / Integer(10) ** digits / abs(each) for each, digits in inexact if each)
+        one, other = (comparison.expanded(side).xreplace({symbol: full}) for side in (left.value, right.value))
+        if within < Rational(1, 19) and factor_is_near(one, other, within):
+            return Verdict(Outcome.EQUAL, f"as an equation for {shown(symbol, key)}, with rounded numbers")
     return _solved(rest, symbol, left, target, key)
 
 

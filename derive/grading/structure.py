@@ -1,11 +1,11 @@
-"""What a wrong formula lacks or has too much: a factor, a sign, a term; and the values for which it happens to be right.
+"""What a wrong formula lacks or has too much: a factor, a sign, a term; and the values for which it is right.
 
 Each proposal is tested exactly. The values at a few points only sort out proposals that cannot be right.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
@@ -151,7 +151,7 @@ def _replaced(value: Expr, part: Expr, by: Expr) -> Expr:
     return value.xreplace({part: by})
 
 
-def special_values(answer: Expr, right: Expr, kinds: dict[Symbol, object], angles: set[Symbol]) -> str:
+def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol]) -> str:
     """Return special values of the letters for which a wrong answer equals the right one, as text; "" if none is found.
 
     kinds    the letters that may be set equal to each other if their kinds are equal

@@ -1,6 +1,6 @@
 """Many answers at once, as CSV: a row for each answer, and the same rows with their verdicts.
 
-A spreadsheet runs a cell that begins with `=`, `+`, `-` or `@` as a formula, so an apostrophe is put before such a text.
+A spreadsheet runs a cell that begins with `=`, `+`, `-` or `@` as a formula; an apostrophe is put before such a text.
 """
 
 from __future__ import annotations

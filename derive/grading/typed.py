@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from itertools import pairwise
 
 from derive.documents.layout import RELATIONS
 from derive.documents.macros import argument_at
@@ -83,8 +84,9 @@ def _typed(source: Source, names: Names) -> Typed:
     tokens = tokens_of(source.text)
     if len(tokens) > MOST_TOKENS:
         raise Unread(f"too large: an answer has at most {MOST_TOKENS} tokens")
-    tokens = _wrapped(_without_cells(without_spaces(tokens)))
+    tokens = _without_cells(without_spaces(tokens))
     _check_depth(tokens)
+    tokens = _wrapped(tokens)
     statements = [each for piece in _pieces(_without_frame(tokens)) if (each := _statement(piece)) is not None]
     if not statements:
         raise Unread("the answer is empty")
@@ -116,7 +118,7 @@ _PLAIN = {
 
 
 def _tidy(source: Source, names: Names, notes: list[str]) -> None:
-    source.replace("[\U0001d400-\U0001d7ff\uff01-\uff5e\u210e\u2044\u00bc-\u00be\u2150-\u215e]", _compatible)
+    source.replace("[\U0001d400-\U0001d7ff\uff01-\uff5e\u210e\u00bc-\u00be\u2150-\u215e]", _compatible)
     source.replace("[\u00c0-\u024f\u1e00-\u1eff]", _undotted)
     source.replace("(\\w)([\u0307\u0308\u20db\u20d7\u0302])", lambda found: f"{_COMBINING[found[2]]}{{{found[1]}}}")
     for pattern, reads in _PLAIN.items():
@@ -145,7 +147,8 @@ def _compatible(found: re.Match[str]) -> str:
 
 
 def _undotted(found: re.Match[str]) -> str:
-    letter, *marks = unicodedata.normalize("NFD", found[0])
+    plain = unicodedata.normalize("NFD", found[0])
+    letter, marks = plain[0], plain[1:]
     return f"{_COMBINING[marks[0]]}{{{letter}}}" if len(marks) == 1 and marks[0] in _COMBINING else found[0]
 
 
@@ -305,11 +308,20 @@ def _inner(tokens: list[Token], at: int) -> tuple[list[Token] | None, int]:
 
 def _check_depth(tokens: list[Token]) -> None:
     depth = 0
+    opened: list[Token] = []
     for token in tokens:
+        if token.kind is Kind.OPEN:
+            opened.append(token)
+        elif token.kind is Kind.CLOSE:
+            if not opened:
+                raise Unread("this brace was not opened", token.span)
+            opened.pop()
         depth += token.kind is Kind.OPEN or token.is_mark("(", "[")
         depth -= token.kind is Kind.CLOSE or token.is_mark(")", "]")
         if depth > DEEPEST:
             raise Unread(f"too large: brackets are nested more than {DEEPEST} levels deep", token.span)
+    if opened:
+        raise Unread("this brace is not closed", opened[-1].span)
 
 
 def _without_frame(tokens: list[Token]) -> list[Token]:
@@ -369,7 +381,7 @@ def _statement(tokens: list[Token]) -> TypedStatement | None:
         sides, relations = sides[1:], relations[1:]
         if relations or len(sides) > 1:
             raise Unread("the side before this sign is empty", sides[0][0].span if sides[0] else None)
-    for before, side in zip(sides, sides[1:], strict=False):
+    for before, side in pairwise(sides):
         if not side:
             raise Unread("the side after this sign is empty", before[-1].span if before else None)
     return TypedStatement(
@@ -386,4 +398,4 @@ def _shed(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
-__all__ = ["Typed", "TypedSide", "TypedStatement", "Unread", "replace", "typed"]
+__all__ = ["Typed", "TypedSide", "TypedStatement", "Unread", "typed"]

@@ -160,7 +160,7 @@ def _written(arguments: argparse.Namespace, answers: Table, results: list[Result
     ]
     if form == "csv":
         return written_table(answers, cells)
-    printed = [("student", "problem", "part", "verdict", "credit", "explanation")]
+    printed: list[tuple[str, ...]] = [("student", "problem", "part", "verdict", "credit", "explanation")]
     for row, (verdict, because, _, credit) in zip(answers.rows, cells, strict=True):
         printed.append(tuple(map(_in_a_line, (row.student, row.problem, row.part, verdict, credit, because))))
     return table(printed) + "\n"
