@@ -24,8 +24,9 @@ from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
 from derive.grading.reading import FAULTS, Read, Reader, ReadStatement
 from derive.grading.relations import angle_of, verdict_on_equation_for, verdict_on_relation
 from derive.grading.shown import RELATIONS, latex_of
+from derive.grading.structure import are_equal, are_surely_equal
 from derive.grading.time_limit import OutOfTime, limited
-from derive.grading.typed import Unread, typed
+from derive.grading.typed import TypedStatement, Unread, typed
 
 SECONDS = 6.0  # of processor time for one answer
 
@@ -82,6 +83,7 @@ class _Statement:
     texts: tuple[str, ...]
     relations: tuple[str, ...]
     fault: Unread | None = None
+    head: tuple[Read, ...] = ()  # the readings of the first side, if another side is not read
 
     @property
     def last(self) -> tuple[Read, ...]:
@@ -89,7 +91,7 @@ class _Statement:
 
     @property
     def first(self) -> tuple[Read, ...]:
-        return self.read.sides[0] if self.read is not None else ()
+        return self.read.sides[0] if self.read is not None else self.head
 
     @property
     def is_single(self) -> bool:
@@ -145,14 +147,23 @@ class _Grading:
             except Unread as error:
                 if next(with_units(texts[-1]), None) is None:
                     raise
-                found.append(_Statement(None, texts, each.relations, error))
+                found.append(_Statement(None, texts, each.relations, error, self.head_of(each)))
         vectors = [self.entries_of(each) for each in found]
         count = len(self.part.targets)
-        if len(found) == 1 and count > 1 and not any(_has_two_signs(each.value) for each in self.part.targets):
-            found = self.of_each_sign(found[0])
+        if len(found) < count and not any(_has_two_signs(each.value) for each in self.part.targets):
+            found = [one for each in found for one in self.of_each_sign(each)]
         if len(found) == 1 and vectors[0] and count > 1 and not any(t.scaled or _is_list(t) for t in self.part.targets):
             return vectors[0]
         return found
+
+    def head_of(self, written: TypedStatement) -> tuple[Read, ...]:
+        """Return the readings of the letter before the equals sign of a number with a unit."""
+        if len(written.sides) < 2:
+            return ()
+        try:
+            return self.reader.side(written.sides[0])
+        except Unread:
+            return ()
 
     @staticmethod
     def of_each_sign(statement: _Statement) -> list[_Statement]:
@@ -326,6 +337,11 @@ class _Grading:
                     if found.is_right and goal.operator != "=":
                         found = Verdict(Outcome.CONVENTION, f"as the border of the condition {target.text}")
                     verdicts.append(self.with_reading(found, statement, read))
+                elif (
+                    goal.operator == "=" and isinstance(goal.left, sympy.Function) and are_equal(read.value, goal.right)
+                ):
+                    found = Verdict(Outcome.CONVENTION, f"as the right side of {target.text}")
+                    verdicts.append(self.with_reading(found, statement, read))
                 elif goal.operator == "=":
                     found = verdict_on_relation(read, "=", zero, target, self.key)
                     verdicts.append(self.with_reading(found.adding("read as an equation with zero"), statement, read))
@@ -397,9 +413,12 @@ class _Grading:
 
     def named(self, statement: _Statement, shown: str, left: Read | None = None) -> str:
         """Return a reading of the last side with the sides before it."""
-        if statement.is_single or statement.read is None:
+        if statement.is_single or not statement.first:
             return shown
-        before = [left or statement.first[0], *(side[0] for side in statement.read.sides[1:-1])]
+        middle = statement.read.sides[1:-1] if statement.read is not None else ()
+        before = [left or statement.first[0], *(side[0] for side in middle)]
+        if len(before) != len(statement.relations):
+            return shown
         texts = [latex_of(each.node, self.key.names) for each in before]
         marks = [RELATIONS.get(each, each) for each in statement.relations]
         return " ".join(text for pair in zip([*texts], marks, strict=True) for text in pair) + f" {shown}"
@@ -454,8 +473,6 @@ def _has_letters(statement: _Statement, target: Target) -> bool:
 
 def _repeated(values: list[Expr], distinct: list[Expr], wanted: list[Expr]) -> list[Expr]:
     """Repeat the values that are wanted several times, if each wanted value is given once."""
-    from derive.grading.structure import are_surely_equal
-
     found: list[Expr] = []
     for value in values:
         same = next((each for each in distinct if are_surely_equal(value, each)), None)

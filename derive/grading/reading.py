@@ -74,9 +74,9 @@ class Reader:
             raise Unread(error.message, error.span if error.span.end else side.span) from None
         found: list[Read] = []
         fault: Unread | None = None
-        strokes = {token.span.start for token in side.tokens if token.is_mark("/")}
-        nodes = [each for each, _ in islice(readings(node, self.facts), MOST_READINGS)]
-        nodes = [other for each in nodes for other in _by_stroke(each, strokes)]
+        near = _Near(side).of(node)
+        variants = [node] if near == node else [near, node]
+        nodes = [each for one in variants for each, _ in islice(readings(one, self.facts), MOST_READINGS)]
         for each in nodes:
             try:
                 read = self.value(_with_products(each, self.names))
@@ -215,28 +215,58 @@ def _with_products(node: Any, names: Names) -> Any:
     return node
 
 
-def _by_stroke(node: Node, strokes: set[int]) -> list[Node]:
-    """Return the readings of `sin a/b`: the sine of a, divided by b, and the sine of a/b, the likelier one first."""
-    found: list[bool] = []
-    divided = _divided(node, strokes, found)
-    if not found:
-        return [node]
-    return [divided, node] if any(found) else [node, divided]
+class _Near:
+    """Reads `sin a/b` as the sine of a, divided by b, `sin a (b + c)` as a product, and `a/b (c + d)` as a/b times a
+    bracket: the arguments and denominators without brackets end early."""
+
+    def __init__(self, side: TypedSide):
+        self.strokes = [token.span.start for token in side.tokens if token.is_mark("/")]
+        self.brackets = [
+            token.span.start for token in side.tokens if token.is_mark("(", "[") or token.is_command("left", "{")
+        ]
+
+    def of(self, node: Any) -> Any:
+        if isinstance(node, tuple):
+            return tuple(map(self.of, node))
+        if not isinstance(node, Node):
+            return node
+        if isinstance(node, Fun) and not self.any_in(self.brackets, node.span.start, _start(node.argument)):
+            argument = node.argument
+            if isinstance(argument, Frac) and self.has_stroke(argument):
+                return Frac(node.span, self.of(replace(node, argument=argument.top)), self.of(argument.bottom))
+            if (split := _split(argument)) is not None:
+                return Mul(node.span, (("", replace(node, argument=split[0])), ("", self.of(split[1]))))
+        if isinstance(node, Frac) and self.has_stroke(node) and (split := _split(node.bottom)) is not None:
+            return Mul(node.span, (("", Frac(node.span, self.of(node.top), split[0])), ("", self.of(split[1]))))
+        return replace(node, **{
+            each.name: self.of(getattr(node, each.name)) for each in fields(node) if each.name != "span"
+        })  # fmt: skip
+
+    def has_stroke(self, node: Frac) -> bool:
+        return self.any_in(self.strokes, node.top.span.end, node.bottom.span.start)
+
+    @staticmethod
+    def any_in(places: list[int], start: int, end: int) -> bool:
+        return any(start <= each < end for each in places)
 
 
-def _divided(node: Any, strokes: set[int], found: list[bool]) -> Any:
-    if isinstance(node, tuple):
-        return tuple(_divided(each, strokes, found) for each in node)
-    if not isinstance(node, Node):
-        return node
-    if isinstance(node, Fun) and isinstance(node.argument, Frac):
-        top, bottom = node.argument.top, node.argument.bottom
-        if any(top.span.end <= each < bottom.span.start for each in strokes):
-            found.append(not isinstance(bottom, Num))
-            return Frac(node.span, replace(node, argument=top), _divided(bottom, strokes, found))
-    return replace(node, **{
-        each.name: _divided(getattr(node, each.name), strokes, found) for each in fields(node) if each.name != "span"
-    })  # fmt: skip
+def _start(node: Node) -> int:
+    return min((each.span.start for each in node.walk() if each.span.end), default=node.span.start)
+
+
+def _split(node: Node) -> tuple[Node, Node] | None:
+    """Return the letter and the bracket of `a(b + c)`, if it is read as a function or as a product."""
+    if not isinstance(node, Open) or node.kind != "apply":
+        return None
+    product = node.alternatives[1]
+    if not isinstance(product, Mul) or len(product.factors) != 2:
+        return None
+    call = node.alternatives[0]
+    if isinstance(call, Apply) and len(call.arguments) == 1:
+        only = call.arguments[0]
+        if isinstance(only, Letter) and only.base == "t":
+            return None
+    return product.factors[0][1], product.factors[1][1]
 
 
 def _diagonal(span: Span, entries: tuple[Node, ...]) -> Mat:

@@ -50,6 +50,8 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         return Verdict(Outcome.EQUAL, "with the definitions of the problem")
     if (of_angles := _with_function(typed, goal)) is not None and _are_equivalent(of_angles, goal):
         return Verdict(Outcome.EQUAL, "")
+    if (renamed := _renamed(typed, goal, comparison)) is not None:
+        return renamed
     if goal.operator == "=" and mark == "=":
         return _wrong_equation(comparison, full, expanded)
     return _wrong_inequality(full, expanded, key)
@@ -64,6 +66,20 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
         return bool(equal(one, other))
     except FAULTS:
         return False
+
+
+def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
+    """Accept other names for letters of the problem, as in formulas."""
+    unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
+    if goal.operator == "=" or len(unknown) != 1:  # equations are compared term by term
+        return None
+    for letter in sorted(goal.free_symbols - typed.free_symbols, key=str)[:8]:
+        named = typed.xreplace({unknown[0]: letter})
+        tried = [named, _with_function(named, goal)]
+        if any(each is not None and _are_equivalent(each, goal) for each in tried):
+            names = (shown(each, comparison.key) for each in (unknown[0], letter))
+            return Verdict(Outcome.CONVENTION, "if `{}` is the problem's `{}`".format(*names))
+    return None
 
 
 def _with_function(typed: Relation, goal: Relation) -> Relation | None:

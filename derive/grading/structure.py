@@ -97,10 +97,26 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
     for term in _grouped(answer, given):
         if len(given) > 1 and are_surely_equal(difference, -term):
             yield Outcome.EXTRA, f"the term {shown(term)} is too much"
+    mine, right_ones = ([each for each in terms if each not in others] for terms, others in
+                        ((given, wanted), (wanted, given)))  # fmt: skip
+    if len(mine) == len(right_ones) == 1 and len(wanted) > 1:
+        ratio = mine[0] / right_ones[0]
+        swapped = {ratio.func, (1 / ratio).func} & {sympy.tan, sympy.cot}
+        if ratio == -1:
+            yield Outcome.SIGN, f"the term {shown(right_ones[0])} has the wrong sign"
+        elif sympy.count_ops(ratio) <= SHORTEST and not swapped and not _swaps(ratio):
+            yield Outcome.FACTOR, f"it has {shown(mine[0])} instead of {shown(right_ones[0])}"
     if len(wanted) > 3:
         for pair in combinations(wanted[:8], 2):
             if are_surely_equal(difference, Add(*pair)):
                 yield Outcome.MISSING, f"the terms {shown(pair[0])} and {shown(pair[1])} are missing"
+
+
+def _swaps(ratio: Expr) -> bool:
+    """Whether a ratio has the sine of an angle above and its cosine below, or the reverse."""
+    above, below = ratio.as_numer_denom()
+    return any(one.args == other.args and one.func != other.func
+               for one in above.atoms(sin, cos) for other in below.atoms(sin, cos))  # fmt: skip
 
 
 def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:

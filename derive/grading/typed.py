@@ -15,9 +15,9 @@ from itertools import pairwise
 from derive.documents.layout import RELATIONS
 from derive.documents.macros import argument_at
 from derive.documents.source import Format, Source, Span, source_of
-from derive.documents.tokens import Kind, Token, tokens_of, without_spaces
+from derive.documents.tokens import GREEK_LETTERS, Kind, Token, tokens_of, without_spaces
 from derive.documents.vocabulary import FUNCTIONS, GREEK
-from derive.grading.names import Names, bare
+from derive.grading.names import INSTEAD, Names, bare
 
 LONGEST = 2000  # characters of an answer
 MOST_TOKENS = 1500
@@ -131,6 +131,10 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
     source.replace(r"(?<=\d)\s*[x×]\s*(?=10\s*\^)", r"\\cdot ")
     _read_commas(source, notes)
     source.replace(
+        r"(?<![A-Za-z\\_{^])([A-Za-z]+|[\u0391-\u03c9\u03d5])(\d{1,2})(?![\d.])",
+        lambda found: _numbered(found[1], found[2], names) or found[0],
+    )
+    source.replace(
         r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([A-Za-z\\]\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?", _derivative
     )
     source.replace(
@@ -168,6 +172,14 @@ def _read_commas(source: Source, notes: list[str]) -> None:
         return new
 
     source.replace(r"(?<![\d.,])(\d{1,9}),(\d{1,9})(?![\d.,])", without_comma)
+
+
+def _numbered(word: str, digits: str, names: Names) -> str:
+    """Return `m1` as the letter m_1, if the problem has this letter."""
+    base = GREEK_LETTERS.get(word, word)
+    is_letter = len(base) == 1 or base in GREEK_WORDS
+    known = is_letter and (names.has(base, digits) or names.has(INSTEAD.get(base, base), digits))
+    return f"{word}_{digits}" if known else ""
 
 
 def _derivative(found: re.Match[str]) -> str:
