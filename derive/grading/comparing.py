@@ -30,6 +30,7 @@ from derive.grading.structure import (
 from derive.render.notation.text import in_one_line
 from derive.steps.homogeneity import dimension_of
 
+LONGEST = 160  # characters of an expression in an explanation
 ROUNDS = 6  # of definitions that are put in
 MOST_UNKNOWN = 2  # letters that may be other names of letters of the problem
 FEWEST_FIGURES = 2
@@ -39,14 +40,22 @@ WITH_A_ZERO = ("potential", "lagrangian", "energy_function", "hamiltonian", "eff
 def shown(value: Any, key: Key) -> str:
     """Return an expression as one line of text for an explanation."""
     try:
-        return in_one_line(key.notation.layout(value))
+        text = in_one_line(key.notation.layout(value))
+        return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
     except Exception:
-        return str(value)[:120]
+        return str(value)[:LONGEST]
 
 
 def verdict_on_value(read: Read, target: Target, key: Key) -> Verdict:
     """Compare one reading of a formula with an answer that is a value."""
     return _Comparison(read, target, key).verdict()
+
+
+def aligned(value: Any, right: Any) -> Any:
+    """Return a typed expression with the symbols of the right one, which may differ in their assumptions."""
+    own = {each.name: each for each in right.free_symbols}
+    put_in = {each: own[each.name] for each in value.free_symbols if own.get(each.name, each) != each}
+    return value.xreplace(put_in) if put_in else value
 
 
 @dataclass
@@ -57,7 +66,7 @@ class _Comparison:
     is_entry: bool = False  # of a matrix
 
     def verdict(self) -> Verdict:
-        value, right = self.read.value, self.target.value
+        value, right = aligned(self.read.value, self.target.value), self.target.value
         if isinstance(right, MatrixBase) or isinstance(value, MatrixBase):
             return self.of_matrix(value, right)
         if PLUS_MINUS in right.free_symbols | value.free_symbols:
@@ -159,17 +168,36 @@ class _Comparison:
         return None
 
     def turned(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal if a coordinate is counted in the other sense, where the sign of the answer itself stays."""
+        """Equal if a coordinate is counted in the other sense.
+
+        This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the sense
+        is that of the problem, and the answer has wrong signs.
+        """
         moving = sorted(self.key.coordinates & {_without_dots(each) for each in right.free_symbols}, key=str)[:4]
-        if len(right.free_symbols & set(_with_rates({q: q for q in moving}))) < 1:
-            return None
-        for count in range(1, len(moving)):  # all coordinates at once would be another sign of the answer
+        for count in range(1, min(len(moving), 2) + 1):
             for chosen in combinations(moving, count):
-                put_in = {one: -other for one, other in _with_rates({q: q for q in chosen}).items()}
-                if are_surely_equal(value, right.xreplace(put_in)) and not are_surely_equal(value, -right):
-                    names = " and ".join(f"`{shown(each, self.key)}`" for each in chosen)
+                turned = right.xreplace(_turning(chosen))
+                if turned == right or not are_surely_equal(value, turned) or are_surely_equal(value, -right):
+                    continue
+                names = " and ".join(f"`{shown(each, self.key)}`" for each in chosen)
+                if self.is_free(chosen):
                     return Verdict(Outcome.CONVENTION, f"if {names} is counted in the other sense")
+                return Verdict(Outcome.SIGN, f"it would be right if {names} were counted in the other sense")
         return None
+
+    def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
+        """Whether only the sense of an angle relative to a coordinate that is not an angle matters for the motion."""
+        if len(chosen) != 1 or self.key.kinds.get(chosen[0]) != "angle":
+            return False
+        lagrangian = next((each.value for each in self.key.steps if "lagrangian" in each.key), None)
+        if not isinstance(lagrangian, Expr):
+            return False
+        present = self.key.coordinates & {_without_dots(each) for each in lagrangian.free_symbols}
+        others = sorted((each for each in present if self.key.kinds.get(each) != "angle"), key=str)[:5]
+        alone = lagrangian.xreplace(_turning(chosen))
+        return not are_equal(alone, lagrangian) and any(
+            are_surely_equal(lagrangian.xreplace(_turning((*chosen, other))), lagrangian) for other in others
+        )
 
     def other_zero(self, value: Expr, right: Expr) -> Verdict | None:
         """Energies with another zero; Lagrangians that differ by the rate of a function."""
@@ -182,16 +210,27 @@ class _Comparison:
         except (*FAULTS, Inhomogeneous):
             return None
         moving = self.key.coordinates & {_without_dots(each) for each in right.free_symbols | value.free_symbols}
-        free = {each for q in moving for each in (q, rate(q), rate(q, 2))} | {TIME}
-        if not difference.free_symbols & free:
-            return Verdict(
-                Outcome.CONVENTION, f"with another zero of the energy: it differs by {shown(difference, self.key)}"
-            )
-        if "lagrangian" in self.target.key and moving and self.is_rate(difference, moving):
-            return Verdict(
-                Outcome.CONVENTION, "it leads to the same equations of motion: it differs by the rate of a function"
-            )
+        rates = {each for q in moving for each in (q, rate(q), rate(q, 2))}
+        is_lagrangian = "lagrangian" in self.target.key and bool(moving)
+        if not difference.free_symbols & rates and self.changes_a_term(difference, value, right, rates):
+            return None
+        if not difference.free_symbols & (rates | {TIME}):
+            told = f"with another zero of the energy: it differs by {shown(difference, self.key)}"
+            return Verdict(Outcome.CONVENTION, told)
+        if is_lagrangian and self.is_rate(difference, moving):
+            told = "it leads to the same equations of motion: it differs by the rate of a function"
+            return Verdict(Outcome.CONVENTION, told)
         return None
+
+    @staticmethod
+    def changes_a_term(difference: Expr, value: Expr, right: Expr, rates: set[Symbol]) -> bool:
+        """Whether both energies have a term without coordinates, but with another sign or number: this is a slip."""
+        mine, theirs = (
+            [term for term in Add.make_args(sympy.expand(each)) if term != 0 and not term.free_symbols & rates]
+            for each in (value, right)
+        )
+        ratios = [factor_between(difference, each) for each in theirs] if mine else []
+        return any(each is not None and each.is_number and each != -1 for each in ratios)
 
     def is_rate(self, difference: Expr, moving: frozenset[Symbol]) -> bool:
         """Whether Lagrange's equations of an expression are empty, so that it is the rate of a function."""
@@ -326,6 +365,8 @@ class _Comparison:
                 return Verdict(Outcome.DIFFERENT, "it is a vector; its magnitude is asked for")
             return Verdict(Outcome.DIFFERENT, "it is a list of numbers, but a single value is asked for")
         if not isinstance(value, MatrixBase):
+            if value == 0 and all(each == 0 for each in right):
+                return Verdict(Outcome.EQUAL, "")
             return self.one_for_all(value, right)
         if value.shape != right.shape and value.shape == right.shape[::-1]:
             value = value.T
@@ -417,6 +458,11 @@ def _without_dots(symbol: Symbol) -> Symbol:
 
     order = next((n for n in (3, 2, 1) if symbol.name.endswith(RATES[n])), 0)
     return Symbol(symbol.name.removesuffix(RATES[order]), **symbol.assumptions0) if order else symbol
+
+
+def _turning(chosen: tuple[Symbol, ...]) -> dict[Symbol, Expr]:
+    """Return coordinates and their rates, each with its negative."""
+    return {one: -other for one, other in _with_rates({q: q for q in chosen}).items()}
 
 
 def _with_rates(pairs: dict[Symbol, Symbol]) -> dict[Symbol, Symbol]:

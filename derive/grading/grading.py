@@ -28,7 +28,8 @@ from derive.grading.structure import are_equal, are_surely_equal
 from derive.grading.time_limit import OutOfTime, limited
 from derive.grading.typed import TypedStatement, Unread, typed
 
-SECONDS = 6.0  # of processor time for one answer
+EQUALS = ("=", "~", ":=", "to")
+SECONDS = 4.0  # of processor time for one answer
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ class _Statement:
 
     @property
     def is_equation(self) -> bool:
-        return all(each in ("=", "~", ":=") for each in self.relations)
+        return all(each in EQUALS for each in self.relations)
 
     @property
     def name(self) -> Any:
@@ -120,6 +121,7 @@ class _Grading:
     def __init__(self, answer: str, part: Part, key: Key):
         self.answer, self.part, self.key = answer, part, key
         self.reader = Reader(key.names, key.wholes)
+        self.left_out: list[str] = []
         self.cache: dict[tuple[int, str], Verdict] = {}
 
     def graded(self) -> Graded:
@@ -130,6 +132,7 @@ class _Grading:
             error.source = written.source
             raise
         self.remarks = [*written.notes, *dict.fromkeys(note for each in statements for note in self.notes_of(each))]
+        self.remarks += [f"the name `{each}` is not read" for each in self.left_out]
         found = self.matched(statements)
         return self.summed(found, statements)
 
@@ -145,6 +148,9 @@ class _Grading:
                 read = ReadStatement(tuple(self.reader.side(side) for side in each.sides), each.relations, each)
                 found.append(_Statement(read, texts, each.relations))
             except Unread as error:
+                if (alone := self.without_left_side(each, texts)) is not None:
+                    found.append(alone)
+                    continue
                 if next(with_units(texts[-1]), None) is None:
                     raise
                 found.append(_Statement(None, texts, each.relations, error, self.head_of(each)))
@@ -155,6 +161,17 @@ class _Grading:
         if len(found) == 1 and vectors[0] and count > 1 and not any(t.scaled or _is_list(t) for t in self.part.targets):
             return vectors[0]
         return found
+
+    def without_left_side(self, written: TypedStatement, texts: tuple[str, ...]) -> _Statement | None:
+        """Return the right side alone, if a name such as `d²U/dy²|(y = y_0)` before the equals sign is not read."""
+        if written.relations != ("=",) or any(target.is_relation for target in self.part.targets):
+            return None
+        try:
+            right = self.reader.side(written.sides[1])
+        except Unread:
+            return None
+        self.left_out.append(texts[0])
+        return _Statement(ReadStatement((right,), (), written), texts[1:], ())
 
     def head_of(self, written: TypedStatement) -> tuple[Read, ...]:
         """Return the readings of the letter before the equals sign of a number with a unit."""
@@ -305,7 +322,7 @@ class _Grading:
 
     def as_value(self, statement: _Statement, target: Target) -> Verdict:
         if not statement.is_equation:
-            return Verdict(Outcome.DIFFERENT, "an inequality is typed, but a value is asked for")
+            return Verdict(Outcome.DIFFERENT, "a condition is typed, but a value is asked for")
         verdicts: list[Verdict] = []
         if not statement.is_single and statement.name is None:
             for left in statement.first[:2]:
@@ -319,7 +336,26 @@ class _Grading:
             verdicts.append(self.with_reading(verdict_on_value(read, target, self.key), statement, read))
             if verdicts[-1].is_right:
                 break
-        return best_of(verdicts)
+        found = best_of(verdicts)
+        if found.is_right and (side := self.unequal_side(statement)) is not None:
+            told = f"the sides of the equation are not equal: {latex_of(side.node, self.key.names)[:160]}"
+            return replace(found, outcome=Outcome.DIFFERENT, because=told)
+        return found
+
+    def unequal_side(self, statement: _Statement) -> Read | None:
+        """Return a side before the last one that is no name and differs from the last one, as in `a = b` for b."""
+        if statement.is_single or statement.read is None:
+            return None
+        first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
+        last = statement.last
+        for side in statement.read.sides[first:-1]:
+            values = [each.value for each in side]
+            known = all(isinstance(each, Expr) and each.free_symbols <= _free(last) for each in values)
+            if known and values[0].free_symbols and not isinstance(values[0], Symbol) and not any(
+                are_equal(value, other.value) for value in values for other in last if isinstance(other.value, Expr)
+            ):  # fmt: skip
+                return side[0]
+        return None
 
     def as_relation(self, statement: _Statement, target: Target) -> Verdict:
         goal = target.value
@@ -346,7 +382,7 @@ class _Grading:
                     found = verdict_on_relation(read, "=", zero, target, self.key)
                     verdicts.append(self.with_reading(found.adding("read as an equation with zero"), statement, read))
         else:
-            mark = next((each for each in statement.relations if each not in ("=", "~", ":=")), "=")
+            mark = next((each for each in statement.relations if each not in EQUALS), "=")
             for left in statement.first[:3]:
                 for right in statement.last[:4]:
                     found = verdict_on_relation(left, mark, right, target, self.key)
@@ -378,6 +414,8 @@ class _Grading:
                 found = self.of_number(read, number, unit, target, target.number)
                 return self.with_direction(replace(found, reading=self.named(statement, shown)), statement, target)
         for read in statement.last:
+            if read.value == 0:
+                return None  # zero is exact, and needs no unit
             if isinstance(read.value, Expr) and read.value.is_number and (read.decimals or target.number.unit or
                                                                           isinstance(read.node, Num)):  # fmt: skip
                 found = self.of_number(read, text, None, target, target.number)
@@ -443,15 +481,33 @@ class _Grading:
         if missing := [each for each in targets if each.key not in found]:
             because = "; ".join(filter(None, [because, f"no answer to: {', '.join(map(_short_name, missing))}"]))
         if self.left_over and not missing:
-            more = "; ".join(self.reading_of(each) for each in self.left_over)
+            more = "; ".join(self.reading_of(each) for each in self.left_over)[:200]
+            if wrong := self.contradicts(found):
+                told = f"it gives more than one answer, and this one is wrong: {self.reading_of(wrong)[:200]}"
+                verdict = Verdict(Outcome.DIFFERENT, told, reading)
+                return Graded(self.part.label, self.answer, verdict, tuple(verdicts))
             because = "; ".join(filter(None, [because, f"not asked for: {more}"]))
         overall = replace(worst, because=because, reading=reading)
         return Graded(self.part.label, self.answer, overall, tuple(verdicts), points)
+
+    def contradicts(self, found: dict[str, tuple[Verdict, list[_Statement]]]) -> _Statement | None:
+        """Return a statement that answers a question once more, and wrongly. A result with another name is no answer."""
+        names = {each.name for _, of in found.values() for each in of}
+        for statement in self.left_over:
+            own = statement.name is None or statement.name in names
+            own = own or any(self.is_named(statement, target) for target in self.part.targets)
+            if own and not any(self.verdict(statement, target).is_right for target in self.part.targets):
+                return statement
+        return None
 
     def told(self, target: Target, verdict: Verdict) -> str:
         several = len(self.part.targets) > 1
         because = verdict.because or ("" if verdict.outcome is Outcome.EQUAL and not several else verdict.outcome.value)
         return f"{_short_name(target)}: {because}" if several else because
+
+
+def _free(reads: tuple[Read, ...]) -> set[Any]:
+    return {symbol for read in reads for symbol in getattr(read.value, "free_symbols", ())}
 
 
 def _short_name(target: Target) -> str:

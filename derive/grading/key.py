@@ -113,6 +113,7 @@ class Key:
     coordinates: frozenset[Symbol]
     ranges: Mapping[Symbol, Range]
     order: Order
+    kinds: Mapping[Symbol, str] = field(default_factory=dict)
     points: bool = False
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
@@ -177,7 +178,8 @@ def key_of(
     return Key(
         problem.id, tuple(parts), tuple(made.target(step, made.label_of(step)) for step in derivation.steps),
         Names.of(made.symbols), made.wholes, made.definitions, frozenset(made.allowed), dimensions, frozenset(moving),
-        problem.ranges, problem.order, bool(credits), notation,
+        problem.ranges, problem.order,
+        {q: kind for step in derivation.steps for q, kind in step.coordinates}, bool(credits), notation,
     )  # fmt: skip
 
 

@@ -140,6 +140,8 @@ class _InProblem(Meaning):
         whole = self.wholes.get((node.base, bare(node.sub)))
         if whole is not None and not node.dots and ("vec" in node.marks or not self.names.has(node.base, node.sub)):
             return whole
+        if node.base == "0":  # a bold zero
+            return Integer(0)
         if node.marks & {"hat", "bb"} and node.base in "ijkxyz":
             return self.unit_vector(node)
         if node.base in ("pi", "infty") or not node.marks:
@@ -201,10 +203,12 @@ def _with_products(node: Any, names: Names) -> Any:
         if head.base == "diag":
             return _diagonal(node.span, arguments)
         if len(arguments) > 1 and names.meant(head)[0] is not None:
-            return Mul(node.span, (("", power), ("", Vec(node.span, arguments))))
+            return Mul(node.span, (("", power), ("", _with_products(Vec(node.span, arguments), names))))
     node = replace(node, **{
         each.name: _with_products(getattr(node, each.name), names) for each in fields(node) if each.name != "span"
     })  # fmt: skip
+    if isinstance(node, Vec) and all(isinstance(each, Vec) for each in node.entries):
+        return Mat(node.span, tuple(each.entries for each in node.entries if isinstance(each, Vec)))
     if isinstance(node, Mul):
         for i, ((_, one), (_, other)) in enumerate(pairwise(node.factors)):
             name = one.alternatives[0] if isinstance(one, Open) else one
@@ -256,6 +260,8 @@ def _start(node: Node) -> int:
 
 def _split(node: Node) -> tuple[Node, Node] | None:
     """Return the letter and the bracket of `a(b + c)`, if it is read as a function or as a product."""
+    if isinstance(node, Apply) and len(node.arguments) > 1:
+        return node.head, Vec(node.span, node.arguments)
     if not isinstance(node, Open) or node.kind != "apply":
         return None
     product = node.alternatives[1]

@@ -15,7 +15,7 @@ from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan,
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.equality import equal
 from derive.algebra.expressions import PLUS_MINUS, Relation
-from derive.grading.comparing import _Comparison, factor_is_near, shown, verdict_on_value
+from derive.grading.comparing import _Comparison, aligned, factor_is_near, shown, verdict_on_value
 from derive.grading.key import Key, Number, Target
 from derive.grading.outcomes import Outcome, Verdict
 from derive.grading.reading import FAULTS, Read
@@ -32,15 +32,15 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         return Verdict(Outcome.DIFFERENT, "it is an equation between vectors")
     comparison = _Comparison(Read(left.node, left.value, (*left.decimals, *right.decimals),
                                   tuple({*left.unknown, *right.unknown})), target, key)  # fmt: skip
-    mark = {"~": "=", ":=": "="}.get(mark, mark)
+    mark = {"~": "=", ":=": "=", "to": "="}.get(mark, mark)
     if mark not in ("=", "!=", "<", ">", "<=", ">="):
         return Verdict(Outcome.DIFFERENT, "this relation is not graded")
-    typed = Relation(left.value, mark, right.value)
-    if typed.residual == 0 or are_surely_equal(left.value, right.value):
+    typed = Relation(aligned(left.value, goal), mark, aligned(right.value, goal))
+    if typed.residual == 0 or are_surely_equal(typed.left, typed.right):
         return Verdict(Outcome.DIFFERENT, "both sides are equal, so this says nothing")
     if _are_equivalent(typed, goal):
         return Verdict(Outcome.EQUAL, "")
-    full = Relation(comparison.expanded(left.value), mark, comparison.expanded(right.value))
+    full = Relation(comparison.expanded(typed.left), mark, comparison.expanded(typed.right))
     expanded = Relation(comparison.expanded(goal.left), goal.operator, comparison.expanded(goal.right))
     if (full, expanded) != (typed, goal) and not _says_nothing(full) and _are_equivalent(full, expanded):
         used = typed.free_symbols & set(key.definitions) - goal.free_symbols - key.allowed

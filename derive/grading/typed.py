@@ -97,7 +97,14 @@ def _typed(source: Source, names: Names) -> Typed:
 
 # --- characters and words ---------------------------------------------------------------------------------------------
 
-_COMBINING = {"\u0307": r"\dot", "\u0308": r"\ddot", "\u20db": r"\dddot", "\u20d7": r"\vec", "\u0302": r"\hat"}
+_COMBINING = {
+    "\u0307": r"\dot",
+    "\u0308": r"\ddot",
+    "\u20db": r"\dddot",
+    "\u20d7": r"\vec",
+    "\u20e1": r"\vec",
+    "\u0302": r"\hat",
+}
 _PLAIN = {
     r"[\u200b-\u200f\u2060-\u2064\ufeff\u00ad]": "",
     r"\*\*": "^",
@@ -109,18 +116,22 @@ _PLAIN = {
     r"==|:=": "=",
     r"\+/-|\+-": r"\\pm ",
     r"√": r"\\sqrt ",
+    r"\\\\\[[^\]]{0,12}\]": r"\\\\ ",
     r"\$\$?|\\\(|\\\)|\\\[|\\\]": " ",
     r"\\(?:begin|end)\{(?:align|equation|gather|aligned|split|math|displaymath)\*?\}": " ",
     r"\\(?:text|mathrm|textrm|mbox)\{\s*(?:and|or|,|;)\s*\}": "; ",
     r"(?<![A-Za-z\\])(?:and|or)(?![A-Za-z])": ";",
     r"\\(?:qquad|quad)": "; ",
+    r"\\rule(?:\[[^\]]*\])?\{[^{}]*\}\{[^{}]*\}": " ",
 }
 
 
 def _tidy(source: Source, names: Names, notes: list[str]) -> None:
     source.replace("[\U0001d400-\U0001d7ff\uff01-\uff5e\u210e\u00bc-\u00be\u2150-\u215e]", _compatible)
     source.replace("[\u00c0-\u024f\u1e00-\u1eff]", _undotted)
-    source.replace("(\\w)([\u0307\u0308\u20db\u20d7\u0302])", lambda found: f"{_COMBINING[found[2]]}{{{found[1]}}}")
+    source.replace(
+        "(\\w)([\u0307\u0308\u20db\u20d7\u20e1\u0302])", lambda found: f"{_COMBINING[found[2]]}{{{found[1]}}}"
+    )
     for pattern, reads in _PLAIN.items():
         source.replace(pattern, reads)
     if (comment := _COMMENT.search(source.text)) and comment.start() and "\\text" not in source.text:
