@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 
-from derive.algebra.expressions import PLUS_MINUS
+from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
 from derive.documents.source import Source, Span
@@ -22,7 +22,7 @@ from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
 from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
 from derive.grading.reading import FAULTS, Read, Reader, ReadStatement
-from derive.grading.relations import angle_of, verdict_on_equation_for, verdict_on_relation
+from derive.grading.relations import angle_of, give_the_same, verdict_on_equation_for, verdict_on_relation
 from derive.grading.shown import RELATIONS, latex_of
 from derive.grading.structure import are_equal, are_surely_equal
 from derive.grading.time_limit import OutOfTime, limited
@@ -238,6 +238,9 @@ class _Grading:
             ((self.verdict(s, t), i, t.key) for i, s in enumerate(rest) for t in open_targets),
             key=lambda each: (each[0].rank, each[1]),
         )
+        if (together := self.as_system(open_targets, rest)) is not None:
+            self.left_over = []
+            return found | together
         taken: set[int] = set()
         for verdict, i, name in pairs:
             if i not in taken and name not in found:
@@ -245,6 +248,24 @@ class _Grading:
                 found[name] = (verdict, [rest[i]])
         self.left_over = [each for i, each in enumerate(rest) if i not in taken]
         return found
+
+    def as_system(
+        self, targets: list[Target], statements: list[_Statement]
+    ) -> dict[str, tuple[Verdict, list[_Statement]]] | None:
+        """Judge equations of motion together: other equations are right if they give the same accelerations."""
+        if not 1 < len(targets) == len(statements) or not all(target.is_relation for target in targets):
+            return None
+        alone = [any(self.verdict(one, target).is_right for one in statements) for target in targets]
+        if all(alone) or any(one.is_single or not one.is_equation or one.read is None for one in statements):
+            return None
+        typed_ones = [Relation(one.first[0].value, "=", one.last[0].value) for one in statements]
+        if not give_the_same(typed_ones, [target.value for target in targets]):
+            return None
+        verdict = Verdict(Outcome.EQUAL, "the equations together are equivalent to those of the problem")
+        return {
+            target.key: (self.with_reading(replace(verdict, target=target.key), one, one.last[0]), [one])
+            for target, one in zip(targets, statements, strict=True)
+        }
 
     def is_named(self, statement: _Statement, target: Target) -> bool:
         name = statement.name
@@ -473,8 +494,8 @@ class _Grading:
             (share_of(found[t.key][0].outcome, t.own, t.whole) for t in targets if t.key in found), Fraction(0)
         )
         judged = [found[target.key] for target in targets if target.key in found]
-        read = list(dict.fromkeys(one.reading or "; ".join(map(self.reading_of, of)) for one, of in judged))
-        reading = "; ".join(read) + (f" ({'; '.join(self.remarks)})" if self.remarks else "")
+        readings = list(dict.fromkeys(one.reading or "; ".join(map(self.reading_of, of)) for one, of in judged))
+        reading = "; ".join(readings) + (f" ({'; '.join(self.remarks)})" if self.remarks else "")
         worst = max(verdicts, key=lambda each: each.rank)
         told = [self.told(target, found[target.key][0]) for target in targets if target.key in found]
         because = "; ".join(dict.fromkeys(filter(None, told)))
@@ -482,16 +503,16 @@ class _Grading:
             because = "; ".join(filter(None, [because, f"no answer to: {', '.join(map(_short_name, missing))}"]))
         if self.left_over and not missing:
             more = "; ".join(self.reading_of(each) for each in self.left_over)[:200]
-            if wrong := self.contradicts(found):
-                told = f"it gives more than one answer, and this one is wrong: {self.reading_of(wrong)[:200]}"
-                verdict = Verdict(Outcome.DIFFERENT, told, reading)
-                return Graded(self.part.label, self.answer, verdict, tuple(verdicts))
+            if (extra := self.contradicts(found)) is not None:
+                why = f"it gives more than one answer, and this one is wrong: {self.reading_of(extra)[:200]}"
+                refused = Verdict(Outcome.DIFFERENT, why, reading)
+                return Graded(self.part.label, self.answer, refused, tuple(verdicts))
             because = "; ".join(filter(None, [because, f"not asked for: {more}"]))
         overall = replace(worst, because=because, reading=reading)
         return Graded(self.part.label, self.answer, overall, tuple(verdicts), points)
 
     def contradicts(self, found: dict[str, tuple[Verdict, list[_Statement]]]) -> _Statement | None:
-        """Return a statement that answers a question once more, and wrongly. A result with another name is no answer."""
+        """Return a statement that answers a question once more, and wrongly; a result with another name does not."""
         names = {each.name for _, of in found.values() for each in of}
         for statement in self.left_over:
             own = statement.name is None or statement.name in names

@@ -171,7 +171,7 @@ def key_of(
     for index, part in enumerate(problem.parts):
         label = chr(ord("a") + index)
         steps = derivation.answering(part.answers)
-        points = dict((credits or {}).get(label, {}))
+        points = dict(credits.get(label, {})) if credits else None
         targets = [made.target(step, label) for step in steps]
         parts.append(Part(label, tuple(_with_points(targets, points)), part.extra))
     moving = {q for step in derivation.steps for q, _ in step.coordinates}
@@ -183,16 +183,16 @@ def key_of(
     )  # fmt: skip
 
 
-def _with_points(targets: list[Target], points: Mapping[str, Fraction]) -> Iterator[Target]:
+def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
     """Divide the points of a part among its answers: each has its own points, and shares those of the other steps."""
-    total = sum(points.values(), Fraction(0))
-    if not total:
+    if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return
+    total = sum(points.values(), Fraction(0))
     own = [points.get(each.key, Fraction(0)) + points.get(f"{each.key}_value", Fraction(0)) for each in targets]
     stated = sum(own, Fraction(0))
     for each, mine in zip(targets, own, strict=True):
-        part = mine / stated if stated else Fraction(1, len(targets))
+        part = mine / stated if all(own) else Fraction(1, len(targets))
         yield replace(each, own=mine or total * part, whole=total * part)
 
 

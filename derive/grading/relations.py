@@ -68,6 +68,25 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
         return False
 
 
+def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
+    """Whether two systems of equations, linear in as many accelerations, have the same solution."""
+    if any(goal.operator != "=" for goal in goals):
+        return False
+    unknowns = sorted({s for goal in goals for s in goal.free_symbols if str(s).endswith("_ddot")}, key=str)
+    if len(unknowns) != len(goals):
+        return False
+    solutions = []
+    for system in (typed, goals):
+        try:
+            matrix, column = sympy.linear_eq_to_matrix([each.residual for each in system], unknowns)
+            if sympy.expand(matrix.det()) == 0:
+                return False
+            solutions.append(matrix.inv(method="ADJ") * column)
+        except (*FAULTS, sympy.solvers.solveset.NonlinearError):
+            return False
+    return all(are_surely_equal(one, other) for one, other in zip(*solutions, strict=True))
+
+
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
     """Accept other names for letters of the problem, as in formulas."""
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from derive.grading.grading import Graded
+from derive.grading.outcomes import Verdict
 
 NOT_GRADED = "not graded"
 
@@ -27,6 +28,14 @@ def one_as_text(problem: str, graded: Graded) -> str:
     lines += [f"  {line}" for line in verdict.marked.splitlines()]
     lines.append(f"  credit: {points(graded.points)} of {points(graded.most)}")
     return "\n".join(lines)
+
+
+def explained(verdict: Verdict) -> str:
+    """Return the reason of a verdict in one line, with the place of what is not read."""
+    if not verdict.marked:
+        return verdict.because
+    text, caret = verdict.marked.split("\n")
+    return f"{verdict.because}, at `{text[len(caret) - len(caret.lstrip()) :][:24]}`"
 
 
 def as_data(graded: Graded) -> dict[str, Any]:

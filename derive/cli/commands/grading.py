@@ -129,7 +129,7 @@ def _at_line(path: str, row: Row, complaint: Complaint) -> Complaint:
 
 def _written(arguments: argparse.Namespace, answers: Table, results: list[Result]) -> str:
     from derive.building.graded import NotGraded
-    from derive.grading.report import NOT_GRADED, as_data, points
+    from derive.grading.report import NOT_GRADED, as_data, explained, points
     from derive.grading.table import written_table
 
     form = arguments.format or ("csv" if arguments.output not in (None, "-") else "text")
@@ -155,7 +155,7 @@ def _written(arguments: argparse.Namespace, answers: Table, results: list[Result
     cells = [
         (NOT_GRADED, each.complaint.message, "", "")
         if isinstance(each, NotGraded)
-        else (each.verdict.outcome.value, each.verdict.because, each.verdict.reading, points(each.points))
+        else (each.verdict.outcome.value, explained(each.verdict), each.verdict.reading, points(each.points))
         for each in results
     ]
     if form == "csv":
