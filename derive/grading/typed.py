@@ -138,7 +138,7 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
         cut = comment.start()
         notes.append(f"the words from `{comment[0]}` on are not read")
         source.replace(r"(?s)" + re.escape(source.text[cut:]) + r"\Z", "")
-    source.replace(r"(?<=\d)[eE]([+-]?\d{1,4})(?![\w.])", r"\\cdot 10^{\1}")
+    source.replace(r"(?<=\d)[eE]([+-]?\d{1,9})(?![\w.])", r"\\cdot 10^{\1}")
     source.replace(r"(?<=\d)\s*[x×]\s*(?=10\s*\^)", r"\\cdot ")
     _read_commas(source, notes)
     source.replace(

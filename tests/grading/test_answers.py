@@ -42,13 +42,13 @@ def pairs() -> dict[tuple[str, str], list[tuple[str, str]]]:
 PAIRS = pairs()
 
 
-def test_there_are_many() -> None:
+def test_there_are_many_answers_to_many_problems() -> None:
     assert sum(map(len, PAIRS.values())) >= 150
     assert len({problem for problem, _ in PAIRS}) >= 15
 
 
 @pytest.mark.parametrize(("problem", "part"), PAIRS)
-def test_verdicts(problem: str, part: str) -> None:
+def test_a_fair_grader_gives_these_verdicts(problem: str, part: str) -> None:
     wrong = [
         (answer, f"{found.verdict.outcome} instead of {verdict}", found.verdict.because)
         for verdict, answer in PAIRS[problem, part]
