@@ -18,7 +18,7 @@ _COMMANDS = {
     "grade": (
         "say whether the answers of students are right, and what is wrong",
         "ID|SET [ANSWER]",
-        "hw9/block --part b '7/24 M a^2 w^2'",
+        "hw9/block --part b 7/24*M*a^2*w^2",
     ),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
     "explain": ("show what a step is derived from, and how it was checked", "ID [STEP]", "hw9/block torque"),
