@@ -30,6 +30,7 @@ from derive.grading.structure import (
 from derive.render.notation.text import in_one_line
 from derive.steps.homogeneity import dimension_of
 
+DIFFERS = "it differs from the answer of the problem"
 LONGEST = 160  # characters of an expression in an explanation
 ROUNDS = 6  # of definitions that are put in
 MOST_UNKNOWN = 2  # letters that may be other names of letters of the problem
@@ -97,7 +98,7 @@ class _Comparison:
         ):
             if (found := test(value, right)) is not None:
                 return found
-        return Verdict(Outcome.DIFFERENT, "it differs from the answer of the problem")
+        return Verdict(Outcome.DIFFERENT, DIFFERS)
 
     def names_only(self, value: Expr, right: Expr) -> bool:
         return isinstance(value, Symbol) and value != right and value in self.key.definitions

@@ -13,10 +13,12 @@ from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
+from derive.audit.slips import nearest_edit
+from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
-from derive.documents.syntax import Num
+from derive.documents.syntax import Letter, Node, Num
 from derive.documents.tokens import TooLarge
-from derive.grading.comparing import verdict_on_value
+from derive.grading.comparing import DIFFERS, verdict_on_value
 from derive.grading.decimals import figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
@@ -126,6 +128,7 @@ class _Grading:
 
     def graded(self) -> Graded:
         written = typed(self.answer, self.key.names)
+        self.text = written.source.text
         try:
             statements = self.statements(written)
         except Unread as error:
@@ -361,7 +364,33 @@ class _Grading:
         if found.is_right and (side := self.unequal_side(statement)) is not None:
             told = f"the sides of the equation are not equal: {latex_of(side.node, self.key.names)[:160]}"
             return replace(found, outcome=Outcome.DIFFERENT, because=told)
+        if found.because == DIFFERS and len(self.part.targets) == 1:
+            return found.adding(self.nearest(statement.last[0], target))
         return found
+
+    def nearest(self, read: Read, target: Target) -> str:
+        """Return the single change that would make a formula right, as the audit of documents finds it; else ""."""
+        if not isinstance(target.value, Expr) or not isinstance(read.value, Expr) or read.unknown:
+            return ""
+        letters = {each.identity: each for each in read.node.walk() if isinstance(each, Letter)}
+
+        def is_right(node: Node) -> bool:
+            try:
+                return are_surely_equal(self.reader.value(node).value, target.value)
+            except (Meaningless, *FAULTS):
+                return False
+
+        try:
+            with limited(SECONDS / 4):
+                edit = nearest_edit(read.node, list(letters.values()), is_right, self.text_at)
+        except OutOfTime:
+            return ""
+        if edit is None:
+            return ""
+        return f"it would be right with {edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+
+    def text_at(self, span: Span) -> str:
+        return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
         """Return a side before the last one that is no name and differs from the last one, as in `a = b` for b."""

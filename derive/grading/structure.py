@@ -11,7 +11,7 @@ from itertools import combinations
 from typing import Any
 
 import sympy
-from sympy import Add, Expr, Integer, Pow, Rational, Symbol, cancel, cos, pi, sin, sqrt
+from sympy import Add, Expr, Function, Integer, Pow, Rational, Symbol, cancel, cos, pi, sin, sqrt
 
 from derive.algebra.equality import equal
 from derive.algebra.trig_polynomials import monomial_ratio
@@ -113,10 +113,9 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
 
 
 def _swaps(ratio: Expr) -> bool:
-    """Whether a ratio has the sine of an angle above and its cosine below, or the reverse."""
+    """Whether a ratio has functions above and below, as if one function was written for another."""
     above, below = ratio.as_numer_denom()
-    return any(one.args == other.args and one.func != other.func
-               for one in above.atoms(sin, cos) for other in below.atoms(sin, cos))  # fmt: skip
+    return bool(above.atoms(Function) and below.atoms(Function))
 
 
 def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:
