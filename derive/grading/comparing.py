@@ -26,6 +26,7 @@ from derive.grading.structure import (
     factor_between,
     slips_between,
     special_values,
+    swaps,
 )
 from derive.render.notation.text import in_one_line
 from derive.steps.homogeneity import dimension_of
@@ -309,7 +310,7 @@ class _Comparison:
     def ratio(self, value: Expr, right: Expr, with_sums: bool) -> Verdict | None:
         for left, goal in dict.fromkeys(((value, right), (self.expanded(value), self.expanded(right)))):
             ratio = factor_between(left, goal)
-            if ratio is not None and ratio not in (0, 1) and (with_sums or not ratio.has(Add)):
+            if ratio is not None and ratio not in (0, 1) and (not ratio.has(Add) or (with_sums and not swaps(ratio))):
                 if ratio == -1:
                     return Verdict(Outcome.SIGN, "it is the negative of the right answer")
                 return Verdict(Outcome.FACTOR, f"it is {shown(ratio, self.key)} times the right answer")
@@ -392,7 +393,7 @@ class _Comparison:
             return Verdict(Outcome.SIGN, "each component is the negative of the right one")
         pairs = [(a, b) for a, b in zip(value, right, strict=True) if a != 0 or b != 0]
         ratios = [factor_between(a, b) for a, b in pairs]
-        if ratios and ratios[0] is not None and all(each == ratios[0] for each in ratios):
+        if ratios and ratios[0] is not None and not ratios[0].has(Add) and all(each == ratios[0] for each in ratios):
             try:
                 found = self.dimension(ratios[0])
             except Inhomogeneous:
@@ -413,7 +414,8 @@ class _Comparison:
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")
-        if right.shape[1] == 1 and sum(each != 0 for each in right) == 1:
+        is_list = isinstance(self.target.symbol, MatrixBase)
+        if right.shape[1] == 1 and sum(each != 0 for each in right) == 1 and not is_list:
             only = next(each for each in right if each != 0)
             found = self.of_scalar(value, only)
             return found if not found.is_right else Verdict(

@@ -225,6 +225,10 @@ class _Grading:
         targets = list(self.part.targets)
         found: dict[str, tuple[Verdict, list[_Statement]]] = {}
         rest = list(statements)
+        for target in [each for each in targets if isinstance(each.symbol, MatrixBase) and not each.of_set]:
+            if (listed := self.of_list(rest, target)) is not None:
+                found[target.key] = listed
+                rest = [each for each in rest if each not in listed[1]]
         for target in [each for each in targets if each.of_set]:
             if (of_set := self.of_set(rest, target)) is not None:
                 verdict, used = of_set
@@ -292,6 +296,18 @@ class _Grading:
                     for name, verdict, of in ((one, swapped[0], other), (other, swapped[1], one)):
                         found[name] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), found[of][1])
         return found
+
+    def of_list(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
+        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`."""
+        used = []
+        for symbol in target.symbol:
+            base = parts_of(str(symbol))[0]
+            named = [each for each in statements if each.name is not None and parts_of(str(each.name))[0] == base]
+            if len(named) != 1 or not named[0].last or not isinstance(named[0].last[0].value, Expr):
+                return None
+            used += named
+        read = replace(used[0].last[0], value=Matrix([each.last[0].value for each in used]))
+        return replace(verdict_on_value(read, target, self.key), target=target.key), used
 
     def of_set(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
         """Judge a set of values, such as the principal moments, that several statements give."""

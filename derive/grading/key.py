@@ -255,10 +255,12 @@ class _Making:
 
     def target(self, step: Step, label: str) -> Target:
         value, symbol = _explicit(step.result), step.symbol
-        scaled = isinstance(step.result, Amplitudes) or (step.kind == "number" and isinstance(value, MatrixBase))
+        is_mode = isinstance(step.result, Amplitudes) and not isinstance(symbol, MatrixBase)
+        scaled = is_mode or (step.kind == "number" and isinstance(value, MatrixBase))
         if isinstance(step.result, Relation) and step.result.left.has(*_NAMED_RATES):
             symbol, value = step.result.left, _explicit(step.result.right)
         of_set = isinstance(symbol, MatrixBase) and isinstance(value, MatrixBase)
+        of_set = of_set and len({parts_of(str(each))[0] for each in symbol}) == 1  # I_1, I_2, I_3, but not r_1, theta_1
         text = in_one_line(named_result(step, self.notation))
         number = self._number(step, value)
         return Target(

@@ -104,7 +104,7 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
         swapped = {ratio.func, (1 / ratio).func} & {sympy.tan, sympy.cot}
         if ratio == -1:
             yield Outcome.SIGN, f"the term {shown(right_ones[0])} has the wrong sign"
-        elif sympy.count_ops(ratio) <= SHORTEST and not swapped and not _swaps(ratio):
+        elif sympy.count_ops(ratio) <= SHORTEST and not swapped and not swaps(ratio):
             yield Outcome.FACTOR, f"it has {shown(mine[0])} instead of {shown(right_ones[0])}"
     if len(wanted) > 3:
         for pair in combinations(wanted[:8], 2):
@@ -112,7 +112,7 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
                 yield Outcome.MISSING, f"the terms {shown(pair[0])} and {shown(pair[1])} are missing"
 
 
-def _swaps(ratio: Expr) -> bool:
+def swaps(ratio: Expr) -> bool:
     """Whether a ratio has functions above and below, as if one function was written for another."""
     above, below = ratio.as_numer_denom()
     return bool(above.atoms(Function) and below.atoms(Function))
@@ -193,4 +193,4 @@ def _agree_with(put_in: dict[Symbol, Any], answer: Expr, right: Expr) -> bool:
     return are_surely_equal(one, other)
 
 
-__all__ = ["are_equal", "are_surely_equal", "factor_between", "slips_between", "special_values"]
+__all__ = ["are_equal", "are_surely_equal", "factor_between", "slips_between", "special_values", "swaps"]
