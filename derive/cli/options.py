@@ -33,9 +33,8 @@ _COMMANDS = {
 
 _AFTERWARDS = """\
 example: derive new hw10/wheel --like body, then derive preview hw10/wheel
-options: --version, --root FOLDER (that has problems/; default: here or above)
+options: --version, --root FOLDER; exit codes: 0 fine, 1 failed, 2 wrong usage
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
-exit codes: 0 fine, 1 a failure or a difference, 2 wrong usage
 """
 
 
