@@ -159,6 +159,8 @@ class _Comparison:
         goals = [right] if full == right else [right, full]
         for goal in goals:
             free = sorted({_without_dots(each) for each in goal.free_symbols - value.free_symbols}, key=str)[:8]
+            if 2 * len(bases) > len({_without_dots(each) for each in goal.free_symbols}):
+                continue  # at least half of the letters must be those of the problem
             for chosen in permutations(free, len(bases)):
                 put_in = _with_rates(dict(zip(bases, chosen, strict=True)))
                 if are_surely_equal(value.xreplace(put_in), goal):

@@ -90,7 +90,7 @@ def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
     """Accept other names for letters of the problem, as in formulas."""
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
-    if goal.operator == "=" or len(unknown) != 1:  # equations are compared term by term
+    if goal.operator == "=" or len(unknown) != 1 or len(goal.free_symbols) < 2:  # equations are compared term by term
         return None
     for letter in sorted(goal.free_symbols - typed.free_symbols, key=str)[:8]:
         named = typed.xreplace({unknown[0]: letter})
