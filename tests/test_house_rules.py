@@ -46,6 +46,7 @@ FLOORS = (
     ("stock", "audit"),
     ("page",),
     ("render",),
+    ("grading",),
     ("building",),
     ("preview", "exporting"),
     ("cli",),

@@ -31,6 +31,7 @@ from derive.building.workers import Bug, Crew, Job, done
 from derive.course.names import KEY, LOGO, NAME, SHEET, SOLUTIONS
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import Complaint, DeriveError, Faults, Place, Rejected
+from derive.grading.table import harmless
 
 STUDENTS, CLASS = "students", "class"  # folders of a set's outputs
 CACHE, MADE = ".derived", ".made"
@@ -301,8 +302,8 @@ class _Record:
 
 
 def plain(cell: str) -> str:
-    """Return a cell that a spreadsheet does not take for a formula of its own."""
-    return f"'{cell}" if cell[:1] in ("=", "+", "-", "@", "\t", "\r") and not _is_number(cell) else cell
+    """Return a number unchanged, and any other cell so that no spreadsheet runs it as a formula."""
+    return cell if _is_number(cell) else harmless(cell)
 
 
 def _is_number(cell: str) -> bool:

@@ -28,7 +28,7 @@ from derive.errors import Complaint, Faults
 from derive.page.document import document_of
 from derive.page.folding import with_details
 from derive.page.hints import with_hints
-from derive.page.rubric import credits_of, faults_of_rubric
+from derive.page.rubric import Credit, credits_of, faults_of_rubric
 from derive.page.template import Templates, templates_of
 from derive.page.theorems import standalone
 from derive.page.tree import Document
@@ -83,6 +83,14 @@ def printed(
     failures   the disagreements with the reference, which are reported with the warnings of the page
     """
     return _Printing(problem, solved, wanted, cache, failures).rendered()
+
+
+def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]]:
+    """Return the points of each step of the rubric, by the label of its part and by its key; {} without points."""
+    if problem.points is None:
+        return {}
+    rubric = _Printing(problem, solved, Wanted(only=()), NO_CACHE, ()).points
+    return {label: {each.equations.key: each.points for each in found} for label, found in rubric.items()}
 
 
 class _Printing:
@@ -222,11 +230,16 @@ class _Printing:
         )
         return {name: form.render(solution) for name, form in formats().items() if name in self.wanted.formats}
 
-    def _documents(self) -> dict[str, str]:
+    @cached_property
+    def points(self) -> dict[str, tuple[Credit, ...]]:
+        """The points of the steps of each part, by its label."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
         tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a rule of a script has no task
-        points = credits_of(self.document, self.rubric, tasks, values)
+        return credits_of(self.document, self.rubric, tasks, values)
+
+    def _documents(self) -> dict[str, str]:
+        points = self.points
         kinds = self.wanted.documents
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 

@@ -18,7 +18,7 @@ from derive.algebra.expressions import IN_DEGREES, Amount, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
-from derive.building.printed import Wanted, printed
+from derive.building.printed import Wanted, printed, rubric_of
 from derive.building.solved import Solved, steps_key
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
@@ -30,6 +30,7 @@ from derive.course.variants import Chosen
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.figures.places import with_places
+from derive.grading.key import Key, key_of
 from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
@@ -82,6 +83,16 @@ def rendered(
         page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
     faults.stop()
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
+
+
+def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE) -> Key:
+    """Return the answers of a problem with their points, for the grader; raise `DeriveError` if there are errors."""
+    begun = time.time_ns()
+    problem, faults = problem_and_faults(root, problem_id)
+    problem = with_known_observations(problem, faults)
+    with faults:
+        solved, _ = _solved(problem, NO_CACHE if faults else cache, begun, faults)
+    return key_of(problem, solved.derivation, solved.values, rubric_of(problem, solved))
 
 
 def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Iterable
+from typing import Any
 
 from derive.course.names import DOCUMENTS
 from derive.render.formats import TYPESET, formats
@@ -112,6 +114,46 @@ def _audit(audit: argparse.ArgumentParser) -> None:
     audit.add_argument("--symbols", metavar="FILE", help="YAML file with kinds of letters: `omega: vector`")
 
 
+def _grade(grade: argparse.ArgumentParser) -> None:
+    named(
+        grade.add_argument("id", metavar="ID|SET", help="such as hw9/block; a set only with --answers"), "ids and sets"
+    )
+    grade.add_argument("answer", nargs="?", metavar="ANSWER", help="a formula, or a number with its unit")
+    grade.add_argument("--part", metavar="PART", help="such as b; b(2) is its second answer")
+    grade.add_argument("--answers", metavar="FILE", help="CSV with the columns student, problem, part, answer")
+    grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")
+    grade.add_argument("--format", choices=("text", "json", "csv"), help="(default text; csv into a file)")
+    _time_limit(grade)
+    grade.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
+    grade.add_argument("-q", "--quiet", action="store_true", help="show only errors and warnings")
+    _with_answer(grade)
+
+
+def _with_answer(grade: argparse.ArgumentParser) -> None:
+    """Let the answer follow the options, and begin with a minus sign: argparse would take `-omega^2` for an option."""
+    options = {name: action for action in grade._actions for name in action.option_strings}
+    parse = grade.parse_known_args
+
+    def parse_known_args(args: Any = None, namespace: Any = None) -> Any:
+        words, positions, at = list(args or ()), [], 0
+        while at < len(words):
+            word = words[at]
+            if word in options:
+                at += 1 if options[word].nargs == 0 else 2
+                continue
+            if word != "--" and not word.startswith("--") and not re.fullmatch(r"-j\d+", word):
+                positions.append(at)
+            at += 1
+        if len(positions) != 2:
+            return parse(words, namespace)
+        answer = words.pop(positions[1])
+        found, others = parse([each for each in words if each != "--"], namespace)
+        found.answer = answer
+        return found, others
+
+    grade.parse_known_args = parse_known_args  # type: ignore[method-assign]
+
+
 def _solve(solve: argparse.ArgumentParser) -> None:
     named(solve.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
     typed = sorted([*formats(), *TYPESET])
@@ -209,6 +251,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "export": _export,
     "check": _check,
     "audit": _audit,
+    "grade": _grade,
     "solve": _solve,
     "explain": _explain,
     "diff": _diff,

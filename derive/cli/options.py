@@ -19,6 +19,11 @@ _COMMANDS = {
     "export": ("write a set for Moodle or another learning platform", "SET|ID", "hw10 --format qti"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "audit": ("read a worked document, and find the rows that do not follow", "FILE", "solutions.tex"),
+    "grade": (
+        "say whether the answers of students are right, and what is wrong",
+        "ID|SET [ANSWER]",
+        "hw9/block --part b 7/24*M*a^2*w^2",
+    ),
     "solve": ("derive one problem and show its solution", "ID", "hw9/block --format pdf"),
     "explain": ("show what a step is derived from, and how it was checked", "ID [STEP]", "hw9/block torque"),
     "diff": ("show what has changed since the last build or a revision", "ID|SET", "hw9/block --rev HEAD"),

@@ -33,6 +33,7 @@ COMMANDS = {
     "diff": "comparing.diff",
     "check": "checking.check",
     "audit": "auditing.audit",
+    "grade": "grading.grade",
     "build": "building.build",
     "preview": "previewing.preview_pages",
     "init": "beginning.init",

@@ -1,0 +1,123 @@
+"""Grades answers: derives each problem in a worker, and then judges the answers to it there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from derive.building.cache import Cache
+from derive.building.set_names import set_folder
+from derive.building.sets import CACHE
+from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, job_of
+from derive.errors import BuildFailed, Complaint, DeriveError, Misused
+from derive.grading.grading import SECONDS, Graded
+from derive.grading.outcomes import Outcome, Verdict
+
+_REPORT = "this is a bug in derive: report it with the answer and the files of the problem"
+CHUNK = 200  # most answers of one job
+
+Asked = tuple[int, str, str]  # the number of the row, the name of the part, the answer
+
+
+@dataclass(frozen=True)
+class NotGraded:
+    """An answer that got no verdict, and the reason: its problem or its part does not exist, or is not derived."""
+
+    complaint: Complaint
+
+
+Result = Graded | NotGraded
+
+
+def grade_answers(
+    root: Path,
+    asked: Mapping[str, Sequence[Asked]],
+    jobs: int,
+    limit: float = TIME_LIMIT,
+    tick: Callable[[int, Mapping[str, float]], None] = lambda *_: None,
+) -> dict[int, Result]:
+    """Return the result for each row, by the number of the row; `asked` are the answers by problem.
+
+    If a worker fails, its answers are divided among new workers, so that one answer stops no other.
+    """
+    found: dict[int, Result] = {}
+    waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}
+
+    def put(crew: Crew, problem_id: str, rows: Sequence[Asked]) -> None:
+        work = partial(_graded, root, problem_id, rows)
+        job = job_of(root, problem_id, work, limit + SECONDS * len(rows))
+        waiting[job] = problem_id, rows
+        crew.put(job)
+
+    with Crew(jobs, lambda running: tick(len(found), running)) as crew:
+        for problem_id, rows in asked.items():
+            for begins in range(0, len(rows), CHUNK):
+                put(crew, problem_id, rows[begins : begins + CHUNK])
+        for outcome in crew.outcomes():
+            problem_id, rows = waiting.pop(outcome.job)
+            if outcome.error is None:
+                found.update(outcome.value)
+            elif len(rows) > 1 and isinstance(outcome.error, BuildFailed | Bug):
+                half = len(rows) // 2
+                put(crew, problem_id, rows[:half])
+                put(crew, problem_id, rows[half:])
+            else:
+                found.update((number, _failed(outcome.error, part, answer)) for number, part, answer in rows)
+    return found
+
+
+def _failed(error: DeriveError | Bug, part: str, answer: str) -> Result:
+    if isinstance(error, DeriveError) and not isinstance(error, BuildFailed):
+        return NotGraded(error.complaints[0])
+    if isinstance(error, Bug):
+        return NotGraded(Complaint("internal", f"internal error: {str(error)[:200]}", help=_REPORT))
+    return Graded(part, answer, Verdict(Outcome.UNREADABLE, "too large: the worker that compared it was stopped"))
+
+
+def _graded(root: Path, problem_id: str, rows: Sequence[Asked]) -> dict[int, Result]:
+    from derive.building.solution import answer_key
+    from derive.grading.grading import grade
+    from derive.grading.key import Key
+
+    outputs = set_folder(root, problem_id.partition("/")[0])
+    key: Key = answer_key(root, problem_id, Cache(outputs / CACHE if outputs.is_dir() else None))
+
+    def results() -> Iterator[tuple[int, Result]]:
+        for number, name, answer in rows:
+            part = key.part(name)
+            yield (
+                number,
+                NotGraded(unknown_part(problem_id, name, key.told)) if part is None else grade(answer, part, key),
+            )
+
+    return dict(results())
+
+
+def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -> Complaint:
+    """Return the error about a part that a problem does not have; `parts` are its labels and what they ask for."""
+    shown = name if len(name) <= 40 else name[:40] + " ..."
+    message = f"`{problem_id}` has no part `{shown}`" if shown else f"`{problem_id}` has several parts"
+    notes = tuple(f"({label}) {ask}" for label, ask in parts)
+    return Complaint("no-such-part", message, notes=notes, help="name one of its parts")
+
+
+def check_part(root: Path, problem_id: str, name: str | None) -> str:
+    """Return the name of a part, or the only part of a problem; raise `Misused` if there is no such part."""
+    from derive.course.problem import load_problem
+    from derive.grading.key import label_in
+
+    problem = load_problem(root, problem_id)
+    labels = [chr(ord("a") + i) for i in range(len(problem.parts))]
+    if name is None and len(labels) == 1:
+        return labels[0]
+    if name is None or label_in(labels, name) is None:
+        asks = [(label, _in_words(part.ask.text)) for label, part in zip(labels, problem.parts, strict=True)]
+        raise Misused(unknown_part(problem_id, name or "", asks))
+    return name
+
+
+def _in_words(ask: str) -> str:
+    plain = " ".join(ask.replace("<<", "").replace(">>", "").split())
+    return plain if len(plain) <= 80 else f"{plain[:80].rpartition(' ')[0]} ..."

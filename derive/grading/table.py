@@ -1,0 +1,101 @@
+"""Many answers at once, as CSV: a row for each answer, and the same rows with their verdicts.
+
+A spreadsheet runs a cell that begins with `=`, `+`, `-` or `@` as a formula; an apostrophe is put before such a text.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from derive.errors import Complaint, Place, Rejected
+
+LARGEST, MOST_ROWS, LONGEST_CELL = 20_000_000, 100_000, 100_000  # bytes, rows, characters
+NEEDED, SET_NEEDED = ("part", "answer"), ("problem", "part", "answer")
+ADDED = ("verdict", "explanation", "reading", "credit")
+_RUNS = ("=", "+", "-", "@", "\t", "\r", "|", "%")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One answer, with all cells of its row and the line of the file."""
+
+    line: int
+    cells: tuple[str, ...]
+    student: str
+    problem: str
+    part: str
+    answer: str
+
+
+@dataclass
+class Table:
+    heading: tuple[str, ...]
+    rows: list[Row] = field(default_factory=list)
+    delimiter: str = ","
+
+
+def read_table(content: bytes, path: str, problem: str = "") -> Table:
+    """Read the answers; `problem` is the problem of all rows, if the table has no such column."""
+    if len(content) > LARGEST:
+        raise Rejected(Complaint("too-large", f"`{path}` has more than {LARGEST // 1_000_000} million bytes"))
+    try:
+        text = content.decode("utf-8-sig").replace("\0", "\ufffd")
+    except UnicodeDecodeError as error:
+        message = f"`{path}` is not in UTF-8; the first other byte is at position {error.start}"
+        raise Rejected(Complaint("encoding", message, help="save it as CSV in UTF-8")) from error
+    first = text.partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    csv.field_size_limit(LARGEST)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+    try:
+        heading = tuple(cell.strip() for cell in next(reader, []))
+        columns = _columns(heading, path, first, not problem)
+        table = Table(heading, delimiter=delimiter)
+        for cells in reader:
+            if any(cell.strip() for cell in cells):
+                table.rows.append(_row(reader.line_num, cells, columns, len(heading), problem))
+            if len(table.rows) > MOST_ROWS:
+                raise Rejected(Complaint("too-large", f"`{path}` has more than {MOST_ROWS} rows"))
+    except csv.Error as error:
+        raise Rejected(Complaint("csv", f"`{path}` is not CSV: {error}", Place(path, reader.line_num))) from error
+    return table
+
+
+def _columns(heading: tuple[str, ...], path: str, first: str, with_problem: bool) -> dict[str, int]:
+    found = {name.lower(): i for i, name in reversed([*enumerate(heading)])}
+    if missing := [name for name in (SET_NEEDED if with_problem else NEEDED) if name not in found]:
+        message = f"`{path}` has no column {' and no column '.join(f'`{name}`' for name in missing)}"
+        place = Place(path, 1, 1, first[:120], max(1, min(len(first), 120)))
+        columns = ", ".join(("student", *SET_NEEDED) if with_problem else ("student", *NEEDED))
+        raise Rejected(Complaint("csv", message, place, help=f"the first line names the columns: {columns}"))
+    return found
+
+
+def _row(line: int, cells: Sequence[str], columns: dict[str, int], width: int, problem: str) -> Row:
+    padded = [cell[:LONGEST_CELL] for cell in (*cells, *[""] * (width - len(cells)))][:width]
+
+    def cell(name: str) -> str:
+        text = padded[columns[name]] if name in columns else ""
+        return text[1:] if text.startswith("'") and text[1:].lstrip().startswith(_RUNS) else text
+
+    named = cell("problem").strip()
+    return Row(line, tuple(padded), cell("student"), named or problem, cell("part"), cell("answer"))
+
+
+def written_table(table: Table, verdicts: Iterable[Sequence[str]]) -> str:
+    """Return the rows with the columns of `ADDED`; a column that the table has already is replaced."""
+    kept = [i for i, name in enumerate(table.heading) if name.lower() not in ADDED]
+    out = io.StringIO()
+    writer = csv.writer(out, delimiter=table.delimiter, lineterminator="\n")
+    writer.writerow([*(harmless(table.heading[i]) for i in kept), *ADDED])
+    for row, (*texts, credit) in zip(table.rows, verdicts, strict=True):
+        writer.writerow([*(harmless(row.cells[i]) for i in kept), *map(harmless, texts), credit])
+    return out.getvalue()
+
+
+def harmless(text: str) -> str:
+    """Return a text that no spreadsheet runs as a formula."""
+    return f"'{text}" if text.lstrip().startswith(_RUNS) or text.startswith(_RUNS) else text
