@@ -137,6 +137,7 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
+        self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
         self.is_only_answer = False  # whether the part has one answer, which is framed even if an earlier part has it
@@ -405,8 +406,10 @@ class _Writer:
         if (manner := self.selection.manner(step.key)) is not OWN:
             self.clauses.set_aside(step, manner is TOLD)
             if manner is POINTED_OUT:
-                said = pointed_out(self._phrase(step), step, self.selection.having_it(step), self.words)
+                lines_of = self.selection.having_it(step)
+                said = pointed_out(self._phrase(step), step, lines_of, self.words, again=lines_of == self.pointed_to)
                 self.clauses.point_out(step, said)
+                self.pointed_to = lines_of
             return
         nodes = (Chain(),) if goes_on or mode == HIDDEN_STEP or step.key == self.told_before else self._phrase(step)
         nodes = (*self.theorems.before(step), *nodes)
