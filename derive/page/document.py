@@ -140,7 +140,8 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        self.is_only_answer = False  # whether the part has one answer, which is framed even if an earlier part has it
+        self.frames_again = False  # whether a result of an earlier part is framed again: it is the part's only answer, or
+        # the part names the answers that are framed
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -307,7 +308,7 @@ class _Writer:
         self.before = None  # the first sentence of a part is a complete sentence
         boxed = {step.key for step in (answers if part.boxed is None else self.derivation.answering(part.boxed))}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers}, boxed)
-        self.is_only_answer = len(framed) == 1
+        self.frames_again = len(framed) == 1 or part.boxed is not None
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             begins[key] = len(blocks)
@@ -424,7 +425,7 @@ class _Writer:
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
-        count = results(step, lines) if framed and (again not in self.framed or self.is_only_answer) else 0
+        count = results(step, lines) if framed and (again not in self.framed or self.frames_again) else 0
         self.framed |= {step.key} if count else set()
         conditions = conditions_of(step) if count else ()
         lines, count = (*lines, *conditions), count + len(conditions)
