@@ -155,7 +155,9 @@ def _with_term_in_common(value: Expr) -> Expr:
     coefficients = {term: each for each, term in (part.as_coeff_Mul() for part in below.args)}
     for each, term in (part.as_coeff_Mul() for part in sums[0].args):
         if each > 1 and coefficients.get(term) == number * each:
-            upper, lower = (Add(*(part / by for part in of.args)) for of, by in ((sums[0], each), (below, number * each)))
+            upper, lower = (
+                Add(*(part / by for part in of.args)) for of, by in ((sums[0], each), (below, number * each))
+            )
             return Mul(*(part for part in Mul.make_args(factors) if part != sums[0]), upper, Pow(lower, -1))
     return value
 

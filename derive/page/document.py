@@ -140,7 +140,9 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        self.frames_again = False  # whether a result of an earlier part is framed again: it is the part's only answer, or
+        self.frames_again = (
+            False  # whether a result of an earlier part is framed again: it is the part's only answer, or
+        )
         # the part names the answers that are framed
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
