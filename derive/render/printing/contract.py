@@ -33,7 +33,7 @@ from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
 from derive.algebra.swing import SwingTime
 from derive.course.parts import points_text
 from derive.errors import Complaint
-from derive.page.tree import Illustration
+from derive.page.tree import Document, Illustration
 from derive.render.formats import Solution
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
