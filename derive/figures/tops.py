@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
-from itertools import pairwise
+from dataclasses import fields
 from typing import Any
 
 from sympy import Add, Expr, ImmutableDenseMatrix, Rational, Symbol, pi, sqrt
@@ -15,9 +14,8 @@ from derive.figures.annotations import Axis, LengthMark, Line, PointMark, Turn
 from derive.figures.bodies import widest_of
 from derive.figures.links import moving_in
 from derive.figures.marks import Mark, Position
-from derive.figures.pieces import Paper, Piece, Stroke
 from derive.figures.positions import column_of
-from derive.figures.space import dot, hull, is_within, midway, numeric, plus, rim
+from derive.figures.space import numeric
 from derive.figures.surroundings import AngleBetween, UprightAngle
 from derive.mechanics.bodies.boundary import Round
 from derive.mechanics.bodies.placed import after
@@ -31,42 +29,11 @@ TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the righ
 NODES_IN_FRONT = -pi / 18
 # Length of a drawn axis, and distance of a rotation arrow from its start, relative to the length of the body's axis.
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
-SHORT = 200  # number of short pieces of an axis that are tested for a disc in front of them
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
 # Extra distance of the first dimension line from the body, and distance between two dimension lines, in points.
 CLEAR, APART = 30.0, 20.0
 CENTRE = "C"
-
-
-@dataclass(frozen=True)
-class PiercingAxis(Axis):
-    """An axis that passes through flat discs; it is dashed where a disc is in front of it.
-
-    discs   the centre, the radius and the normal vector of each disc
-    """
-
-    discs: tuple[tuple[Position, Expr, Position], ...] = ()
-
-    def pieces(self, paper: Paper) -> list[Piece]:
-        *before, stroke, name = super().pieces(paper)
-        start, end = (paper.numbers.vector(each) for each in self.ends)
-        way, eye = plus(end, start, -1.0), paper.stance.eye
-        points = [plus(start, way, i / SHORT) for i in range(SHORT + 1)]
-        hidden = [False] * SHORT
-        for centre, radius, normal in self.discs:
-            middle, up = paper.numbers.vector(centre), paper.numbers.vector(normal)
-            outline = hull(paper.spots(*rim(middle, paper.numbers.of(radius), up)))
-            for i, (one, other) in enumerate(pairwise(points)):
-                place = plus(plus(one, plus(other, one, -1.0), 0.5), middle, -1.0)
-                is_behind = dot(place, up) * dot(eye, up) < 0
-                hidden[i] = hidden[i] or is_behind and is_within(midway(*paper.spots(one, other)), outline)
-        ends = [0, *(i for i in range(1, SHORT) if hidden[i] != hidden[i - 1]), SHORT]
-        runs = [
-            Stroke(paper.spots(points[i], points[j]), "hidden" if hidden[i] else "axis", head=j == SHORT)
-            for i, j in pairwise(ends)
-        ]
-        return [*before, *(runs if len(runs) > 1 else [stroke]), name]
 
 
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
@@ -87,7 +54,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
     size = sqrt(tidied(Add(*(c**2 for c in way))))
     up: Any = ImmutableDenseMatrix([0, 0, size])
     if axes.turns[0] in turns and axes.turns[0][1].is_Symbol:
-        yield PiercingAxis(start, start + LONGER * up, label=scalar("Z"), discs=tuple(_discs(placed)))
+        yield Axis(start, start + LONGER * up, label=scalar("Z"), discs=tuple(_discs(placed)))
         yield Turn(start + BESIDE * up, up, ROUND, label=axes.turns[0][1])
     i, own = axes.turns[-1]
     if (i, own) not in turns or i != 2 or not own.is_Symbol:
