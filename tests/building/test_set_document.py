@@ -22,7 +22,7 @@ from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered, Tex
 from tests.building.test_pages import squeezed
-from tests.courses import course_in, rendered_once
+from tests.courses import ROOT, course_in, rendered_once
 
 HEADING = "course: Physics 311\ntitle: Homework 9\ndate: Fall 2015\ninstructor: E. Noether\n"
 REFERENCE = """
