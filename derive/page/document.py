@@ -72,6 +72,7 @@ from derive.page.wording import (
     stated_once,
     told,
     unknown_keys,
+    with_verdict,
 )
 from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
@@ -315,7 +316,8 @@ class _Writer:
             self.shown_in[key] = label
             begins[key] = len(blocks)
             self.rest = self.selection.standing_after(key, self.derivation.parts[index])
-            self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
+            step = self.selection.step(self.derivation.step(key))
+            self._append(blocks, step, framed=key in framed, verdict=key in boxed and step.display.verdict)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
@@ -393,10 +395,15 @@ class _Writer:
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}
         return self.selection.standing_for(set(boxed) - measured - verdicts)
 
-    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
+    def _append(
+        self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False, verdict: bool = False
+    ) -> None:
         """Add the words and lines of a step; a step that continues the step before needs no words.
 
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
+
+        framed   whether the result is an answer, which is framed
+        verdict  whether the answer is a word of the sentence, such as "stable"
         """
         mode = self.problem.show.get(step.key, "")
         if mode == HIDDEN_STEP and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
@@ -415,7 +422,7 @@ class _Writer:
                 self.pointed_to = lines_of
             return
         nodes = (Chain(),) if goes_on or mode == HIDDEN_STEP or step.key == self.told_before else self._phrase(step)
-        nodes = (*self.theorems.before(step), *nodes)
+        nodes = (*self.theorems.before(step), *(with_verdict(nodes, self.words) if verdict else nodes))
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)

@@ -32,6 +32,7 @@ from derive.page.wording import (
     ToldIn,
     ToldOnce,
     UnitMark,
+    Verdict,
 )
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
@@ -154,6 +155,8 @@ class HtmlPage:
         match node:
             case FigureRef(number=figure):
                 return self._figure(figure, "&nbsp;")
+            case Verdict(text):
+                return f'<span class="verdict">{escape(text)}</span>'
             case Text(" = "):
                 return "&nbsp;=&nbsp;"
             case Text(text):

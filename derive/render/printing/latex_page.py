@@ -30,6 +30,7 @@ from derive.page.wording import (
     ToldIn,
     ToldOnce,
     UnitMark,
+    Verdict,
 )
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
@@ -175,6 +176,8 @@ class LatexPage:
         match node:
             case FigureRef(number=number):
                 return self._figure_name(number, "~")
+            case Verdict(text):
+                return rf"\verdict{{{escaped(text)}}}"
             case Text(" = "):
                 return "~=~"
             case Text(text):
