@@ -63,12 +63,12 @@ def test_a_second_derivative_that_only_decides_stability_is_not_framed(tmp_path:
 
 def test_a_verdict_that_is_asked_is_framed_as_a_word(tmp_path: Path) -> None:
     asked = edited(PENDULUM, ("answer: equations_of_motion", "answer: [equilibria, stability]"))
-    page = rendered(course_with(tmp_path / "asked", asked), "trial/one", only={"markdown"})
+    page = rendered(course_with(tmp_path / "asked", asked), "trial/one", only={"latex", "html", "markdown"})
     assert page.latex.count(r"\verdict{stable}") == page.latex.count(r"\verdict{unstable}") == 1
     assert page.html.count('<span class="verdict">stable</span>') == 1
     assert "the equilibrium is **stable**." in page.texts["markdown"]
     unboxed = edited(asked, ("stability]\n", "stability]\n    box: equilibria\n"))
-    assert r"\verdict" not in rendered(course_with(tmp_path / "unboxed", unboxed), "trial/one", only={"text"}).latex
+    assert r"\verdict" not in rendered(course_with(tmp_path / "unboxed", unboxed), "trial/one", only={"latex"}).latex
 
 
 def test_a_sentence_with_two_verdicts_states_a_condition() -> None:
