@@ -24,6 +24,7 @@ from sympy import (
     cos,
     expand,
     factor_list,
+    fraction,
     radsimp,
     sin,
     sqrt,
@@ -140,7 +141,25 @@ def _as_one_fraction(value: Expr) -> Expr:
         expanded = in_lowest_terms(value)
     except Outside:
         return in_front(value)
-    return expanded if is_multiplied_out(value) else shortest((expanded, in_front(value)))
+    return _with_term_in_common(expanded if is_multiplied_out(value) else shortest((expanded, in_front(value))))
+
+
+def _with_term_in_common(value: Expr) -> Expr:
+    """Write 2 (2 u + v)/(4 u + w) as (u + v/2)/(u + w/4): a number in front may only be the ratio of the coefficients
+    of a term that the sums above and below have in common."""
+    above, below = fraction(value) if value.is_Mul else (value, Integer(1))
+    number, factors = above.as_coeff_Mul()
+    sums = [part for part in Mul.make_args(factors) if part.is_Add]
+    if not (number.is_Integer and number > 1 and len(sums) == 1 and below.is_Add):
+        return value
+    coefficients = {term: each for each, term in (part.as_coeff_Mul() for part in below.args)}
+    for each, term in (part.as_coeff_Mul() for part in sums[0].args):
+        if each > 1 and coefficients.get(term) == number * each:
+            upper, lower = (
+                Add(*(part / by for part in of.args)) for of, by in ((sums[0], each), (below, number * each))
+            )
+            return Mul(*(part for part in Mul.make_args(factors) if part != sums[0]), upper, Pow(lower, -1))
+    return value
 
 
 def _by_squares(value: Expr) -> list[Expr]:

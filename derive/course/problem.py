@@ -380,7 +380,8 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
-    record.defined_at = {each.name: problem.place_of("define", each.name) for each in problem.defined}
+    defined = {each.name: problem.places.get(f"define.{each.name}") for each in problem.defined}
+    record.defined_at = {name: place for name, place in defined.items() if place}
     record.letters = _letters_of(problem)
     seed(1)  # SymPy chooses points at random when it factors; the same points give the same page in the same time
     with deriving(problem, record):

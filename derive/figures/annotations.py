@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import acos, cos, degrees, hypot, pi, sin
 from typing import Any, ClassVar
 
@@ -29,6 +30,7 @@ from derive.figures.space import (
     unit,
 )
 
+PIECES = 200  # number of short pieces of an axis; each is tested for a disc in front of it
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
@@ -85,9 +87,14 @@ class Line(_Between):
 
 @dataclass(frozen=True)
 class Axis(_Between):
-    """A coordinate axis: a thin arrow from start to end; with a direction `past`, it continues beyond the end."""
+    """A coordinate axis: a thin arrow from start to end; with a direction `past`, it continues beyond the end.
+
+    discs   the centre, the radius and the normal vector of each flat disc through which the axis passes; the axis is
+            dashed where a disc is in front of it
+    """
 
     past: Position = None
+    discs: tuple[tuple[Position, Any, Position], ...] = ()
     together: ClassVar[str | None] = "axes"
 
     def pieces(self, paper: Paper) -> list[Piece]:
@@ -97,7 +104,26 @@ class Axis(_Between):
         spots = paper.spots(start, end)
         if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
             return _along_sight(self.label, spots[0], dot(plus(end, start, -1.0), paper.stance.eye) > 0)
-        return [Stroke(spots, "axis", head=True), Tag(self.label, spots[1], direction(*spots))]
+        name = Tag(self.label, spots[1], direction(*spots))
+        return [*(self._strokes(paper, start, end) if self.discs else [Stroke(spots, "axis", head=True)]), name]
+
+    def _strokes(self, paper: Paper, start: Vector, end: Vector) -> list[Stroke]:
+        """Return the strokes of an axis that passes through discs."""
+        way, eye = plus(end, start, -1.0), paper.stance.eye
+        places = [plus(start, way, i / PIECES) for i in range(PIECES + 1)]
+        hidden = [False] * PIECES
+        for centre, radius, normal in self.discs:
+            middle, up = paper.numbers.vector(centre), paper.numbers.vector(normal)
+            outline = hull(paper.spots(*rim(middle, paper.numbers.of(radius), up)))
+            for i, (one, other) in enumerate(pairwise(places)):
+                from_disc = plus(plus(one, way, 0.5 / PIECES), middle, -1.0)
+                is_behind = dot(from_disc, up) * dot(eye, up) < 0
+                hidden[i] = hidden[i] or (is_behind and is_within(midway(*paper.spots(one, other)), outline))
+        ends = [0, *(i for i in range(1, PIECES) if hidden[i] != hidden[i - 1]), PIECES]
+        return [
+            Stroke(paper.spots(places[i], places[j]), "hidden" if hidden[i] else "axis", head=j == PIECES)
+            for i, j in pairwise(ends)
+        ]
 
 
 def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7)) -> list[Piece]:

@@ -32,7 +32,7 @@ LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
 # Extra distance of the first dimension line from the body, and distance between two dimension lines, in points.
-CLEAR, APART = 17.0, 20.0
+CLEAR, APART = 30.0, 20.0
 CENTRE = "C"
 
 
@@ -54,7 +54,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
     size = sqrt(tidied(Add(*(c**2 for c in way))))
     up: Any = ImmutableDenseMatrix([0, 0, size])
     if axes.turns[0] in turns and axes.turns[0][1].is_Symbol:
-        yield Axis(start, start + LONGER * up, label=scalar("Z"))
+        yield Axis(start, start + LONGER * up, label=scalar("Z"), discs=tuple(_discs(placed)))
         yield Turn(start + BESIDE * up, up, ROUND, label=axes.turns[0][1])
     i, own = axes.turns[-1]
     if (i, own) not in turns or i != 2 or not own.is_Symbol:
@@ -154,6 +154,16 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
     centre = placed.body.middle.position[2] - held
     if parts and centre != 0:
         yield PointMark(start + centre * along, label=scalar(CENTRE))
+
+
+def _discs(placed: Any) -> Iterable[tuple[Position, Expr, Position]]:
+    """Yield the centre, the radius and the normal vector of each flat part of a body with Euler angles."""
+    if not follows_nodes(placed):
+        return
+    _, _, along = following_axes(placed)
+    for body, low in _parts(placed):
+        if len(lengths := _lengths(body, low)) == 1:
+            yield column_of(placed.at) + lengths[0] * along, widest_of(body.boundary)[1], along
 
 
 def _is_round(body: Any) -> bool:

@@ -43,7 +43,7 @@ PARALLEL_AXES = Theorem(
 )
 PERPENDICULAR_AXES = Theorem(
     "perpendicular_axes",
-    Relation(scalar("I_zz"), "=", Terms(scalar("I_xx"), scalar("I_yy"))),
+    Relation(scalar("I_z"), "=", Terms(scalar("I_x"), scalar("I_y"))),
     "Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3",
     (("x", scalar("x")), ("y", scalar("y"))),
 )

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
-from sympy import Integral, MatrixBase, Mul, Rational, Symbol, preorder_traversal
+from sympy import Integral, MatrixBase, Mul, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import common_factor
@@ -51,13 +51,6 @@ class Equations:
         """Return the lines of each chain; in a list of results each line is a separate chain."""
         starts = [i for i, l in enumerate(self.lines) if not i or l.beside or (l.left is not None and not l.because)]
         return tuple(self.lines[i:j] for i, j in pairwise([*starts, len(self.lines)]))
-
-    @property
-    def frames_bare_value(self) -> bool:
-        """Return whether the frame contains only a letter or a number such as 0, which means nothing without the left
-        side."""
-        last = self.lines[-1]
-        return self.framed == 1 and last.left is None and _is_bare(last.right)
 
     def beside(self, other: Equations) -> Equations:
         """Return the lines of both steps under one number; the steps share a row if there is room."""
@@ -222,13 +215,6 @@ def _share_a_sum_or_root(vector: MatrixBase) -> bool:
     present = [entry for entry in vector if entry != 0]
     factors = Mul.make_args(common_factor(present))
     return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)
-
-
-def _is_bare(value: Any) -> bool:
-    """Return whether the value is a rational number such as 0 or 2, a single letter, or a zero vector."""
-    if isinstance(value, MatrixBase):
-        return all(entry == 0 for entry in value)
-    return isinstance(value, Rational | Symbol)
 
 
 def names_results(symbol: Any) -> bool:

@@ -72,6 +72,7 @@ from derive.page.wording import (
     stated_once,
     told,
     unknown_keys,
+    with_verdict,
 )
 from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_table
@@ -137,9 +138,13 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
+        self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        self.is_only_answer = False  # whether the part has one answer, which is framed even if an earlier part has it
+        self.frames_again = (
+            False  # whether a result of an earlier part is framed again: it is the part's only answer, or
+        )
+        # the part names the answers that are framed
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -306,12 +311,13 @@ class _Writer:
         self.before = None  # the first sentence of a part is a complete sentence
         boxed = {step.key for step in (answers if part.boxed is None else self.derivation.answering(part.boxed))}
         framed = self._framed(self.derivation.parts[index], {step.key for step in answers}, boxed)
-        self.is_only_answer = len(framed) == 1
+        self.frames_again = len(framed) == 1 or part.boxed is not None
         for key in self.derivation.parts[index]:
             self.shown_in[key] = label
             begins[key] = len(blocks)
             self.rest = self.selection.standing_after(key, self.derivation.parts[index])
-            self._append(blocks, self.selection.step(self.derivation.step(key)), framed=key in framed)
+            step = self.selection.step(self.derivation.step(key))
+            self._append(blocks, step, framed=key in framed, verdict=key in boxed and step.display.verdict)
             self.before = self.derivation.step(key) if key in self.numbers else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
@@ -389,10 +395,15 @@ class _Writer:
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}
         return self.selection.standing_for(set(boxed) - measured - verdicts)
 
-    def _append(self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False) -> None:
+    def _append(
+        self, blocks: list[Block], step: Step, goes_on: bool = False, framed: bool = False, verdict: bool = False
+    ) -> None:
         """Add the words and lines of a step; a step that continues the step before needs no words.
 
         A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
+
+        framed   whether the result is an answer, which is framed
+        verdict  whether the answer is a word of the sentence, such as "stable"
         """
         mode = self.problem.show.get(step.key, "")
         if mode == HIDDEN_STEP and step.key not in self.asked or self.selection.is_behind_quoted(step.key):
@@ -405,11 +416,13 @@ class _Writer:
         if (manner := self.selection.manner(step.key)) is not OWN:
             self.clauses.set_aside(step, manner is TOLD)
             if manner is POINTED_OUT:
-                said = pointed_out(self._phrase(step), step, self.selection.having_it(step), self.words)
+                lines_of = self.selection.having_it(step)
+                said = pointed_out(self._phrase(step), step, lines_of, self.words, again=lines_of == self.pointed_to)
                 self.clauses.point_out(step, said)
+                self.pointed_to = lines_of
             return
         nodes = (Chain(),) if goes_on or mode == HIDDEN_STEP or step.key == self.told_before else self._phrase(step)
-        nodes = (*self.theorems.before(step), *nodes)
+        nodes = (*self.theorems.before(step), *(with_verdict(nodes, self.words) if verdict else nodes))
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         again = self.stated.noted(step.key, lines)
@@ -421,7 +434,7 @@ class _Writer:
             blocks.append(Paragraph((*self._clause(blocks), *self.clauses.begun(), *sentence)))
             return
         lines = noted(lines, self.words.beside_answer(step, again)) if framed else lines
-        count = results(step, lines) if framed and (again not in self.framed or self.is_only_answer) else 0
+        count = results(step, lines) if framed and (again not in self.framed or self.frames_again) else 0
         self.framed |= {step.key} if count else set()
         conditions = conditions_of(step) if count else ()
         lines, count = (*lines, *conditions), count + len(conditions)

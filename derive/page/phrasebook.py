@@ -36,6 +36,7 @@ _SHAPE: dict[str, Any] = {
         _ANY: _TEXT,
         "points": [_TEXT],
         "unnamed": [_TEXT],
+        "verdicts": [_TEXT],
         "rules": _TABLE,
         "explain": _TABLE,
         "documents": _TABLE,

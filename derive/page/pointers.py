@@ -31,11 +31,14 @@ def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
 
 
 def pointed_out(
-    sentence: Iterable[Inline], step: Step, having_it: Sequence[Step], words: Phrases
+    sentence: Iterable[Inline], step: Step, having_it: Sequence[Step], words: Phrases, again: bool = False
 ) -> tuple[Inline, ...]:
-    """Return the sentence of a step with a reference to lines of other steps instead of the step's own lines."""
+    """Return the sentence of a step with a reference to lines of other steps instead of the step's own lines.
+
+    again  whether the sentence before refers to the same lines
+    """
     several = isinstance(step.symbol, MatrixBase)
-    instead = _names_of_values(step, having_it, words) if several else _clause(step, having_it[0], words)
+    instead = _names_of_values(step, having_it, words) if several else _clause(step, having_it[0], words, again)
     nodes = [each for node in sentence for each in (instead if isinstance(node, Chain) else (node,))]
     ended = isinstance(nodes[-1], Text) and nodes[-1].text.rstrip().endswith(".")
     return tuple(nodes) if ended else (*nodes, Text("."))
@@ -50,6 +53,6 @@ def _names_of_values(step: Step, having_it: Sequence[Step], words: Phrases) -> t
     return joined([(Math(Relation(line.left, "=", letters[line.right])),) for line in lines], words.labels["and"])
 
 
-def _clause(step: Step, having_it: Step, words: Phrases) -> tuple[Inline, ...]:
-    names = {**names_of_step(step, words, None), "shown": Ref(having_it.key)}
+def _clause(step: Step, having_it: Step, words: Phrases, again: bool) -> tuple[Inline, ...]:
+    names = {**names_of_step(step, words, None), "shown": Ref(having_it.key), **({"again": True} if again else {})}
     return filled(words.clauses[step.rule][step.outcome], names)

@@ -42,10 +42,8 @@ class Display:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """Return the punctuation after each step: commas between steps, and `end` after the last step. There is no
-        punctuation next to a frame."""
-        stops = (",",) * (len(self.groups) - 1) + (self.end,)
-        return tuple("" if group.framed else stop for group, stop in zip(self.groups, stops, strict=True))
+        """Return the punctuation after each step: commas between steps, and `end` after the last step."""
+        return (",",) * (len(self.groups) - 1) + (self.end,)
 
 
 @dataclass(frozen=True)

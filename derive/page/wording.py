@@ -49,6 +49,11 @@ class Text:
 
 
 @dataclass(frozen=True)
+class Verdict(Text):
+    """A word that answers the question of a part, such as "stable"; it is framed like a formula that is an answer."""
+
+
+@dataclass(frozen=True)
 class FigureRef(Text):
     """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently. In a list,
     such as Figures 1 and 2, the number is alone."""
@@ -358,6 +363,18 @@ def name_of(step: Step) -> Inline:
 def equation_of(step: Step) -> Inline:
     """Return the result of a step as an equation in running text."""
     return Math(step.result if step.symbol is None else Relation(step.symbol, "=", step.result))
+
+
+def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
+    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". A sentence
+    with two, such as "stable if it is positive, and unstable if it is negative", states a condition."""
+    pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
+    found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
+    if len(found) != 1:
+        return tuple(nodes)
+    ((i, match),) = found
+    before, after = match.string[: match.start()], match.string[match.end() :]
+    return (*nodes[:i], Text(before), Verdict(match.group()), Text(after), *nodes[i + 1 :])
 
 
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:

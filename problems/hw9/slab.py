@@ -38,6 +38,7 @@ def solve(
     level = extreme_value(U, theta)
     curvature = stability(U, {theta: 0}, letter=radius, key="curvature")
     minimum = where(curvature, ">", 0, radius, key="minimum_condition")
+    maximum = where(curvature, "<=", 0, radius, key="maximum_condition")  # the fourth derivative decides the border
 
     # The second solution treats x, y and theta as free coordinates; their equations contain the contact force.
     kept = [constraint(q, place.value, force=f"lambda_{place.key}") for q, place in zip((x, y), centre)]
@@ -70,4 +71,4 @@ def solve(
     pushes = arrow(across, contact, push, label=N), arrow(-along, contact, friction, label=F)
     arm = length_mark(top - radius * theta * along, top, radius * theta)
     sketch("forces", system, O, C, arm, pushes, weights=True)
-    return L, motion, swings, stable, level, minimum, again, N, F, *needed
+    return L, motion, swings, stable, level, minimum, maximum, again, N, F, *needed

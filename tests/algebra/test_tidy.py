@@ -152,6 +152,9 @@ FORMS = [
         a**2 * sin(x) ** 2 + b * cos(x) ** 2 + M * sin(x) * cos(x),
     ),
     (M / (x**2 - a - b), -M / (a + b - x**2)),
+    # a number in front that is only the ratio of the coefficients of a common term
+    (2 * x * (2 * a + M * b) / (4 * a + b**2), x * (a + M * b / 2) / (a + b**2 / 4)),
+    (2 * (M + a) * b / (M + 2 * a), 2 * b * (M + a) / (M + 2 * a)),
 ]
 
 

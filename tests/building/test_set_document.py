@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 from dataclasses import replace
@@ -21,7 +22,7 @@ from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered, Tex
 from tests.building.test_pages import squeezed
-from tests.courses import course_in, rendered_once
+from tests.courses import ROOT, course_in, rendered_once
 
 HEADING = "course: Physics 311\ntitle: Homework 9\ndate: Fall 2015\ninstructor: E. Noether\n"
 REFERENCE = """
@@ -303,6 +304,14 @@ def test_the_sheet_refers_to_a_part_where_the_solution_has_an_equation(tmp_path:
     assert r"from \hyperlink{hw9.block.17}{\eqnumber{17}}, what torque" in solution.latex
     assert r"from part (b), what torque" in solution.sheet
     assert "With ω⃗ from (17), what torque" in solution.texts["text"]
+
+
+def test_a_caption_may_refer_to_a_later_equation_in_every_format(tmp_path: Path) -> None:
+    text = (ROOT / "problems" / "hw9" / "top.yaml").read_text(encoding="utf-8")
+    assert "<<eq sleeping_spin>>" in text.partition("drawings:")[2]
+    solution = rendered_once(ROOT, "hw9/top")
+    (well,) = [each for each in json.loads(solution.texts["json"])["drawings"] if each["key"] == "well"]
+    assert "the critical one, (30)." in well["caption"]
 
 
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ from derive.mechanics import (
 )
 from derive.steps.record import recorded
 from tests.figures.machines import at, labels, of
-from tests.figures.scenery import leaning, pieces_of, strokes, theta
+from tests.figures.scenery import heading, leaning, pieces_of, strokes, theta
 
 a, M, g, A, B, C, l = symbols("a M g A B C l", positive=True)
 
@@ -54,6 +54,18 @@ def test_the_axes_follow_the_line_of_nodes_and_not_the_spin() -> None:
     assert all(simplify(one.dot(other)) == 0 for one, other in ((x, y), (y, z), (z, x)))
     assert simplify(x.cross(y).dot(z)).subs({theta: 0.7, a: 1.0}) > 0
     assert "psi" not in {str(letter) for axis in (x, y, z) for letter in axis.free_symbols}
+
+
+def test_the_vertical_is_dashed_where_the_disc_is_in_front_of_it() -> None:
+    """It begins in front of the disc, passes through it, and is seen again above the rim."""
+    pieces = pieces_of(leaning(), theta=0.3)
+    upright = [
+        (min(y for _, y in stroke.spots), pen, stroke.head)
+        for pen in ("axis", "hidden")
+        for stroke in strokes(pieces, pen)
+        if abs(heading(stroke) - 90) < 0.5
+    ]
+    assert [(pen, head) for _, pen, head in sorted(upright)] == [("axis", False), ("hidden", False), ("axis", True)]
 
 
 def test_the_turns_go_round_the_vertical_and_round_the_axis() -> None:

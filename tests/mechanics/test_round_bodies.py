@@ -159,7 +159,7 @@ def test_only_a_tensor_about_the_centre_is_moved_from_it() -> None:
 def test_a_letter_of_a_size_is_no_coordinate_as_well() -> None:
     r, z = symbols("r z", positive=True)
     region = Cone(r, z, M).region(Cone(r, z, M).point("apex"))
-    assert [name.name for name in region.names] == ["zeta", "theta", "s"]
+    assert [name.name for name in region.names] == ["zeta", "phi", "s"]
 
 
 # --- refusals ---

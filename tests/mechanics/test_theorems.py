@@ -39,7 +39,7 @@ def test_parallel_axes_hold_for_a_block_about_its_corner_entry_by_entry() -> Non
 def test_perpendicular_axes_hold_for_what_is_flat_and_for_nothing_else() -> None:
     def difference(thickness: Expr) -> Expr:
         J = inertia_tensor(Cuboid((a, b, thickness), M), about="corner", key="J").value
-        return put_in(BY_NAME["perpendicular_axes"], {f"I_{k}{k}": J[i, i] for i, k in enumerate("xyz")})
+        return put_in(BY_NAME["perpendicular_axes"], {f"I_{k}": J[i, i] for i, k in enumerate("xyz")})
 
     assert equal(difference(c), -2 * M * c**2 / 3), "z^2 counts in both moments on the right"
     assert equal(difference(c).subs(c, 0), Integer(0))

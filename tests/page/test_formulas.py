@@ -265,18 +265,18 @@ given:
 statement: A solid cylinder.
 strategy: Cut it into rings of radius $r$.
 wording:
-  inertia_tensor: 'With $y = r\\sin\\theta$ and $r < a$, <<chain>>'
+  inertia_tensor: 'With $y = r\\sin\\phi$ and $r < a$, <<chain>>'
 parts:
   - ask: Find the tensor.
     answer: inertia_tensor
 """
-WORDING = r"With $y = r\sin\theta$ and $r < a$, <<chain>>"
+WORDING = r"With $y = r\sin\phi$ and $r < a$, <<chain>>"
 
 
 def test_the_solution_may_mention_variables_of_integration(tmp_path: Path) -> None:
     page = rendered(course_with(tmp_path, CYLINDER), "trial/one", only={"text"})
     assert "Cut it into rings of radius r." in page.texts["text"]
-    assert "With y = r sin θ and r < a," in page.texts["text"]
+    assert "With y = r sin φ and r < a," in page.texts["text"]
     assert not page.warnings
 
 
@@ -284,7 +284,7 @@ def test_the_solution_may_mention_variables_of_integration(tmp_path: Path) -> No
     ("edit", "code", "message"),
     [
         ((r"$r < a$", r"$r < m$"), "dimension", "`r` is a length, but `m` is a mass: they cannot be compared"),
-        ((r"$r < a$", r"$\theta < a$"), "dimension", r"`\theta` is a number, but `a` is a length"),
+        ((r"$r < a$", r"$\phi < a$"), "dimension", r"`\phi` is a number, but `a` is a length"),
         (("A solid cylinder.", r"Let $r < a$."), "undeclared-symbol", "`r` is not declared"),
         ((r"$r < a$", r"$s < a$"), "undeclared-symbol", "`s` is not declared"),
     ],

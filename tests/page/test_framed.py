@@ -11,7 +11,7 @@ from derive.errors import Rejected
 from derive.page.document import document_of
 from derive.page.template import templates_of
 from derive.page.tree import Display, Document
-from derive.page.wording import phrases
+from derive.page.wording import Text, Verdict, phrases, with_verdict
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 from derive.render.printing.lines import printed_lines
@@ -60,6 +60,23 @@ def test_a_second_derivative_that_only_decides_stability_is_not_framed(tmp_path:
     assert page.count("  * ") == 2, "one frame for each equilibrium"
     assert not any("d²U/d" in line for line in page.splitlines() if line.startswith("  * "))
     assert "is stable." in page and "is unstable." in page
+
+
+def test_a_verdict_that_is_asked_is_framed_as_a_word(tmp_path: Path) -> None:
+    asked = edited(PENDULUM, ("answer: equations_of_motion", "answer: [equilibria, stability]"))
+    page = rendered(course_with(tmp_path / "asked", asked), "trial/one", only={"latex", "html", "markdown"})
+    assert page.latex.count(r"\verdict{stable}") == page.latex.count(r"\verdict{unstable}") == 1
+    assert page.html.count('<span class="verdict">stable</span>') == 1
+    assert "the equilibrium is **stable**." in page.texts["markdown"]
+    unboxed = edited(asked, ("stability]\n", "stability]\n    box: equilibria\n"))
+    assert r"\verdict" not in rendered(course_with(tmp_path / "unboxed", unboxed), "trial/one", only={"latex"}).latex
+
+
+def test_a_sentence_with_two_verdicts_states_a_condition() -> None:
+    words = phrases(ROOT / "templates")
+    condition = (Text("It is stable if this is positive, and unstable if it is negative."),)
+    assert with_verdict(condition, words) == condition
+    assert with_verdict((Text("so it is stable."),), words) == (Text("so it is "), Verdict("stable"), Text("."))
 
 
 def test_a_part_boxes_only_the_answers_that_it_names(tmp_path: Path) -> None:

@@ -33,8 +33,7 @@ def test_commas_stand_between_steps_and_the_end_is_that_of_the_sentence() -> Non
     assert display("a", Grade.PROVED).with_more(display("b", Grade.PROVED)).stops == (",", ".")
 
 
-def test_no_punctuation_stands_next_to_a_frame() -> None:
+def test_a_framed_answer_has_the_punctuation_of_its_sentence() -> None:
     plain, framed = display("a", Grade.PROVED), display("b", Grade.PROVED)
     framed = replace(framed, groups=(replace(framed.groups[0], framed=1),))
-    assert plain.with_more(framed).stops == (",", "")
-    assert framed.with_more(plain).stops == ("", ".")
+    assert plain.with_more(framed).stops == framed.with_more(plain).stops == (",", ".")

@@ -208,7 +208,7 @@ def test_the_words_of_the_torque_change_when_it_vanishes() -> None:
 
 def test_a_reason_of_the_rule_beats_the_general_one() -> None:
     step = known_block()["corner_tensor_xx"].step
-    own, general = (WORDS.reason(s, "separate", "law") for s in (step, known_block()["spin"].step))
+    own, general = (WORDS.reason(s, "by_mass", "law") for s in (step, known_block()["spin"].step))
     assert own and own != general
 
 

@@ -77,7 +77,7 @@ def test_a_letter_that_looks_otherwise_is_free(letter: str, block: Known, tmp_pa
 @pytest.mark.parametrize(
     ("letter", "why"),
     [
-        ("theta", "integrates over it"),
+        ("phi", "integrates over it"),
         ("I_1", "`principal_moments` also uses this symbol for its result"),
         ("z_C", "`r_C_z`"),
     ],
@@ -134,5 +134,5 @@ def test_a_coordinate_is_no_variable_of_integration(tmp_path: Path) -> None:
     named = "    phi, theta, psi = euler_angles()\n"
     late = {named: "", "    axes = space": f"{named}    axes = space"}
     problem = load_problem(course_in(tmp_path, problem="top", script=late), "hw9/top")
-    with pytest.raises(Rejected, match="`theta` is a coordinate, but the step `disc_moment_z` integrates over"):
+    with pytest.raises(Rejected, match="`phi` is a coordinate, but the step `disc_moment_z` integrates over"):
         derived(problem)

@@ -37,43 +37,37 @@ def test_a_long_left_side_ends_with_its_relation() -> None:
     assert lines[-1].sides[-1] == ("equals", NOTATION.layout(relation.right))
 
 
-def test_the_frame_holds_the_last_sides_and_the_left_side_where_they_are_all() -> None:
+def test_the_frame_holds_an_equation_with_its_left_side() -> None:
     T, (a, b, c) = Symbol("T"), LETTERS[:3]
     chain = (
         ChainLine(T, "equals", a * b),
         ChainLine(None, "equals", c),
         ChainLine(None, "approx", 2 * a, numeric=True),
     )
-    for framed, whole in ((0, False), (1, False), (2, False), (3, True)):
-        (line,) = printed_lines(Equations("T", chain, 7, framed), NOTATION)
-        assert (line.framed, line.frames_all) == (framed, whole)
-    apart = printed_lines(Equations("T", chain, 7, 2), NOTATION, 4)
-    assert [(line.framed, line.frames_all) for line in apart] == [(0, False), (1, False), (1, False)]
+    for framed, shown in ((0, [3]), (1, [2, 1]), (2, [3]), (3, [3])):
+        *before, line = printed_lines(Equations("T", chain, 7, framed), NOTATION)
+        assert [len(each.sides) for each in (*before, line)] == shown
+        assert (bool(line.framed), line.frames_all) == (bool(framed), bool(framed)) and line.left == NOTATION.layout(T)
+        assert not any(each.framed for each in before)
+    *_, number = printed_lines(Equations("T", chain, 7, 1), NOTATION)
+    assert number.sides[0][0] == "approx", "the sign between the left side and the number"
 
 
-@pytest.mark.parametrize("nothing", [Integer(0), LETTERS[2]])
-def test_a_mere_number_or_letter_is_framed_with_the_whole_line_of_its_chain_or_with_its_left_side(nothing: Any) -> None:
-    """The left side is repeated only if the chain has no room on one line: T = a = 0, but T = 0 below a long line."""
+@pytest.mark.parametrize("result", [Integer(0), LETTERS[2], 2 * LETTERS[1], ImmutableDenseMatrix([0, 0, 0])])
+def test_only_a_law_in_letters_shares_the_frame_of_its_result(result: Any) -> None:
+    """T = a = 0 is framed as a whole; below a long line T = 0 has its left side again."""
     T = Symbol("T")
-    chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", nothing, (Text("why"),)))
+    chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", result, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
     assert line.frames_all and len(line.sides) == 1
     (line,) = printed_lines(Equations("T", chain, 7, 1), NOTATION)
     assert len(line.sides) == 2 and line.frames_all
-    for begins, limit in ((LONG, 40), (LETTERS[0], 9)):
-        lines = printed_lines(Equations("T", (replace(chain[0], right=begins), chain[1]), 7, 1), NOTATION, limit)
+    for limit in (40, 999):
+        long = replace(chain[0], right=LONG)
+        lines = printed_lines(Equations("T", (long, chain[1]), 7, 1), NOTATION, limit)
         assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
-        assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(nothing)),)
+        assert lines[-1].left == NOTATION.layout(T) and lines[-1].sides == (("equals", NOTATION.layout(result)),)
         assert lines[-1].reason and not any(line.reason for line in lines[:-1])
-    (line,) = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", 2 * LETTERS[1])), 7, 1), NOTATION)
-    assert line.frames_all and len(line.sides) == 2
-    (line,) = printed_lines(
-        Equations("T", (replace(chain[0], right=LONG), ChainLine(None, "equals", 2 * LETTERS[1])), 7, 1), NOTATION, 999
-    )
-    assert line.framed == 1 and not line.frames_all, "a long line has only its result in the frame"
-    vector = ImmutableDenseMatrix([0, 0, 0])
-    *_, last = printed_lines(Equations("T", (chain[0], ChainLine(None, "equals", vector)), 7, 1), NOTATION)
-    assert last.frames_all
 
 
 def test_a_framed_line_that_is_broken_is_framed_as_a_whole() -> None:
@@ -125,16 +119,15 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
-    """A long formula is framed with its left side if it is an inequality; a number after it has the left side again."""
+    """A number after a formula has the left side and the sign of the formula again."""
     S, c = Symbol("S"), LETTERS[2]
-    for relation, whole in (("greater", True), ("at_most", True), ("equals", False)):
+    for relation, sign in (("greater", "greater"), ("at_most", "at_most"), ("equals", "approx")):
         formula = ChainLine(S, relation, LONG)
         (line,) = printed_lines(Equations("S", (formula,), 7, 1), NOTATION, 999)
-        assert line.frames_all == whole or not whole
+        assert line.frames_all
         chain = (formula, ChainLine(None, "approx", 2 * c, numeric=True))
-        *before, line = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
-        assert (len(before), line.framed, line.frames_all) == (int(whole), 1, whole)
-        assert line.sides[0][0] == relation and not any(each.framed for each in before)
+        before, line = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
+        assert (line.framed, line.frames_all, line.sides[0][0]) == (1, True, sign) and not before.framed
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0
 

@@ -270,7 +270,7 @@ class RoundBody(Body):
         raise AttributeError(f"{type(self).__name__} must define its radius")
 
     def map(self) -> Map:
-        """Cylindrical coordinates z, theta and r; for a shell or a hoop r is the radius at z, for a rod r is zero."""
+        """Cylindrical coordinates z, phi and r; for a shell or a hoop r is the radius at z, for a rod r is zero."""
         low, high = self.ends
         z = low if low == high else (low, high)
         if self.filling == ("area" if z != low else "length"):

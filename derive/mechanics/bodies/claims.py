@@ -152,14 +152,14 @@ def volume_of_its_sections(facts: Judged, outcome: str) -> bool:
 
 
 def section_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the point from which the result is measured. If the sentence states x = s cos(theta)
-    and y = s sin(theta), these formulas must give the area element of the integral, and x = s at theta = 0."""
+    """Whether the sentence names the point from which the result is measured. If the sentence states x = s cos(phi)
+    and y = s sin(phi), these formulas must give the area element of the integral, and x = s at phi = 0."""
     if ("polar" in facts.words) != ("x_is" in facts.inputs):
         return False
     if "x_is" in facts.inputs:
-        (_, theta, s), x, y = facts.inputs["names"], facts.inputs["x_is"], facts.inputs["y_is"]
-        area = diff(x, s) * diff(y, theta) - diff(x, theta) * diff(y, s)
-        if not is_zero(area - facts.inputs["element"]) or not is_zero(x.subs(theta, 0) - s):
+        (_, phi, s), x, y = facts.inputs["names"], facts.inputs["x_is"], facts.inputs["y_is"]
+        area = diff(x, s) * diff(y, phi) - diff(x, phi) * diff(y, s)
+        if not is_zero(area - facts.inputs["element"]) or not is_zero(x.subs(phi, 0) - s):
             return False
     return counted_from_its_point(facts, outcome)
 

@@ -27,16 +27,16 @@ Extent: TypeAlias = Any  # a value of a coordinate, or a pair of limits; each ma
 ALL_ROUND, HALF_ROUND = (Integer(0), 2 * pi), (Integer(0), pi)
 
 
-def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, theta: Extent = ALL_ROUND) -> Map:
+def cylindrical(taken: Collection[Symbol], z: Extent, r: Extent, phi: Extent = ALL_ROUND) -> Map:
     """Cylindrical coordinates: height z, angle about the z axis and distance r from this axis. The value or the limits
     of r may be functions of z.
 
     taken   symbols that are not available for the variables
     """
-    variables = coordinates(("z", "theta", "r"), taken)
+    variables = coordinates(("z", "phi", "r"), taken)
     if r == 0:
-        theta = Integer(0)
-    (height, angle, across), limits = _varied(variables, (z, theta, r))
+        phi = Integer(0)
+    (height, angle, across), limits = _varied(variables, (z, phi, r))
     return column(across * cos(angle), across * sin(angle), height), limits
 
 

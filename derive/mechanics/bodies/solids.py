@@ -461,8 +461,8 @@ def _section_radius(body: RoundSolid, point: Point, region: Region) -> Quantity:
 
 
 def _polar_coordinates(region: Region) -> dict[str, tuple[Expr, Expr]]:
-    """The formulas x = s cos(theta) and y = s sin(theta) in cylindrical coordinates; empty in Cartesian coordinates."""
+    """The formulas x = s cos(phi) and y = s sin(phi) in cylindrical coordinates; empty in Cartesian coordinates."""
     if region.element == 1:
         return {}
-    _, theta, s = region.names
-    return {"x_is": (s * cos(theta), region.position[0]), "y_is": (s * sin(theta), region.position[1])}
+    _, phi, s = region.names
+    return {"x_is": (s * cos(phi), region.position[0]), "y_is": (s * sin(phi), region.position[1])}

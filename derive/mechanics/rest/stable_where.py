@@ -74,9 +74,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
         None,
         lambda _: squared,
         {"stability": of},
-        lines=Lines(
-            law=Level.STANDARD, put_in=None, arranged=lambda _: result, after=[Form(result, "root")], result=False
-        ),
+        lines=Lines(law=Level.FULL, put_in=None, arranged=lambda _: result, after=[Form(result, "root")], result=False),
         routes={"beside": beside, "energies": lambda found: _by_energies(found, known, border)},
         outcome="open" if known.stable_there is None else "with_border" if known.stable_there else "without_border",
         phrase_data=PhraseData(

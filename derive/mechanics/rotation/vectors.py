@@ -13,13 +13,13 @@ from sympy import (
     Expr,
     ImmutableDenseMatrix,
     Integer,
-    Pow,
     Rational,
     acos,
     atan2,
     cos,
     pi,
     sin,
+    sqrt,
 )
 
 from derive.algebra.expressions import (
@@ -420,29 +420,25 @@ def _angle_by_components(u: Any, v: Any) -> Expr:
 
 
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
-    """Return the line with a.b and the lengths evaluated. For numerical components, explicit sums come first."""
-    parts = [size_and_rest(v.value) for v in (a, b)]
-    (_, u), (_, v) = parts
-    signed = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0])
+    """Return the line with a.b and the lengths evaluated. For numerical components, explicit sums come first, without
+    the common factors of the components, which cancel."""
+    (size_u, u), (size_v, v) = (size_and_rest(each.value) for each in (a, b))
     forms = [Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)]
     if u.free_symbols or v.free_symbols:
         return forms
-    products = [x * y for x, y in zip(u, v, strict=True) if x * y != 0]
-    roots = [_as_root_of_squares(size, rest, length) for (size, rest), length in zip(parts, lengths, strict=True)]
+    sign = tidied(factored_matrix(a.value)[0] * factored_matrix(b.value)[0] / (size_u * size_v))
+    products = [sign * x * y for x, y in zip(u, v, strict=True) if x * y != 0]
     if len(products) > 1:
-        worked = Ratio(Factors(signed, Terms(*products)), Factors(*roots))
+        worked = Ratio(Terms(*products), Factors(_as_root_of_squares(u), _as_root_of_squares(v)))
         forms.insert(0, Form(worked, "products", Level.STANDARD))
         forms[1] = Form(forms[1].expr, "lengths", Level.FULL)
     return forms
 
 
-def _as_root_of_squares(size: Expr, rest: Any, length: Expr) -> Expr:
-    """If a length contains a root, write it as a root of a sum of squares: M a^2 omega/(12 sqrt 14) sqrt(169 + 400 +
-    225)."""
-    if not length.atoms(Pow) or all(power.exp.is_Integer for power in length.atoms(Pow)):
-        return length
-    squares = [entry**2 for entry in rest if entry != 0]
-    return Factors(size, Root(Terms(*squares))) if len(squares) > 1 else length
+def _as_root_of_squares(vector: Any) -> Expr:
+    """Write the length of a vector as a root of a sum of squares: sqrt(169 + 400 + 225)."""
+    squares = [entry**2 for entry in vector if entry != 0]
+    return Root(Terms(*squares)) if len(squares) > 1 else sqrt(squares[0])
 
 
 def _relation_of_directions(cosine: Expr) -> str:

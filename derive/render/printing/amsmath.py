@@ -33,9 +33,9 @@ def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
     """Return the rows of a display. Each row ends with its `ending`, if given; in the last row of a step, punctuation
-    precedes the ending."""
+    precedes the ending and is within the frame, if the row has one."""
     return [
-        _row(lines, (stop if lines is rows[-1] else "") + (ending(lines[-1]) if ending else ""))
+        _row(lines, stop if lines is rows[-1] else "", ending(lines[-1]) if ending else "")
         for group, stop in zip(display.groups, display.stops, strict=True)
         for rows in [framed_together(printed_lines(group, notation, limit))]
         for lines in rows
@@ -59,18 +59,19 @@ def _number(line: Printed) -> str:
     return "" if line.number is None else rf"\qquad({line.number})"
 
 
-def _row(lines: Sequence[Printed], end: str) -> Row:
+def _row(lines: Sequence[Printed], stop: str, ending: str) -> Row:
     """Return the row for one line, or for several lines in a common frame."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
+    if first.frames_all:
+        rows = [Row(left, _sides(first.sides)), *_going_on(others)]
+        return Row("", _boxed(aligned(rows) + stop) + ending)
     if not others:
-        body = _boxed(f"{left} {_sides(first.sides)}".strip()) if first.frames_all else _with_box(first)
-    elif first.frames_all:
-        body = _boxed(aligned([Row(left, _sides(first.sides)), *_going_on(others)]))
+        body = _with_box(first)
     else:
         ((relation, begun),) = first.sides
         body = f"{_sign(relation)} " + _boxed(aligned([Row("", latex(begun)), *_going_on(others)]))
-    return Row("" if first.frames_all else left, f"{body}{end}")
+    return Row(left, f"{body}{stop}{ending}")
 
 
 def _going_on(lines: Sequence[Printed]) -> list[Row]:

@@ -33,7 +33,7 @@ from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
 from derive.algebra.swing import SwingTime
 from derive.course.parts import points_text
 from derive.errors import Complaint
-from derive.page.tree import Illustration
+from derive.page.tree import Document, Illustration
 from derive.render.formats import Solution
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
@@ -81,7 +81,7 @@ def contract(solution: Solution) -> str:
         "limits": [list(keys) for keys in derivation.closing],
         "limits_say": said.blocks(document.limits.blocks) if document.limits else [],
         "note": said.text(document.note),
-        "drawings": [_drawing(drawing, notation) for drawing in document.illustrations],
+        "drawings": [_drawing(drawing, document, notation) for drawing in document.illustrations],
         "steps": [_step(page.names_of(step), notation) for step in page.steps],
         "reference": [told.facts for told in solution.compared],
         "warnings": [_warning(warning) for warning in solution.warnings],
@@ -89,12 +89,12 @@ def contract(solution: Solution) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
-def _drawing(drawing: Illustration, notation: Notation) -> dict[str, Any]:
+def _drawing(drawing: Illustration, document: Document, notation: Notation) -> dict[str, Any]:
     return {
         "key": drawing.key,
         "at": drawing.at,
         "number": drawing.number,
-        "caption": inline_text(drawing.caption, notation),
+        "caption": inline_text(drawing.caption, notation, document.numbers),
         "alt": inline_text(drawing.alt, notation),
         "files": [f"{drawing.stem}.pdf", f"{drawing.stem}.svg"],
     }

@@ -32,6 +32,7 @@ from derive.page.wording import (
     ToldIn,
     ToldOnce,
     UnitMark,
+    Verdict,
 )
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, latex, unit_latex
 from derive.render.notation.layout import Layout, width
@@ -156,6 +157,8 @@ class HtmlPage:
                 return self._figure_number(figure)
             case FigureRef(number=figure):
                 return self._figure(figure, "&nbsp;")
+            case Verdict(text):
+                return f'<span class="verdict">{escape(text)}</span>'
             case Text(" = "):
                 return "&nbsp;=&nbsp;"
             case Text(text):
@@ -279,15 +282,13 @@ class HtmlPage:
 
 def _sides(line: Printed, stop: str) -> str:
     """Return the relations and right sides of a line as HTML. A result at the end is framed, unless the frame includes
-    the whole line; punctuation after a frame is outside. The browser may start a new row before each side."""
+    the whole line. The browser may start a new row before each side."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
         if relation == "next":
             shown = [_ending(shown, ","), '<span class="next"></span>']
         shown.append(_side("start" if relation == "next" else relation, side))
-    if line.frames_all:
-        return "".join([*shown, _stop(stop)])
     if at == len(line.sides):
         return _ending(shown, stop)
     (relation, first), *others = line.sides[at:]

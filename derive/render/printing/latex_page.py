@@ -30,6 +30,7 @@ from derive.page.wording import (
     ToldIn,
     ToldOnce,
     UnitMark,
+    Verdict,
 )
 from derive.render.notation.latex import TEX_OPERATORS, dimension_latex, escaped, latex, unit_latex
 from derive.render.notation.layout import Array, last_of
@@ -177,6 +178,8 @@ class LatexPage:
                 return rf"\figureno{{{number}}}"
             case FigureRef(number=number):
                 return self._figure_name(number, "~")
+            case Verdict(text):
+                return rf"\verdict{{{escaped(text)}}}"
             case Text(" = "):
                 return "~=~"
             case Text(text):
@@ -231,13 +234,14 @@ class LatexPage:
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
         """Return answers in one frame; the steps of a list have a row, a reason and a number each."""
+        stops = [","] * (len(steps) - 1) + [stop]
         rows = [
-            rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
+            rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}{end}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
-            for (line,) in steps
+            for (line,), end in zip(steps, stops, strict=True)
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
+        return f"\\framedlist{{\n{listed}\n}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -253,7 +257,8 @@ class LatexPage:
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
             command, left, body = "brokenrow", _sides(first), ""
         elif first.frames_all:
-            command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
+            whole = f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines, stop)
+            command, body, stop = "framedrow", whole + (stop if len(lines) == 1 else ""), ""
         elif len(lines) > 1:
             ((relation, begun),) = first.sides
             stacked = _stacked("", [replace(first, sides=(("start", begun),)), *lines[1:]])
@@ -356,8 +361,8 @@ def _sides(line: Printed) -> str:
     return " ".join([*plain, sign, _framed(" ".join([first, *(f"{sign} {side}" for sign, side in others)]))])
 
 
-def _stacked(left: str, lines: Sequence[Printed]) -> str:
-    rows = [f"&{_sides(line).strip()}" for line in lines]
+def _stacked(left: str, lines: Sequence[Printed], stop: str = "") -> str:
+    rows = [f"&{_sides(line).strip()}{stop if line is lines[-1] else ''}" for line in lines]
     return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
 
 

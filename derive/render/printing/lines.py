@@ -20,7 +20,7 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-FRAMED_WIDTH = 44.0  # greatest width of a line that is framed with its left side: it fits in every format
+LAW_WIDTH = 14.0  # greatest width of a law in letters, such as T - U, that shares the frame of its result
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
@@ -55,21 +55,26 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     number."""
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the current equation
-    framed_from = len(equations.lines) - equations.framed
+    relations: list[str] = []  # the relation signs of the current equation
+    result = len(equations.lines) - equations.framed  # the first line that is framed
     for i, line in enumerate(equations.lines):
-        framed = int(i >= framed_from)
+        framed = int(i >= result)
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
         last = packed[-1] if packed else None
         indent = width(packed[0].left) if last and last.left is None and packed[0].left is not None else 0
         left = notation.side(line.left) if line.left is not None else None
         goes_on = left is None or left == begun and line.relation == "equals"
-        begun = begun if left is None else left
+        begun, relations = (begun, [*relations, line.relation]) if left is None else (left, [line.relation])
         if last and left is not None and line.beside and _has_room(last, left, side[1], line.reason, limit):
             sides = (*last.sides, ("next", left), side)
             packed[-1] = replace(last, sides=sides, reason=line.reason, framed=len(sides) if last.framed else 0)
             continue
         if last and not goes_on:
             packed.append(Printed(left, (side,), line.reason, framed=framed))
+            continue
+        if last and framed and i == result and begun is not None:
+            answer = Printed(begun, (side,), line.reason, framed=1)
+            packed = _with_answer(packed, answer, _joined(relations), apart=line.numeric)
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
             # Two expressions that print the same terms, in any order, are shown once.
@@ -82,10 +87,6 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             packed[-1] = Printed(last.left, (*last.sides, side), reason, framed=count)
         else:
             packed.append(Printed(None if last else left, (side,), line.reason, framed=framed))
-    packed = _with_left_side_again(packed, begun) if _frames_half(packed[-1], equations) else packed
-    packed = _with_bound_framed(packed, equations)
-    if _frames_left_side(packed[-1], equations):
-        packed[-1] = replace(packed[-1], framed=len(packed[-1].sides))
     lines = [line for whole in packed for line in _fitted(whole, limit)]
     return (*lines[:-1], replace(lines[-1], number=equations.number))
 
@@ -119,46 +120,30 @@ def _is_one_answer(lines: Sequence[Printed]) -> bool:
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
-def _frames_half(last: Printed, equations: Equations) -> bool:
-    """Return whether only a bare number or letter would be framed, which means nothing without its left side."""
-    return equations.frames_bare_value and (last.left is None or last.width > FRAMED_WIDTH)
+def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apart: bool) -> list[Printed]:
+    """Add the result of a chain, which is framed as an equation: on a line of its own, with the left side again. But if
+    only a law in letters precedes the result, L = T - U, the frame includes the whole line.
 
-
-def _with_left_side_again(packed: list[Printed], begun: Layout | None) -> list[Printed]:
-    """Repeat the left side of the chain before its result, so that the frame has a complete equation."""
-    *others, last = packed
-    chain = [replace(last, sides=last.sides[:-1], reason=(), framed=0)] if len(last.sides) > 1 else []
-    return [*others, *chain, Printed(begun, last.sides[-1:], last.reason, framed=1)]
-
-
-def _with_bound_framed(packed: list[Printed], equations: Equations) -> list[Printed]:
-    """Repeat the left side and the sign of an inequality before the numerical bound, so that the frame has the
-    complete inequality: S >= 28 rad/s."""
-    *others, last = packed
-    is_bound = last.left is not None and last.sides[0][0] in INEQUALITIES and equations.lines[-1].numeric
-    if not is_bound or not 0 < last.framed < len(last.sides):
-        return packed
-    (_, value), *values = last.sides[-last.framed :]
-    chain = replace(last, sides=last.sides[: -last.framed], reason=(), framed=0)
-    bound = Printed(last.left, ((last.sides[0][0], value), *values), last.reason, framed=last.framed)
-    return [*others, chain, bound]
-
-
-def _frames_left_side(line: Printed, equations: Equations) -> bool:
-    """Return whether the frame includes the left side of the last line.
-
-    Half an equation, such as "= 0", is not an answer. But a line in which numbers are substituted, or which is too
-    long, has only its result in the frame, unless this is a bare number or letter, which means nothing alone. An
-    inequality is framed as a whole, unless a formula with numbers precedes its result.
+    relation  the sign between the left side and the result
+    apart     whether the result always has a line of its own
     """
-    if line.left is None or not equations.framed:
-        return False
-    if equations.frames_bare_value:
-        return True
-    numeric = equations.lines[-1].numeric
-    if line.sides[0][0] in INEQUALITIES:
-        return not (numeric and len(line.sides) > line.framed)
-    return line.width <= FRAMED_WIDTH and not numeric
+    *others, last = packed
+    ((sign, result),) = answer.sides
+    if sign == "equals" and _alike(last.sides[-1][1], result):  # an expression that prints the same terms is shown once
+        last = replace(last, sides=last.sides[:-1])
+    law = sum(width(side) for _, side in last.sides)
+    whole = replace(answer, sides=(*last.sides, (sign, result)), framed=len(last.sides) + 1)
+    is_short = last.left == answer.left and not last.reason and law <= LAW_WIDTH and whole.width <= TEXT_WIDTH
+    if last.sides and is_short and not apart:
+        return [*others, whole]
+    return [*others, *([last] if last.sides else []), replace(answer, sides=((relation, result),))]
+
+
+def _joined(relations: Sequence[str]) -> str:
+    """Return the relation between the left side and the last right side of a chain: from S > a and a = b follows
+    S > b. The rounded value of a bound keeps the sign of the bound."""
+    others = [each for each in relations if each != "equals"]
+    return next((each for each in others if each in INEQUALITIES), others[0] if others else "equals")
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:

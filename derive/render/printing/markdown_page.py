@@ -11,7 +11,18 @@ from collections.abc import Iterator, Sequence
 
 from derive.course.placement import STATEMENT
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, Phrases, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    Inline,
+    Math,
+    NewParagraph,
+    Phrases,
+    ProblemRef,
+    Ref,
+    Text,
+    UnitMark,
+    Verdict,
+)
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import aligned, display_rows
@@ -94,6 +105,8 @@ class MarkdownPage:
         match node:
             case NewParagraph():
                 return "\n\n"
+            case Verdict(text):
+                return f"**{text_markdown(text)}**"
             case Text(text):
                 return text_markdown(text)
             case Math(expr):
