@@ -73,7 +73,7 @@ def test_a_verdict_that_is_asked_is_framed_as_a_word(tmp_path: Path) -> None:
 
 
 def test_a_sentence_with_two_verdicts_states_a_condition() -> None:
-    words = phrases(ROOT / "templates")
+    words = phrases(templates_of(ROOT))
     condition = (Text("It is stable if this is positive, and unstable if it is negative."),)
     assert with_verdict(condition, words) == condition
     assert with_verdict((Text("so it is stable."),), words) == (Text("so it is "), Verdict("stable"), Text("."))
