@@ -73,8 +73,9 @@ bench: .venv/.runtime
 test: .venv/.tests
 	@$(PYTHON) -P -m ruff check --quiet .
 	@$(PYTHON) -P -m ruff format --quiet --check .
-	@$(PYTHON) -P -m mypy --no-error-summary
-	@$(PYTHON) -P -m pytest -n 2 --dist worksteal
+	@$(PYTHON) -P -m mypy --no-error-summary & types=$$!; \
+	  $(PYTHON) -P -m pytest -n 2 --dist worksteal; tests=$$?; \
+	  wait $$types || { echo 'mypy has found errors: see above' >&2; exit 1; }; exit $$tests
 
 schemas: .venv/.runtime
 	@$(PYTHON) -P -m tools.schemas

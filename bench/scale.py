@@ -2,7 +2,7 @@
 
     a set of N problems      Copies of short problems of the library. The time of a build from nothing, with a
                              substitute for TeX, is divided by that of N sets of one problem (aim below 1). The times
-                             of a build with nothing changed and of a build with one problem changed are divided by
+                             of a build with nothing changed and of a build with one title changed are divided by
                              that of the build from nothing; they should grow at most in proportion to N.
     a body of N parts        The time of its centre of mass and its inertia tensor, with every step and check, divided
                              by that of the same sum multiplied out by SymPy. For equal rods on a line the time grows
@@ -19,6 +19,7 @@ The growth is given as the exponent b of n^b, from the upper half of the sizes.
 from __future__ import annotations
 
 import os
+import re
 import resource
 import shutil
 import subprocess
@@ -92,11 +93,11 @@ def of_sets() -> None:
             fresh.append(build(at))
             again.append(build(at))
             file = at / "problems" / "many" / "p000.yaml"
-            file.write_text(file.read_text().replace("statement: ", "note: Once more.\nstatement: ", 1))
+            file.write_text(re.sub(r"^title: .*$", "title: Once more", file.read_text(), count=1, flags=re.MULTILINE))
             edited.append(build(at))
     told("a set of problems", SETS, fresh, [size * alone for size in SETS], "as many sets of one")
     told("   with nothing changed", SETS, again, fresh, "the build from nothing")
-    told("   with one problem reworded", SETS, edited, fresh, "the build from nothing")
+    told("   with one problem retitled", SETS, edited, fresh, "the build from nothing")
 
 
 # --- bodies ----------------------------------------------------------------------------------------------------------

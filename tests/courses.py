@@ -28,7 +28,6 @@ def course_in(
     """Return a course with one pinned problem. Each edit replaces a piece of its text that occurs once."""
     problems = folder / "problems" / "hw9"
     problems.mkdir(parents=True)
-    (folder / "templates").symlink_to(ROOT / "templates")
     heading = (PINNED / "set.yaml").read_text(encoding="utf-8")
     (problems / "set.yaml").write_text(heading.replace("- block", f"- {problem}"), encoding="utf-8")
     for name, changes in ((f"{problem}.yaml", edits), (f"{problem}.py", script)):

@@ -391,6 +391,7 @@ def test_the_friction_of_a_disc_in_a_bowl_is_that_on_a_slope(tmp_path: Path) -> 
     assert agree(solved(tmp_path, text), {"F": "m*g*x/(3*sqrt(b**2 + x**2))"}) == {}
 
 
+@pytest.mark.long
 def test_the_friction_of_a_ball_on_a_slope_is_along_the_slope(tmp_path: Path) -> None:
     """m s'' = m g sin(beta) - R and 2/5 m a s'' = R a give s'' = 5/7 g sin(beta) and R = 2/7 m g sin(beta)."""
     text = edited(
@@ -408,6 +409,7 @@ def test_the_friction_of_a_ball_on_a_slope_is_along_the_slope(tmp_path: Path) ->
     assert agree(solved(tmp_path, text), expected) == {}
 
 
+@pytest.mark.long
 def test_small_nutation_about_steady_precession_has_the_known_frequency(tmp_path: Path) -> None:
     """nu^2 = Omega^2 + (Mgl)^2/(A Omega)^2 - 2Mgl cos(alpha)/A with Mgl = (C w - A Omega cos(alpha)) Omega."""
     found = answers(tmp_path, "f16_nutation_timeout")

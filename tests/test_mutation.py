@@ -100,6 +100,7 @@ def test_a_library_problem_is_another_run_than_the_pinned_one_of_its_name() -> N
     assert (EVERY_RUN["cone"].id, EVERY_RUN["library/cone"].id) == ("hw9/cone", "library/cone")
 
 
+@pytest.mark.long
 def test_a_second_solution_calls_every_function_that_the_first_has_called() -> None:
     def calls() -> Iterator[set[tuple[str, str]]]:
         for name in DERIVING:  # a module that is loaded during the first solution would call functions of its own
@@ -118,6 +119,7 @@ def test_a_mutant_is_seen_in_a_function_that_is_called_only_while_the_problem_is
     assert {tried.verdict for tried in found} <= {Verdict.REFUSED, Verdict.CRASHED}
 
 
+@pytest.mark.long
 def test_the_rate_that_follows_from_a_kept_momentum_is_compared_with_the_momentum() -> None:
     found = verdicts_on("own/kept_momentum", ["mechanics.lagrange.kept_momentum"], lambda m: "bound(p" in m.old)
     wrong = [tried for tried in found if tried.verdict is not Verdict.REFUSED and "order" not in tried.id]

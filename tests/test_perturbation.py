@@ -17,6 +17,7 @@ def found() -> list[Established]:
     return [established for name in SOLVED for established in established_in(RUNS[name])]
 
 
+@pytest.mark.long
 def test_no_changed_result_passes_its_second_routes(found: list[Established]) -> None:
     assert [str(each) for each in sample(found, SIZE, SEED) if each.survives] == []
 

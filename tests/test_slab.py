@@ -148,7 +148,10 @@ OF_WIDTH = {
 }
 
 
-@pytest.mark.parametrize(("edits", "there"), [({}, True), ({"radius: R\n": "radius: a/4\n"}, False), (OF_WIDTH, False)])
+@pytest.mark.parametrize(
+    ("edits", "there"),
+    [({}, True), ({"radius: R\n": "radius: a/4\n"}, False), pytest.param(OF_WIDTH, False, marks=pytest.mark.long)],
+)
 def test_a_limit_that_needs_a_letter_no_longer_given_is_left_out(
     tmp_path: Path, edits: dict[str, str], there: bool
 ) -> None:

@@ -85,7 +85,8 @@ PAGES: dict[str, tuple[dict[str, str], str | None]] = {
 def page(name: str, folder: Path) -> str:
     edits, detail = PAGES[name]
     problem = name.partition("-")[0]
-    return rendered_once(course_in(folder, edits, problem=problem), f"hw9/{problem}", detail).texts["text"]
+    course = course_in(folder, edits, problem=problem)
+    return rendered_once(course, f"hw9/{problem}", detail, only={"text"}).texts["text"]
 
 
 def differences(base: str, variant: str) -> str:

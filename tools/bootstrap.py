@@ -109,12 +109,18 @@ def install(stamp: str, uv: str | None) -> None:
         run([*venv, str(VENV)], "cannot make .venv")
     UNFINISHED.touch()
     print(f"installing {WANTED[stamp]}", flush=True)
-    pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else [str(PYTHON), "-I", "-m", "pip", "install"]
+    # pip would compile the modules on one core, also the tests of the packages
+    with_pip = [str(PYTHON), "-I", "-m", "pip", "install", "--no-compile"]
+    pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else with_pip
     locks = list(LOCKS.values())[: 1 + list(LOCKS).index(stamp)]
     files = [word for lock in locks for word in ("--requirement", lock)]
     failed = "cannot install the packages (run `make` again to retry)"
     run([*pip, "--quiet", *CHECKED, *files], failed)
     run([*pip, "--quiet", *ITSELF], failed)
+    if not uv:
+        options = ["-q", "-j", "0", "-x", r"[/\\]tests?[/\\]"]
+        compiling = [str(PYTHON), "-I", "-m", "compileall", *options, str(VENV / "lib")]
+        subprocess.run(compiling, capture_output=True)  # if a module cannot be compiled, Python says so at its import
     UNFINISHED.unlink()
 
 

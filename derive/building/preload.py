@@ -18,6 +18,8 @@ DERIVING = (
     "derive.stock.body",
     "derive.stock.rotation",
     "derive.stock.system",
+    "derive.witness.judges",
+    "scipy.integrate",  # the witness needs it to follow a motion
     "sympy.tensor.array.expressions",
     "sympy.tensor.tensor",
 )

@@ -12,7 +12,7 @@ import derive.building.solution
 from derive.building.diff import Diff, since_build, since_revision
 from derive.errors import DeriveError, Misused, Rejected
 from tests.building.repository import committed
-from tests.courses import course_in, kept, rendered_once
+from tests.courses import ROOT, course_in, kept, rendered_once
 
 EDIT = {"Find the inertia tensor": "Compute the inertia tensor"}
 
@@ -116,12 +116,10 @@ def test_a_fault_of_then_is_told_as_one(tmp_path: Path) -> None:
 
 def test_templates_of_then_that_lack_words_give_way_to_those_of_today(tmp_path: Path) -> None:
     root = course_in(tmp_path)
-    today = (root / "templates").resolve()
-    (root / "templates").unlink()
     (root / "templates" / "phrases" / "en").mkdir(parents=True)
     (root / "templates" / "phrases" / "en" / "few.yaml").write_text("rules: {}\n")
     committed(root)
     (root / "templates").rename(root / "old")
-    (root / "templates").symlink_to(today)
+    (root / "templates").symlink_to(ROOT / "templates")
     found = since_revision(root, "hw9/block", "HEAD", None, 60)
     assert (found.changes, [warning.code for warning in found.warnings]) == ((), ["other-templates"])

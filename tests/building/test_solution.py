@@ -13,7 +13,7 @@ from derive.building import solution
 from derive.building.cache import Cache
 from derive.building.solution import Rendered, rendered
 from derive.errors import Complaint, Rejected
-from tests.courses import ROOT, course_in, rendered_once
+from tests.courses import course_in, rendered_once
 
 SCRIPT = '''"""Numbers of a pendulum that are only named."""
 
@@ -45,7 +45,6 @@ parts:
 def solved(folder: Path, form: str = "", only: Collection[str] | None = None) -> Rendered:
     problems = folder / "problems" / "set"
     problems.mkdir(parents=True)
-    (folder / "templates").symlink_to(ROOT / "templates")
     (problems / "pendulum.py").write_text(SCRIPT, encoding="utf-8")
     (problems / "pendulum.yaml").write_text(PROBLEM + form, encoding="utf-8")
     return rendered(folder, "set/pendulum", only=only)

@@ -206,7 +206,6 @@ def test_a_fault_is_told_and_an_interrupt_is_a_good_end(course: Course, number: 
 
 def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_path: Path) -> None:
     root = course_in(tmp_path / "real", problem="euler")
-    (root / "templates").unlink()
     shutil.copytree(ROOT / "templates", root / "templates")
     arguments = [sys.executable, "-P", "-m", "derive", "build", "--watch", "hw9/euler"]
     process = Process(arguments, alone_in(root))

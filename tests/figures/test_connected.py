@@ -571,11 +571,11 @@ def test_a_drag_along_a_line_is_an_arrow_against_the_motion_beside_a_driving_for
     assert drawn.undrawn == ()
 
 
-def test_the_natural_length_of_a_spring_is_drawn_with_its_extension_or_opposite_to_its_length(tmp_path: Path) -> None:
-    cart = drawings(tmp_path / "cart", library("damped_oscillator"))["system"]
+def test_the_natural_length_of_a_spring_is_drawn_with_its_extension_or_opposite_to_its_length() -> None:
+    cart = library_drawings("damped_oscillator")["system"]
     natural, extension = of_class(cart, DistanceMark)
     assert [str(each.label) for each in (natural, extension)] == ["a", "x"] and natural.end == extension.start
-    ball = drawings(tmp_path / "ball", library("hanging_mass"))["system"]
+    ball = library_drawings("hanging_mass")["system"]
     natural, whole = of_class(ball, LengthMark)
     assert [str(each.label) for each in (natural, whole)] == ["l", "y"] and natural.aside == -whole.aside
 

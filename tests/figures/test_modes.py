@@ -195,6 +195,7 @@ def test_a_free_motion_has_equal_arrows_and_a_mass_at_rest_has_none(tmp_path: Pa
     assert is_mode(across, [1, 1.5, 1], [[1, -1, 0], [-1, 2, -1], [0, -1, 1]])
 
 
+@pytest.mark.long
 def test_the_signs_of_two_unequal_masses_are_known_for_all_letters(tmp_path: Path) -> None:
     slow, fast = modes(tmp_path, UNEQUAL)
     for m, mass, k, q, stiff in ((1.0, 4.0, 1.0, 0.5, 2.0), (3.0, 1.0, 5.0, 1.0, 1.0)):

@@ -145,7 +145,7 @@ def test_no_impact_is_drawn_without_what_acts() -> None:
 @pytest.mark.parametrize(
     ("name", "outline", "start"),
     [
-        ("slack_pendulum", HollowParticle, ["0", "-l"]),
+        pytest.param("slack_pendulum", HollowParticle, ["0", "-l"], marks=pytest.mark.long),
         pytest.param("pushed_off_sphere", HollowParticle, ["0", "R"], marks=pytest.mark.long),
         ("sliding_to_rolling", Ghost, ["0", "a"]),
     ],

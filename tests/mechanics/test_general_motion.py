@@ -13,13 +13,13 @@ from sympy import Expr, I, Integer, cos, cosh, exp, sin, sinh, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.algebra.expressions import PLUS_MINUS, Relation, explicit, scalar
 from derive.algebra.expressions import TIME as t
-from derive.building.solution import rendered
 from derive.errors import Unverified
 from derive.mechanics import Coordinate, coordinate, let, solution
 from derive.mechanics.vibrations import claims, general_motion
 from derive.steps.record import Run, recorded
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
+from tests.courses import rendered_once
 from tests.stock.described import course_with
 
 m, k, b, g, w, x0, v0, F, W = symbols("m k b g omega x_0 v_0 F Omega", positive=True)
@@ -217,7 +217,7 @@ DAMPED = (
 
 def page(folder: Path, text: str, detail: str | None = None) -> str:
     text = text if "damping:" in text else text.replace(", b: damping constant", "")
-    return " ".join(rendered(course_with(folder, text), "trial/one", detail, only={"text"}).texts["text"].split())
+    return " ".join(rendered_once(course_with(folder, text), "trial/one", detail, only={"text"}).texts["text"].split())
 
 
 def test_the_page_shows_the_trial_the_roots_the_general_motion_and_the_constants(tmp_path: Path) -> None:

@@ -139,6 +139,7 @@ def test_a_potential_energy_that_knows_no_field_does_not_say_unstable() -> None:
         stability(potential_energy_of(ridge), {x: 0})
 
 
+@pytest.mark.long
 def test_a_table_turns_a_puck_off_between_its_two_frequencies() -> None:
     """(k - m W^2)(c - m W^2) > 0; the squares are real at all rates: (k - c)^2 + 8 (k + c) m W^2 > 0."""
     found = linear_stability(on_table(lambda x, y: (k * x**2 + c * y**2) / 2))

@@ -14,7 +14,6 @@ from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.memory import Memory
 from derive.steps.record import Run
 from derive.steps.step import Quantity
-from tests.courses import ROOT
 
 PENDULUM = """\
 title: A pendulum
@@ -51,7 +50,6 @@ given:
 def course_with(folder: Path, text: str) -> Path:
     problems = folder / "problems" / "trial"
     problems.mkdir(parents=True, exist_ok=True)
-    (folder / "templates").exists() or (folder / "templates").symlink_to(ROOT / "templates")
     (problems / "set.yaml").write_text("course: C\ntitle: T\nproblems: [one]\n", encoding="utf-8")
     (problems / "one.yaml").write_text(text, encoding="utf-8")
     return folder

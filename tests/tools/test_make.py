@@ -185,11 +185,21 @@ def test_check_and_bench_run_in_the_environment(tree: Tree) -> None:
     assert tree.calls() == [*benches, "-P -m derive check"]
 
 
-def test_the_tests_run_last_so_that_their_closing_line_is_the_last(tree: Tree) -> None:
+def test_the_tests_and_the_types_come_after_the_linter(tree: Tree) -> None:
     tree.write(".venv/.tests")
     tree.make("test")
     log = (tree.root / "calls.log").read_text().splitlines()
-    assert [line.split()[2] for line in log] == ["ruff", "ruff", "mypy", "pytest"]
+    assert [line.split()[2] for line in log[:2]] == ["ruff", "ruff"]
+    assert sorted(line.split()[2] for line in log[2:]) == ["mypy", "pytest"]  # at the same time
+
+
+@pytest.mark.parametrize("failing", ["mypy", "pytest"])
+def test_wrong_types_and_failed_tests_both_fail(tree: Tree, failing: str) -> None:
+    tree.write(".venv/.tests")
+    tree.write(".venv/bin/python", f'#!/bin/sh\n[ "$3" != {failing} ]\n')
+    run = tree.make("test")
+    assert run.returncode != 0
+    assert ("mypy has found errors" in run.stderr) == (failing == "mypy")
 
 
 HOSTILE = [

@@ -50,7 +50,7 @@ def test_a_timed_problem_loads_without_a_warning(course: Path, name: str) -> Non
     assert load_problem(course, f"timed/{name}").warnings == ()
 
 
-@pytest.mark.parametrize("name", ["chain", "body"])
+@pytest.mark.parametrize("name", ["chain", pytest.param("body", marks=pytest.mark.long)])
 def test_a_problem_of_any_size_is_derived_without_a_warning(course: Path, name: str) -> None:
     page = rendered(course, f"timed/{name}", only=("text",))
     assert page.warnings == ()

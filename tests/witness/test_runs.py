@@ -109,6 +109,7 @@ def test_a_string_goes_slack_only_where_the_motion_gets_there() -> None:
     assert not runs.leaves(claim(found, existing=without, **inputs))
 
 
+@pytest.mark.long
 def test_a_slow_impact_never_makes_the_string_slack() -> None:
     found = leaves_contact(tension((g / l) ** Rational(1, 2)), cos(q), Integer(1))
     assert found.step.outcome == "turns_back"

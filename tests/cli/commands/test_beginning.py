@@ -15,7 +15,6 @@ from tests.courses import course_in
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     root = course_in(tmp_path)
-    (root / "templates").unlink()
     monkeypatch.setenv("DERIVE_ROOT", str(root))
     monkeypatch.chdir(root)
     return root
