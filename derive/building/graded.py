@@ -18,7 +18,7 @@ from derive.grading.outcomes import Outcome, Verdict
 _REPORT = "this is a bug in derive: report it with the answer and the files of the problem"
 CHUNK = 200  # most answers of one job
 
-Asked = tuple[int, str, str]  # the number of the row, the name of the part, the answer
+Asked = tuple[int, str, str, str]  # the number of the row, the name of the part, the answer, the code of the student
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,10 @@ def grade_answers(
     jobs: int,
     limit: float = TIME_LIMIT,
     tick: Callable[[int, Mapping[str, float]], None] = lambda *_: None,
+    seed: str | None = None,
 ) -> dict[int, Result]:
-    """Return the result for each row, by the number of the row; `asked` are the answers by problem.
+    """Return the result for each row, by the number of the row; `asked` are the answers by problem. With a seed, each
+    answer is compared with the variant of its student.
 
     If a worker fails, its answers are divided among new workers, so that one answer stops no other.
     """
@@ -46,7 +48,7 @@ def grade_answers(
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}
 
     def put(crew: Crew, problem_id: str, rows: Sequence[Asked]) -> None:
-        work = partial(_graded, root, problem_id, rows)
+        work = partial(_graded, root, problem_id, rows, seed)
         job = job_of(root, problem_id, work, limit + SECONDS * len(rows))
         waiting[job] = problem_id, rows
         crew.put(job)
@@ -64,7 +66,7 @@ def grade_answers(
                 put(crew, problem_id, rows[:half])
                 put(crew, problem_id, rows[half:])
             else:
-                found.update((number, _failed(outcome.error, part, answer)) for number, part, answer in rows)
+                found.update((number, _failed(outcome.error, part, answer)) for number, part, answer, _ in rows)
     return found
 
 
@@ -76,16 +78,29 @@ def _failed(error: DeriveError | Bug, part: str, answer: str) -> Result:
     return Graded(part, answer, Verdict(Outcome.UNREADABLE, "too large: the worker that compared it was stopped"))
 
 
-def _graded(root: Path, problem_id: str, rows: Sequence[Asked]) -> dict[int, Result]:
+def _graded(root: Path, problem_id: str, rows: Sequence[Asked], seed: str | None) -> dict[int, Result]:
     from derive.building.solution import answer_key
+    from derive.course.problem import load_problem
+    from derive.course.variants import chosen_for
     from derive.grading.grading import grade
     from derive.grading.key import Key
 
-    outputs = set_folder(root, problem_id.partition("/")[0])
-    key: Key = answer_key(root, problem_id, Cache(outputs / CACHE if outputs.is_dir() else None))
+    set_id, _, problem = problem_id.partition("/")
+    outputs = set_folder(root, set_id)
+    cache = Cache(outputs / CACHE if outputs.is_dir() else None)
+    variations = load_problem(root, problem_id).variations if seed is not None else ()
+    keys: dict[tuple[tuple[str, int], ...], Key] = {}
+
+    def key_of(student: str) -> Key:
+        chosen = chosen_for(set_id, problem, variations, student, seed or "")
+        which = tuple(chosen.items())
+        if which not in keys:
+            keys[which] = answer_key(root, problem_id, cache, chosen or None)
+        return keys[which]
 
     def results() -> Iterator[tuple[int, Result]]:
-        for number, name, answer in rows:
+        for number, name, answer, student in rows:
+            key = key_of(student)
             part = key.part(name)
             yield (
                 number,

@@ -85,10 +85,11 @@ def rendered(
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
 
-def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE) -> Key:
-    """Return the answers of a problem with their points, for the grader; raise `DeriveError` if there are errors."""
+def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Chosen | None = None) -> Key:
+    """Return the answers of a problem, or of the variant with these choices, with their points, for the grader; raise
+    `DeriveError` if there are errors."""
     begun = time.time_ns()
-    problem, faults = problem_and_faults(root, problem_id)
+    problem, faults = problem_and_faults(root, problem_id, chosen)
     problem = with_known_observations(problem, faults)
     with faults:
         solved, _ = _solved(problem, NO_CACHE if faults else cache, begun, faults)

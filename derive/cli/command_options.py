@@ -121,6 +121,8 @@ def _grade(grade: argparse.ArgumentParser) -> None:
     grade.add_argument("answer", nargs="?", metavar="ANSWER", help="a formula, or a number with its unit")
     grade.add_argument("--part", metavar="PART", help="such as b; b(2) is its second answer")
     grade.add_argument("--answers", metavar="FILE", help="CSV with the columns student, problem, part, answer")
+    grade.add_argument("--seed", metavar="TEXT", help="grade the variants of `derive class` with this seed")
+    grade.add_argument("--student", default="", metavar="CODE", help="with --seed, the code of the student")
     grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")
     grade.add_argument("--format", choices=("text", "json", "csv"), help="(default text; csv into a file)")
     _time_limit(grade)

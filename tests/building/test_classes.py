@@ -11,6 +11,8 @@ from pypdf import PdfReader
 
 from derive.building import classes
 from derive.building.classes import Student, code_of, made_class, plain, read_roster
+from derive.cli.options import main
+from derive.course.variants import chosen_for
 from derive.errors import Rejected
 from tests.course.test_variants import bead
 
@@ -112,3 +114,21 @@ def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
 )
 def test_no_cell_of_the_table_is_a_formula_of_a_spreadsheet(cell: str, shown: str) -> None:
     assert plain(cell) == shown
+
+
+def test_an_answer_is_graded_with_the_variant_of_its_student(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """The frequency is sqrt(g/b), worked out here from the choice of each student."""
+    variations = bead(tmp_path, "{b: [10 cm, 16 cm, 27 cm, 33 cm, 48 cm, 54 cm]}").variations
+    rows = []
+    for code in ("A1", "E2", "L3"):
+        chosen = chosen_for("week1", "bead", variations, code, "3")
+        length = float(variations[0].told(chosen["b"]).split()[0]) / 100
+        rows += [f"{code},a,{(9.81 / length) ** 0.5:.4g} rad/s", f"{code},a,{(9.81 / length) ** 0.5 * 2:.4g} rad/s"]
+    (tmp_path / "answers.csv").write_text("student,part,answer\n" + "\n".join(rows) + "\n")
+    main(["--root", str(tmp_path), "grade", "week1/bead", "--answers", str(tmp_path / "answers.csv"), "--seed", "3"])
+    verdicts = [line.split()[3] for line in capfd.readouterr().out.splitlines()[1:]]
+    assert verdicts[::2] == ["equal"] * 3
+    assert "equal" not in verdicts[1::2]
+    command = ["--root", str(tmp_path), "grade", "week1/bead", rows[0].split(",")[2], "--seed", "3", "--student"]
+    assert main([*command, "A1"]) == 0
+    assert len({chosen_for("week1", "bead", variations, code, "3")["b"] for code in ("A1", "E2", "L3")}) > 1

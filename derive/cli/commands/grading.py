@@ -47,7 +47,13 @@ def _grade_one(arguments: argparse.Namespace) -> int:
     path_of(root, problem_id)
     part = check_part(root, problem_id, arguments.part)
     with waiting(f"deriving {problem_id}"):
-        found = grade_answers(root, {problem_id: [(0, part, arguments.answer)]}, 1, arguments.time_limit)[0]
+        found = grade_answers(
+            root,
+            {problem_id: [(0, part, arguments.answer, arguments.student)]},
+            1,
+            arguments.time_limit,
+            seed=arguments.seed,
+        )[0]
     if isinstance(found, NotGraded):
         raise DeriveError(found.complaint)
     text = one_as_text(problem_id, found)
@@ -70,14 +76,16 @@ def _grade_table(arguments: argparse.Namespace) -> int:
     asked: dict[str, list[Asked]] = {}
     for number, (row, problem_id) in enumerate(zip(answers.rows, ids, strict=True)):
         if problem_id is not None:
-            asked.setdefault(problem_id, []).append((number, row.part, row.answer))
+            asked.setdefault(problem_id, []).append((number, row.part, row.answer, row.student.strip()))
     if len(asked) > 1:
         preload(root, derives=True, draws=False)
 
     def tick(done: int, running: Mapping[str, float]) -> None:
         tell(f"{done} of {len(answers.rows)} graded; {under_way(running)}")
 
-    found = grade_answers(root, asked, arguments.jobs or os.cpu_count() or 1, arguments.time_limit, tick)
+    found = grade_answers(
+        root, asked, arguments.jobs or os.cpu_count() or 1, arguments.time_limit, tick, arguments.seed
+    )
     tell("")
     unknown = NotGraded(Complaint("no-such-problem", "there is no such problem"))
     results = [found.get(number, unknown) for number in range(len(answers.rows))]
