@@ -30,7 +30,8 @@ class Order:
     """Relations that are assumed to hold.
 
     positive   differences that are assumed to be greater than zero
-    replaced   symbol -> its value by a relation, in terms of amounts and of symbols that are not replaced
+    replaced   symbol -> the expression that replaces it, from one of the relations; the expression contains amounts and
+               symbols that are not replaced
     amounts    replaced symbol -> the amount in its value: positive, or not negative if the relation is not strict
     """
 

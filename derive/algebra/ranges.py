@@ -245,8 +245,8 @@ def _sign_between(least: Expr, greatest: Expr) -> int | None:
 
 
 def _sign_of_sum(total: Expr) -> int | None:
-    """The sign of a sum, from the common sign of its terms or from the bounds between which it lies. None if the sign
-    is unknown."""
+    """The sign of a sum: from the common sign of its terms, from the bounds between which it lies, or from its form as
+    a product of sines and cosines. None if the sign is unknown."""
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]

@@ -33,11 +33,11 @@ WHY = {
     "letter": "one letter was written for another",
     "exponent": "an exponent was lost or mistyped",
     "factor": "a factor was lost",
-    "extra factor": "a factor was written twice or too much",
-    "term": "a term was written too much",
+    "extra factor": "a factor was written twice, or is superfluous",
+    "term": "a superfluous term was written",
     "function": "sine and cosine were exchanged",
     "differential": "the d of a differential was lost",
-    "dots": "a dot was lost or written too much",
+    "dots": "a dot was lost or added",
     "fraction": "numerator and denominator were exchanged",
 }
 

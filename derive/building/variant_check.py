@@ -1,8 +1,8 @@
 """Many draws of the variants of a problem: how its answers are distributed, and which draws are degenerate.
 
-The derivation is made once for each structure, that is, for each choice of the given values that are not numbers of
-letters. The numbers of a draw are then put into the derived answers. A few draws are also derived from the beginning,
-and their numbers are compared with those of the quick way.
+The derivation is made once for each structure. A structure is one choice of everything that varies, except the numbers
+of letters. The numbers of a draw are then put into the derived answers. A few draws are also derived from the
+beginning, and their numbers are compared with those of the quick way.
 """
 
 from __future__ import annotations

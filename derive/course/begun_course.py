@@ -1,4 +1,5 @@
-"""The files of a new course: a set with one problem, what all sets share, and how the course is built elsewhere."""
+"""The files of a new course: a set with one problem, the keys that all sets share, and the files with which a
+container, GitHub or GitLab builds the course."""
 
 from __future__ import annotations
 

@@ -427,9 +427,9 @@ class _Scene:
                 yield from self._with_natural_length(self._dimension(q, start, at, len(shown)), start)
 
     def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
-        """Yield a dimension line that begins at `start`. If it shows the extension or the length of the only spring,
-        also yield the natural length of the spring: in line with the extension, with room for the label of the spring,
-        or opposite to the length."""
+        """Yield a dimension line that begins at `start`. If the line shows the extension of the only spring, also yield
+        the natural length in line with it, and leave room for the label of the spring. If the line shows the length of
+        the only spring, also yield the natural length on the other side of the spring."""
         springs = [each for each in self.system.between if is_spring(each)]
         ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
         length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None

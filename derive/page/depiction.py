@@ -375,8 +375,9 @@ def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placeme
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps after which a drawing is placed, if they are in its part: the steps that the drawing
-    shows and, for a normal mode, the steps of the other modes. So the drawings of all modes are side by side."""
+    """Return the keys of the steps that a drawing shows and, for a normal mode, the keys of the steps of the other
+    modes. The drawing is placed after those of these steps that are in its part. So the drawings of all modes are side
+    by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 

@@ -309,8 +309,8 @@ def landing(claim: Claim) -> Verdict | None:
 
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
-    """Yield trials, each with a state in which the force of the constraint vanishes and with the dynamics of the system
-    without this constraint and without the friction of the same contact.
+    """Yield trials. Each trial comes with a state in which the force of the constraint vanishes, and with the dynamics
+    of the system after this constraint and the friction of the same contact have been removed.
 
     fact   the flight: the position where it begins, and the motion before it
     """

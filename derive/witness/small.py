@@ -251,7 +251,9 @@ def frequency(claim: Claim) -> Verdict | None:
         wanted = stated if grows else -stated
         size = max(float(np.max(np.abs(squares), initial=0.0)), 1e-3)
         if np.min(np.abs(squares - wanted), initial=np.inf) > FREQUENCY * 10 * size:
-            return claim.refuted("no small motion of the described system has this frequency", near.trial, near.state)
+            return claim.refuted(
+                "no small motion of the described system has this frequency or growth rate", near.trial, near.state
+            )
         count += 1
     return seen(count, "equilibria")
 

@@ -29,7 +29,7 @@ def make_class(arguments: argparse.Namespace) -> int:
         internal(str(bug), bug.trace)
     outputs = shown_path(set_folder(root, set_id))
     voice.say(
-        f"{set_id}: documents of {report.made} of {report.students} students made, the sheets in {outputs}/{STUDENTS}, "
-        f"solutions, keys and answers in {outputs}/{CLASS} ({report.seconds:.1f} s)"
+        f"{set_id}: made the documents of {report.made} of {report.students} students ({report.seconds:.1f} s): the "
+        f"sheets are in {outputs}/{STUDENTS}; solutions, keys and answers are in {outputs}/{CLASS}"
     )
     return 1 if report.failed else 0

@@ -103,7 +103,8 @@ def _motion(
 ) -> tuple[Any, Any, Any] | None:
     """Return M, C and K, the derivatives of m a - F with respect to accelerations, rates and coordinates, at rest.
 
-    falling   whether the values of the symbols that the energy does not contain decrease from one symbol to the next
+    falling   whether the symbols that the energy does not contain get decreasing values, in their order; by default the
+              values increase
     The result is None if the coordinates are singular, like the angles of an upright top, or if the numbers do not
     satisfy the assumptions of positivity.
     """

@@ -269,7 +269,8 @@ class _Printer:
         return f"{{{shown}}}" if isinstance(base, Name) and base.primes else shown
 
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
-        """Return the rows of an array: fractions are small in a matrix and of full size in a column."""
+        """Return the rows of an array. Fractions have full size in a column of a displayed formula, and are small
+        otherwise."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
             return rf" \\{ROW_GAP} ".join(
                 rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
