@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sympy import Expr, Integer, Symbol
 
@@ -30,7 +30,6 @@ from derive.course.variants import Chosen
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Faults, OutOfTime, Rejected, did_you_mean, during
 from derive.figures.places import with_places
-from derive.grading.key import Key, key_of
 from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.notation.latex import unprintable
@@ -52,6 +51,9 @@ from derive.steps.step import Quantity, Step
 from derive.stock.keys.limits import limits_of
 from derive.stock.keys.observations import observations_of, with_known_observations
 from derive.units import misfit, read_unit
+
+if TYPE_CHECKING:
+    from derive.grading.key import Key
 
 
 def rendered(
@@ -88,6 +90,8 @@ def rendered(
 def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Chosen | None = None) -> Key:
     """Return the answers of a problem, or of the variant with these choices, with their points, for the grader; raise
     `DeriveError` if there are errors."""
+    from derive.grading.key import key_of  # it loads the reader of formulas
+
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id, chosen)
     problem = with_known_observations(problem, faults)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown, Paper
-from derive.course.schema import TEXT, Reader, Record, key, list_of, one_of, read_record, wrong_type
+from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
@@ -209,7 +209,8 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     logo_path = written.logo or of_course.logo
     logo = _logo(root, logo_path, faults) if logo_path else None
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
-    if not (written.course or of_course.course) and node.get("course") is None:
+    misspelt = any(nearest(name.text, ["course"]) for name, _ in node.pairs if name.text not in keys_of(SetKeys))
+    if not (written.course or of_course.course or misspelt) and node.get("course") is None:
         help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
         faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
     faults.stop()

@@ -409,7 +409,7 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side before the last one that is no name and differs from the last one, as in `a = b` for b."""
+        """Return a side before the last one that is not a name and differs from the last one, as in `a = b` for b."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1

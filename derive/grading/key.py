@@ -141,7 +141,7 @@ class Key:
 
 
 def label_in(labels: Sequence[str], name: str) -> str | None:
-    """Return the label that the name of a part means: `b`, `(b)`, `B`, `2`, `part b`; None if there is none."""
+    """Return the label that the name of a part means: `b`, `(b)`, `B`, `2`, `part b`; None without such a part."""
     plain = _split(name)[0]
     if plain in labels:
         return plain

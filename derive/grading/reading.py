@@ -67,7 +67,7 @@ class Reader:
         ]
 
     def side(self, side: TypedSide) -> tuple[Read, ...]:
-        """Return the readings of a side; raise `Unread` if there is none."""
+        """Return the readings of a side; raise `Unread` if it has no reading."""
         try:
             node = parsed(side.tokens)
         except Unreadable as error:

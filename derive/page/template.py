@@ -26,7 +26,7 @@ class Templates:
     folders: tuple[Path, ...]
 
     def file(self, name: str) -> Path:
-        """Return the first file of this name; if there is none, the path that it would have in the last folder."""
+        """Return the first file of this name; without one, the path that it would have in the last folder."""
         paths = [folder / name for folder in self.folders]
         return next((path for path in paths if path.is_file()), paths[-1])
 

@@ -117,7 +117,9 @@ def test_a_fault_of_then_is_told_as_one(tmp_path: Path) -> None:
 def test_templates_of_then_that_lack_words_give_way_to_those_of_today(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     (root / "templates" / "phrases" / "en").mkdir(parents=True)
-    (root / "templates" / "phrases" / "en" / "few.yaml").write_text("rules: {}\n")
+    (root / "templates" / "phrases" / "en" / "page.yaml").write_text("rules: {}\n")
+    (root / "templates" / "new").mkdir()  # so these are all templates of a checkout, not only some of a course
+    (root / "templates" / "new" / "system.yaml").write_text("title: A system\n")
     committed(root)
     (root / "templates").rename(root / "old")
     (root / "templates").symlink_to(ROOT / "templates")

@@ -37,7 +37,7 @@ class TexInHtml(MarkdownPage):
         return self._joined(self._blocks(part.blocks))
 
     def remarks(self) -> str:
-        """Return the strategy and the note; empty if there are none."""
+        """Return the strategy and the note, if the problem has them."""
         texts = ((self.words.labels[name], getattr(self.document, name)) for name in ("strategy", "note"))
         return "\n".join(f"<p><b>{escape(label)}</b></p>\n{self.paragraph(text)}" for label, text in texts if text)
 
