@@ -115,7 +115,10 @@ def code_of(name: str) -> str:
 
 @dataclass(frozen=True)
 class ClassDocuments:
-    """What the documents of a class have in common."""
+    """What the documents of a class have in common.
+
+    inputs   the digest of all inputs that the students share
+    """
 
     root: Path
     set_id: str
@@ -123,6 +126,7 @@ class ClassDocuments:
     seed: str
     engine: Engine
     limit: float
+    inputs: str
 
     @property
     def outputs(self) -> Path:
@@ -133,13 +137,35 @@ class ClassDocuments:
             return self.outputs / STUDENTS / f"{student.code}.pdf"
         return self.outputs / CLASS / f"{student.code}-{kind}.pdf"
 
+    def files(self, student: Student) -> list[Path]:
+        """Return all files of a student."""
+        return [self.file(student, SHEET).with_suffix(".html"), *(self.file(student, kind) for kind in KINDS)]
+
+    def record(self, student: Student) -> Path:
+        """Return the file that records what was made for a student."""
+        return self.outputs / CLASS / MADE / f"{student.code}.json"
+
+    def key(self, student: Student) -> str:
+        return digest(self.inputs, student.name, student.code)
+
+    def answers(self, student: Student) -> list[list[str]] | None:
+        """Return the rows of the table of answers, if the inputs of the student's documents are as they were, and the
+        documents are as they were made; otherwise None."""
+        try:
+            known = json.loads(self.record(student).read_bytes())
+            is_current = known["key"] == self.key(student)
+            if is_current and known["files"] == [file_digest(file) for file in self.files(student)]:
+                return [[str(cell) for cell in row] for row in known["answers"]]
+        except (OSError, ValueError, KeyError, TypeError):  # there is no record, or derive did not write it
+            pass
+        return None
+
 
 @dataclass(frozen=True)
 class Made:
-    """The documents of one student: the rows of the table of answers, or the errors of the student's variant."""
+    """The outcome for one student: the warnings, or the errors of the student's variant."""
 
-    code: str
-    answers: tuple[tuple[str, ...], ...] = ()
+    student: Student
     complaints: tuple[Complaint, ...] = ()
     warnings: tuple[Complaint, ...] = ()
 
@@ -157,38 +183,52 @@ def made_class(
     """Make the documents of each student whose inputs have changed. An error in one variant stops no other student."""
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
-    shared = ClassDocuments(root, set_id, heading, seed, chosen, limit)
+    inputs = _inputs(root, set_id, heading, chosen, seed)
+    shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
     report = ClassReport(len(students))
+    waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
-        record = _Record(shared, students)
-        waiting = [student for student in students if not record.is_current(student)]
-        if waiting:
+        unmade = [student for student in students if shared.answers(student) is None]
+        if unmade:
             preload(root, derives=True, draws=True, set_id=set_id)
-        groups = [waiting[start : start + AT_ONCE] for start in range(0, len(waiting), AT_ONCE)]
+
+        def put(crew: Crew, group: Sequence[Student]) -> None:
+            job = Job(f"the documents of {group[0].code}", partial(_documents_of, shared, group), limit * len(group))
+            waiting[job] = group
+            crew.put(job)
 
         def tick(_: Mapping[str, float]) -> None:
-            tell(f"{set_id}: documents of {report.made} of {len(waiting)} students ({time.monotonic() - begun:.0f} s)")
+            tell(f"{set_id}: documents of {report.made} of {len(unmade)} students ({time.monotonic() - begun:.0f} s)")
 
         with Crew(jobs or os.cpu_count() or 1, tick) as crew:
-            for number, group in enumerate(groups):
-                work = partial(_documents_of, shared, group)
-                crew.put(Job(f"documents {number + 1} of {len(groups)}", work, limit * len(group)))
+            for start in range(0, len(unmade), AT_ONCE):
+                put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
-                if isinstance(outcome.error, DeriveError):
+                group = waiting.pop(outcome.job)
+                if outcome.error is not None and len(group) > 1:  # the worker died: each student gets one of their own
+                    for student in group:
+                        put(crew, [student])
+                elif isinstance(outcome.error, DeriveError):
                     report.complaints += outcome.error.complaints
                 elif outcome.error:
                     report.bugs.append(outcome.error)
                 for made in outcome.value or ():
                     report.complaints += made.complaints
                     report.warnings += [each for each in made.warnings if each not in report.warnings]
-                    if not made.complaints:
-                        report.made += 1
-                        record.add(made)
-                record.save()
-        record.finish()
+                    report.made += not made.complaints
+        _remove_others(shared, students)
+        _write_answers(shared, students)
         Cache(shared.outputs / CACHE).evict()
     report.seconds = time.monotonic() - begun
     return report
+
+
+def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
+    """Return the digest of all inputs that the students share."""
+    recipe = recipe_of(root, None, heading.evidence)
+    files = [file_digest(root / path) for path in heading.inputs]
+    course = folder_digest(root / "problems" / set_id, "*")
+    return digest("class", recipe_digest(recipe), engine.identity, seed, course, *files)
 
 
 def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[Made]:
@@ -196,11 +236,14 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 
 
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
+    """Make the documents of a student and record them, unless an earlier worker has done so."""
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
     from derive.course.problem import problem_and_faults
     from derive.course.variants import chosen_for
 
+    if shared.answers(student) is not None:
+        return Made(student)
     told, pages, cache = "", [], Cache(shared.outputs / CACHE)
     try:
         for problem_id in shared.heading.problems:
@@ -225,9 +268,11 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     except DeriveError as error:
         note = f"in the variant of {student.name} ({student.code})" + (f": {told}" if told else "")
         complaints = (replace(each, notes=(*each.notes, note)) for each in error.complaints)
-        return Made(student.code, complaints=tuple(complaints))
+        return Made(student, complaints=tuple(complaints))
     rows = [row for page in pages for row in _rows(student, page.id, json.loads(page.texts["json"]))]
-    return Made(student.code, tuple(rows), warnings=tuple(warning for page in pages for warning in page.warnings))
+    files = [file_digest(file) for file in shared.files(student)]
+    write(shared.record(student), json.dumps({"key": shared.key(student), "files": files, "answers": rows}))
+    return Made(student, warnings=tuple(warning for page in pages for warning in page.warnings))
 
 
 def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple[str, ...]]:
@@ -243,62 +288,24 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
     return rows
 
 
-class _Record:
-    """What was made for each student: the key of the inputs, the digest of each file, and the rows of the answers."""
-
-    def __init__(self, shared: ClassDocuments, students: Sequence[Student]):
-        self.shared, self.students = shared, students
-        self.file = shared.outputs / CLASS / MADE
-        recipe = recipe_of(shared.root, None, shared.heading.evidence)
-        inputs = [file_digest(shared.root / path) for path in shared.heading.inputs]
-        course = folder_digest(shared.root / "problems" / shared.set_id, "*")
-        self.common = digest("class", recipe_digest(recipe), shared.engine.identity, shared.seed, course, *inputs)
-        try:
-            read = json.loads(self.file.read_bytes())
-        except (OSError, ValueError):
-            read = {}
-        known = read.items() if isinstance(read, dict) else ()  # its names are names of files
-        self.made: dict[str, Any] = {code: made for code, made in known if NAME.fullmatch(code)}
-
-    def _key(self, student: Student) -> str:
-        return digest(self.common, student.name, student.code)
-
-    def _files(self, student: Student) -> list[Path]:
-        sheet = self.shared.file(student, SHEET).with_suffix(".html")
-        return [sheet, *(self.shared.file(student, kind) for kind in KINDS)]
-
-    def is_current(self, student: Student) -> bool:
-        """Whether the inputs of the student's documents are as they were, and the documents are as they were made."""
-        known = self.made.get(student.code)
-        return (
-            isinstance(known, dict)
-            and known.get("key") == self._key(student)
-            and known.get("files") == [file_digest(file) for file in self._files(student)]
-        )
-
-    def add(self, made: Made) -> None:
-        student = next(each for each in self.students if each.code == made.code)
-        files = [file_digest(file) for file in self._files(student)]
-        self.made[made.code] = {"key": self._key(student), "files": files, "answers": made.answers}
-
-    def save(self) -> None:
-        write(self.file, json.dumps(self.made))
-
-    def finish(self) -> None:
-        """Remove the documents of those who are no longer in the roster, and write the table of answers."""
-        codes = {student.code for student in self.students}
-        for code in [code for code in self.made if code not in codes]:
-            for file in self._files(Student("", code)):
+def _remove_others(shared: ClassDocuments, students: Sequence[Student]) -> None:
+    """Remove the documents of students who are no longer in the roster."""
+    codes = {student.code for student in students}
+    for record in sorted((shared.outputs / CLASS / MADE).glob("*.json")):
+        if record.stem not in codes:
+            for file in shared.files(Student("", record.stem)):
                 file.unlink(missing_ok=True)
-            del self.made[code]
-        self.save()
-        table = io.StringIO()
-        rows = csv.writer(table)
-        rows.writerow(COLUMNS)
-        for student in self.students:
-            if known := self.made.get(student.code):
-                rows.writerows([plain(cell) for cell in row] for row in known["answers"])
-        write(self.shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
+            record.unlink()
+
+
+def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
+    """Write the table of all answers of all students whose documents are made."""
+    table = io.StringIO()
+    rows = csv.writer(table)
+    rows.writerow(COLUMNS)
+    for student in students:
+        rows.writerows([plain(cell) for cell in row] for row in shared.answers(student) or ())
+    write(shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
 
 
 def plain(cell: str) -> str:

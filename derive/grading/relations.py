@@ -215,7 +215,8 @@ def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
 
 
 def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -> Verdict | None:
-    """Compare an equation with an answer that is a value, such as `omega^2 = g/l` for omega; None for any other equation."""
+    """Compare an equation with an answer that is a value, such as `omega^2 = g/l` for omega; None for any other
+    equation."""
     symbol, value = target.symbol, target.value
     if isinstance(left.value, MatrixBase) or isinstance(right.value, MatrixBase) or not isinstance(value, Expr):
         return None
