@@ -15,7 +15,11 @@ from sympy import MatrixBase, Symbol
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
 from derive.audit.known import Definition, Known
-from derive.audit.slips import WHY, nearest_edit
+from derive.audit.near import Nearness, letters_in
+from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
+from derive.audit.numeric import NoNumber
+from derive.audit.slips import WHY, Edit, nearest_edit
+from derive.audit.systems import equations_of, expanded
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
@@ -163,9 +167,13 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
-        if claim.verdict is not None:
-            self.remark(claim, claim.verdict)
-        self.remember(claim)
+        try:
+            with _limited(SECONDS):
+                if claim.verdict is not None:
+                    self.remark(claim, claim.verdict)
+                self.remember(claim)
+        except _OutOfTime:
+            return  # later rows do without this one
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
         """Point to what is hardly meant: a letter equal to itself, or one entry that breaks a symmetry."""
@@ -246,11 +254,62 @@ class _Auditor:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
             )
+        if first.outcome is Outcome.UNDECIDED:
+            self.accuse_if_near(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
+
+    def accuse_if_near(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
+        """A row that does not follow, but would with one small change, is probably a slip."""
+        if claim.values is None or claim.right is None or claim.relation not in ("=", ":="):
+            return
+        left, right = claim.values
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+            return
+        text = self.document.source.text
+        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        near = Nearness(
+            self.meaning, self.known, letters_in(left_node, right_node),
+            lambda span: text[span.start : span.end].strip(),
+        )  # fmt: skip
+        found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
+        if found is None and not claim.is_step:
+            equations = equations_of(self.known, self.meaning)
+            wanted, _ = expanded(self.known, left - right)
+            pair = near.of_equation(left_node, right_node, equations, wanted)
+            found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
+        if found is None:
+            return
+        edit, because, given = found
+        verdict.outcome, verdict.given = Outcome.DIFFERS, given
+        verdict.because = f"it does not follow from {because}, but would with one change"
+        verdict.suggestion = f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def near_value(
+        self, claim: Claim, left: Value, right_node: Node, near: Nearness
+    ) -> tuple[Edit, str, tuple[int, ...]] | None:
+        """Return a change with which the right side has the value that earlier rows give to the left side."""
+        try:
+            if isinstance(left, Symbol) and not claim.is_step:
+                definition = self.known.latest(left)
+                if definition is not None:
+                    targets = [each.of(definition.value) for each in near.points()]
+                    edit = near.of_value(right_node, targets)
+                    if edit is not None:
+                        return edit, "an earlier row", (definition.claim,)
+                decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
+                values = decision.system.value_of_letter() if decision.system is not None else None
+                edit = near.of_value(right_node, values, left) if values is not None else None
+                return (edit, "earlier equations", ()) if edit is not None else None
+            targets = [each.of(left) for each in near.points()]
+            edit = near.of_value(right_node, targets)
+            return (edit, "the side before it", ()) if edit is not None else None
+        except (*NUMERIC_FAULTS, NoNumber):
+            return None
 
     def loses_letters(self, claim: Claim) -> bool:
         """Whether letters of the left side are missing on the right."""

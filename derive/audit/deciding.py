@@ -21,6 +21,7 @@ from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.known import Known
+from derive.audit.systems import System, equations_of, expanded
 from derive.documents.facts import ANGLES
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -74,6 +75,7 @@ class Decision:
             self.approximate,
             self.condition,
             self.consequence,
+            self.together,
             self.implied,
         ):
             if (found := test()) is not None:
@@ -128,8 +130,38 @@ class Decision:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
-                return Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
+                return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
         return None
+
+    def of_used_letter(self, letter: Symbol) -> Verdict | None:
+        """A letter of earlier equations gets a value: it follows from them, or they may give another value."""
+        if not any(letter in equation.free_symbols for equation, _ in self.known.equations):
+            return None
+        if (found := self.together()) is not None:
+            return found
+        if self.system is not None and self.system.value_of_letter() is not None:
+            return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
+        return None
+
+    @cached_property
+    def system(self) -> System | None:
+        """The earlier equations, prepared for this claim."""
+        if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
+            return None
+        letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
+        equations = equations_of(self.known, self.meaning, letter)
+        wanted, _ = expanded(self.known, self.difference, letter)
+        if not equations or wanted.has(Integral) or not wanted.free_symbols or sympy.count_ops(wanted) > 600:
+            return None
+        return System(wanted, equations, self.meaning, self.known, letter)
+
+    def together(self) -> Verdict | None:
+        """The claim is a combination of several earlier equations."""
+        if self.system is None or (used := self.system.follows()) is None:
+            return None
+        names = list(dict.fromkeys(each.name for each in used))
+        given = tuple(dict.fromkeys(number for each in used for number in each.claims))
+        return Verdict(Outcome.HOLDS, f"it follows from {' and '.join(names)}", given)
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
         """Return the earlier equation from which the value of a letter follows, or None."""

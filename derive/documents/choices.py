@@ -87,9 +87,10 @@ def choice_of(node: Open, facts: Facts) -> Choice:
 
 def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
     call = node.alternatives[0]
-    while isinstance(call, Pow | EvalBar):
-        call = call.base if isinstance(call, Pow) else call.inner
-    assert isinstance(call, Apply)
+    while isinstance(call, Pow | EvalBar | Fun):
+        call = call.base if isinstance(call, Pow) else call.inner if isinstance(call, EvalBar) else call.argument
+    if not isinstance(call, Apply):
+        return 1, "a product", True
     head, argument = call.head, call.arguments[0]
     inner = getattr(argument, "inner", argument)
     bare = replace(head, dots=0, primes=0)

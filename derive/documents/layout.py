@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
+from itertools import islice
 
 from derive.documents.macros import Macro, argument_at, end_of_group, expanded, macros_of
 from derive.documents.source import Format, Source, Span
@@ -53,6 +54,9 @@ ARROWS = {
 }  # fmt: skip
 WIDE = {"quad", "qquad", "qq", "hspace", "hfill", "hskip"}
 WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
+
+
+MOST_FORMULAS = 20_000
 
 
 class Cue(StrEnum):
@@ -229,7 +233,7 @@ class _Reading:
     def blocks(self) -> list[Block]:
         found: list[Block] = []
         done = 0
-        for outer, inner, display, environment in self.formulas():
+        for outer, inner, display, environment in islice(self.formulas(), MOST_FORMULAS):
             before = self.text[max(done, outer.start - 2000) : outer.start]
             starts = [heading.span.start for heading in self.headings]
             heading = bisect_right(starts, outer.start) - 1

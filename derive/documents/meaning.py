@@ -69,6 +69,9 @@ from derive.errors import DeriveError
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
 LONGEST_NUMBER = 60
+MOST_BITS = 4000  # of a number that a power makes
+LARGEST_DETERMINANT = 6
+MOST_TERMS = 2000  # of nested sums
 
 
 class Meaningless(Exception):
@@ -106,6 +109,7 @@ class Meaning:
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
     evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
     two_signs: bool = False
+    terms: int = 1  # of the sums around the node that is read
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -274,6 +278,8 @@ class Meaning:
             raise Meaningless("this power is too high", node.exponent.span)
         if base == 0 and exponent.is_negative:
             raise Meaningless("a denominator is zero", node.span)
+        if exponent.is_Number and any(_bits(each) * abs(exponent) > MOST_BITS for each in base.atoms(Rational)):
+            raise Meaningless("this power is too high", node.exponent.span)
         return base**exponent
 
     def of_root(self, node: Root) -> Any:
@@ -289,7 +295,7 @@ class Meaning:
             matrix = self._of(node.argument)
             if not isinstance(matrix, MatrixBase):
                 raise Meaningless("the matrix is not written out", node.argument.span)
-            return matrix.det() if node.name == "det" else matrix.trace()
+            return _determinant(matrix, node.span) if node.name == "det" else matrix.trace()
         argument = self.scalar(node.argument)
         if node.name in ("log", "ln"):
             value = log(argument)
@@ -313,7 +319,7 @@ class Meaning:
         if isinstance(inner, MatrixBase):
             if inner.shape[1] == 1:
                 return sqrt(inner.dot(inner))
-            return inner.det()
+            return _determinant(inner, node.span)
         return AbsoluteValue(inner)
 
     def of_mat(self, node: Mat) -> Any:
@@ -343,7 +349,7 @@ class Meaning:
             ):
                 rows = [Matrix([self.entry(each) for each in row]) for row in node.rows[1:]]
                 return rows[0].cross(rows[1])
-        return Matrix([[self.entry(each) for each in row] for row in node.rows]).det()
+        return _determinant(Matrix([[self.entry(each) for each in row] for row in node.rows]), node.span)
 
     def of_vec(self, node: Vec) -> Any:
         if len(node.entries) not in (2, 3):
@@ -615,7 +621,11 @@ class Meaning:
         lower, upper = self.scalar(node.lower), self.scalar(node.upper)
         if not (lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= 20):
             raise Meaningless("the limits of this sum are not numbers", node.span)
+        self.terms *= int(upper) - int(lower) + 1
+        if self.terms > MOST_TERMS:
+            raise Meaningless("these sums have too many terms", node.span)
         values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(int(lower), int(upper) + 1)]
+        self.terms //= len(values)
         value = values[0]
         for each in values[1:]:
             value = value + each if node.name == "sum" else value * each
@@ -629,6 +639,18 @@ def _replaced(letter: Letter, **changes: Any) -> Letter:
     from dataclasses import replace
 
     return replace(letter, **changes)
+
+
+def _bits(number: Any) -> int:
+    return max(int(number.p).bit_length(), int(number.q).bit_length())
+
+
+def _determinant(matrix: Any, span: Span) -> Any:
+    if matrix.shape[0] != matrix.shape[1]:
+        raise Meaningless("this determinant is not square", span)
+    if matrix.shape[0] > LARGEST_DETERMINANT:
+        raise Meaningless("this determinant is too large", span)
+    return matrix.det()
 
 
 def _indexed(sub: str, index: str) -> str:

@@ -87,6 +87,12 @@ class _Reader:
         at = self.at + ahead
         return self.tokens[at] if at < len(self.tokens) else None
 
+    def needed(self) -> Token:
+        """Return the next token; something must follow."""
+        if self.at >= len(self.tokens):
+            raise Unreadable("something is missing here", self.tokens[-1].span if self.tokens else Span(0, 0))
+        return self.tokens[self.at]
+
     def skip_spacing(self) -> None:
         while (token := self.peek()) is not None and token.kind is Kind.COMMAND:
             if token.text in IGNORED or token.text == " ":
@@ -588,7 +594,7 @@ class _Reader:
     # Atoms
 
     def atom(self) -> Node:
-        token = self.tokens[self.at]
+        token = self.needed()
         if token.kind is Kind.NUMBER:
             self.at += 1
             return Num(token.span, token.text)
@@ -1070,7 +1076,7 @@ class _Reader:
 
     def bracketed(self) -> Node:
         r"""Read a bracket: a group, a triple, or the absolute value after `\left|`."""
-        opener = self.tokens[self.at]
+        opener = self.needed()
         close, found = self.closing_of(opener)
         if not found:
             raise Unreadable("this bracket is not closed", opener.span)

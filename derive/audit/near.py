@@ -1,0 +1,138 @@
+"""Whether a row that does not follow would follow after one small change: then the row is probably a slip.
+
+The row is compared with what earlier rows determine: the value of its letter, or an equation for its highest rate. A
+change is tried with numbers; a row is accused only if one change makes it right at all points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import sympy
+from sympy import Expr, Symbol
+
+from derive.audit.known import Known
+from derive.audit.numeric import FAULTS, NoNumber, Numbers, at, close
+from derive.audit.slips import MOST_EDITS, Edit, edits_of
+from derive.audit.systems import POINTS, Equation, expanded
+from derive.documents.meaning import Meaning, Meaningless
+from derive.documents.syntax import Letter, Node
+
+ROOTS = 3
+Shown = Callable[..., str]
+
+
+@dataclass
+class Nearness:
+    """Searches for one change of a side."""
+
+    meaning: Meaning
+    known: Known
+    letters: Sequence[Letter]
+    shown: Shown
+
+    def points(self, without: Symbol | None = None) -> list[Numbers]:
+        kept: dict[Symbol, Expr] = {}
+
+        def defined(symbol: Symbol) -> Expr:
+            if symbol not in kept:
+                kept[symbol] = symbol if symbol == without else expanded(self.known, symbol, without)[0]
+            return kept[symbol]
+
+        return [Numbers(self.meaning, defined, point) for point in range(POINTS)]
+
+    def edits(self, side: Node) -> list[Edit]:
+        return sorted(islice(edits_of(side, self.letters, self.shown), MOST_EDITS), key=lambda each: each.cost)
+
+    def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
+        """Return the cheapest change with which a side has the numbers of the targets."""
+        points = self.points(without)[: len(targets)]
+        for edit in self.edits(side):
+            try:
+                if all(close(p.of_node(edit.node), target) for p, target in zip(points, targets, strict=True)):
+                    return edit
+            except (*FAULTS, NoNumber, Meaningless):
+                continue
+        return None
+
+    def of_equation(
+        self, left: Node, right: Node, equations: Sequence[Equation], wanted: Expr
+    ) -> tuple[Edit, Equation] | None:
+        """Return a change with which an equation is an earlier one, and the earlier one."""
+        for equation in equations:
+            pivot = self.pivot(wanted, equation.value)
+            if pivot is None:
+                continue
+            try:
+                roots = [
+                    root(lambda s, p=p: at(equation.value, _with(p, pivot, s)))  # type: ignore[misc]
+                    for p in self.points(pivot)
+                ]
+            except (*FAULTS, NoNumber):
+                continue
+            if any(each is None or abs(each) < 1e-9 for each in roots):
+                continue
+            edit = self.with_roots(left, right, pivot, [each for each in roots if each is not None])
+            if edit is not None:
+                return edit, equation
+        return None
+
+    def pivot(self, wanted: Expr, equation: Expr) -> Symbol | None:
+        """Return the highest rate that both equations contain linearly."""
+        both = wanted.free_symbols & equation.free_symbols
+        if not both or len(wanted.free_symbols ^ equation.free_symbols) > 2:
+            return None
+
+        def height(symbol: Symbol) -> tuple[int, str]:
+            letter = self.meaning.symbols.get(symbol)
+            return (letter.dots if letter is not None else 0), str(symbol)
+
+        for symbol in sorted(both, key=height, reverse=True)[:2]:
+            if sympy.diff(equation, symbol, 2) == 0 and sympy.diff(wanted, symbol, 2) == 0:
+                return symbol
+        return None
+
+    def with_roots(self, left: Node, right: Node, pivot: Symbol, roots: Sequence[complex]) -> Edit | None:
+        at_root = self.points(pivot)
+        for p, value in zip(at_root, roots, strict=True):
+            p.fixed[pivot] = value
+        elsewhere = self.points(pivot)[0]
+        elsewhere.fixed[pivot] = roots[0] * 1.37 + 0.11
+        for edit, first in self.edits_of_both(left, right):
+            one, other = (edit.node, right) if first else (left, edit.node)
+            try:
+                if not all(close(p.of_node(one), p.of_node(other)) for p in at_root):
+                    continue
+                if not close(elsewhere.of_node(one), elsewhere.of_node(other)):
+                    return edit
+            except (*FAULTS, NoNumber, Meaningless):
+                continue
+        return None
+
+    def edits_of_both(self, left: Node, right: Node) -> Iterator[tuple[Edit, bool]]:
+        both = [(each, True) for each in self.edits(left)] + [(each, False) for each in self.edits(right)]
+        yield from sorted(both, key=lambda pair: pair[0].cost)
+
+
+def _with(point: Numbers, pivot: Symbol, value: complex) -> Callable[[Symbol], complex]:
+    return lambda symbol: value if symbol == pivot else point.basic(symbol)
+
+
+def root(function: Callable[[complex], complex]) -> complex | None:
+    """Return the root of a linear function."""
+    low, high = function(0j), function(1 + 0j)
+    return None if high == low else -low / (high - low)
+
+
+def letters_in(*sides: Node | None) -> list[Letter]:
+    found: dict[object, Letter] = {}
+    for side in sides:
+        for each in side.walk() if side is not None else ():
+            if isinstance(each, Letter):
+                found.setdefault((each.identity, each.dots), each)
+    return list(found.values())
+
+
+__all__ = ["Nearness", "letters_in"]
