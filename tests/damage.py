@@ -45,9 +45,7 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
 
     def places(pattern: str) -> list[re.Match[str]]:
         found = [
-            each
-            for each in re.finditer(pattern, side)
-            if not any(start <= each.start() < end for start, end in zones)
+            each for each in re.finditer(pattern, side) if not any(start <= each.start() < end for start, end in zones)
         ]
         return random_.sample(found, min(1, len(found)))
 
@@ -70,7 +68,9 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
     for found in places(rf"(?<![\^_{{])(?<!\\frac)(?<!\\partial )(?<!\\partial)(?:{_LETTER})(?!\s*[\^_'(])"):
         if found[0] != "d":
             yield changed("factor", found, " ")
-    for found in places(r"[+-]\s*(?:[^\s+\-(){}\[\]=&\\]|\\[a-z]+(?![a-z])(?:\{\w+\})?|\^\{\w\}|_\{\w+\}|\\,)+(?=[+\-]|\s*$|\))"):
+    for found in places(
+        r"[+-]\s*(?:[^\s+\-(){}\[\]=&\\]|\\[a-z]+(?![a-z])(?:\{\w+\})?|\^\{\w\}|_\{\w+\}|\\,)+(?=[+\-]|\s*$|\))"
+    ):
         yield changed("term", found, "")
     for found in places(r"\\(?:sin|cos)(?![a-z])"):
         yield changed("function", found, "\\cos" if "sin" in found[0] else "\\sin")

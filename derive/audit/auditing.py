@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from itertools import islice, pairwise, product
 
@@ -29,6 +29,7 @@ from derive.documents.source import Span
 from derive.documents.syntax import Int, Letter, Mat, Node
 
 SECONDS = 3.0  # of processor time for one claim
+SECONDS_OF_SEARCH = 1.5  # for the change that would make it right
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 # SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
@@ -167,6 +168,9 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {SECONDS:g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
+        if claim.verdict is not None and claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display:
+            with suppress(_OutOfTime), _limited(SECONDS_OF_SEARCH):
+                self.accuse_if_near(claim, claim.verdict)
         try:
             with _limited(SECONDS):
                 if claim.verdict is not None:
@@ -254,17 +258,18 @@ class _Auditor:
             return self.of_missing_differential(claim, left_side) or Verdict(
                 Outcome.UNDECIDED, reason or "this has no value"
             )
-        if first.outcome is Outcome.UNDECIDED:
-            self.accuse_if_near(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
 
-    def accuse_if_near(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
+    def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
         """A row that does not follow, but would with one small change, is probably a slip."""
-        if claim.values is None or claim.right is None or claim.relation not in ("=", ":="):
+        left_side = self.last_good_side(claim)
+        if claim.values is None or claim.right is None or left_side is None or claim.relation not in ("=", ":="):
+            return
+        if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
             return
         left, right = claim.values
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
@@ -277,8 +282,8 @@ class _Auditor:
         )  # fmt: skip
         found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
         if found is None and not claim.is_step:
-            equations = equations_of(self.known, self.meaning)
-            wanted, _ = expanded(self.known, left - right)
+            equations = equations_of(self.known, self.meaning, sure=True)
+            wanted, _ = expanded(self.known, left - right, sure=True)
             pair = near.of_equation(left_node, right_node, equations, wanted)
             found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
         if found is None:
@@ -295,14 +300,9 @@ class _Auditor:
         """Return a change with which the right side has the value that earlier rows give to the left side."""
         try:
             if isinstance(left, Symbol) and not claim.is_step:
-                definition = self.known.latest(left)
-                if definition is not None:
-                    targets = [each.of(definition.value) for each in near.points()]
-                    edit = near.of_value(right_node, targets)
-                    if edit is not None:
-                        return edit, "an earlier row", (definition.claim,)
                 decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
-                values = decision.system.value_of_letter() if decision.system is not None else None
+                system = decision.system(sure=True)
+                values = system.value_of_letter() if system is not None else None
                 edit = near.of_value(right_node, values, left) if values is not None else None
                 return (edit, "earlier equations", ()) if edit is not None else None
             targets = [each.of(left) for each in near.points()]
@@ -461,6 +461,8 @@ class _Auditor:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
             return
+        if not claim.row.block.display and claim.verdict.outcome not in (Outcome.HOLDS, Outcome.APPROXIMATES):
+            self.known.conditions.add(claim.number)
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:

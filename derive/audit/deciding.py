@@ -139,29 +139,32 @@ class Decision:
             return None
         if (found := self.together()) is not None:
             return found
-        if self.system is not None and self.system.value_of_letter() is not None:
+        sure = self.system(sure=True)
+        if self.claim.row.block.display and sure is not None and sure.value_of_letter() is not None:
             return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
         return None
 
-    @cached_property
-    def system(self) -> System | None:
-        """The earlier equations, prepared for this claim."""
+    def system(self, sure: bool) -> System | None:
+        """Return the earlier equations, prepared for this claim."""
         if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
-        equations = equations_of(self.known, self.meaning, letter)
-        wanted, _ = expanded(self.known, self.difference, letter)
+        equations = equations_of(self.known, self.meaning, letter, sure)
+        wanted, _ = expanded(self.known, self.difference, letter, sure)
         if not equations or wanted.has(Integral) or not wanted.free_symbols or sympy.count_ops(wanted) > 600:
             return None
         return System(wanted, equations, self.meaning, self.known, letter)
 
     def together(self) -> Verdict | None:
         """The claim is a combination of several earlier equations."""
-        if self.system is None or (used := self.system.follows()) is None:
-            return None
-        names = list(dict.fromkeys(each.name for each in used))
-        given = tuple(dict.fromkeys(number for each in used for number in each.claims))
-        return Verdict(Outcome.HOLDS, f"it follows from {' and '.join(names)}", given)
+        for sure in (True, False):
+            system = self.system(sure)
+            used = system.follows() if system is not None else None
+            if used is not None:
+                names = list(dict.fromkeys(each.name for each in used))
+                given = tuple(dict.fromkeys(number for each in used for number in each.claims))
+                return Verdict(Outcome.HOLDS, f"it follows from {' and '.join(names)}", given)
+        return None
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
         """Return the earlier equation from which the value of a letter follows, or None."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
@@ -34,6 +35,8 @@ class Known:
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
+    conditions: set[int] = field(default_factory=set)  # claims that hold in one case or at one instant only, perhaps
+    kept: dict[object, Any] = field(default_factory=dict)  # what `systems` makes of this knowledge
 
     def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:
         if symbol in value.free_symbols or value.has(Integral):

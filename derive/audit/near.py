@@ -20,7 +20,8 @@ from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
 
-ROOTS = 3
+MOST_TRIED = 6  # equations
+RENAMED = ("letter", "index", "dots")
 Shown = Callable[..., str]
 
 
@@ -38,7 +39,7 @@ class Nearness:
 
         def defined(symbol: Symbol) -> Expr:
             if symbol not in kept:
-                kept[symbol] = symbol if symbol == without else expanded(self.known, symbol, without)[0]
+                kept[symbol] = symbol if symbol == without else expanded(self.known, symbol, without, sure=True)[0]
             return kept[symbol]
 
         return [Numbers(self.meaning, defined, point) for point in range(POINTS)]
@@ -61,21 +62,22 @@ class Nearness:
         self, left: Node, right: Node, equations: Sequence[Equation], wanted: Expr
     ) -> tuple[Edit, Equation] | None:
         """Return a change with which an equation is an earlier one, and the earlier one."""
+        tried = 0
         for equation in equations:
             pivot = self.pivot(wanted, equation.value)
             if pivot is None:
                 continue
+            tried += 1
+            if tried > MOST_TRIED:
+                break
             try:
-                roots = [
-                    root(lambda s, p=p: at(equation.value, _with(p, pivot, s)))  # type: ignore[misc]
-                    for p in self.points(pivot)
-                ]
+                roots = [root(equation.value, p, pivot) for p in self.points(pivot)]
             except (*FAULTS, NoNumber):
                 continue
             if any(each is None or abs(each) < 1e-9 for each in roots):
                 continue
             edit = self.with_roots(left, right, pivot, [each for each in roots if each is not None])
-            if edit is not None:
+            if edit is not None and (wanted.free_symbols <= equation.value.free_symbols or edit.kind in RENAMED):
                 return edit, equation
         return None
 
@@ -116,13 +118,12 @@ class Nearness:
         yield from sorted(both, key=lambda pair: pair[0].cost)
 
 
-def _with(point: Numbers, pivot: Symbol, value: complex) -> Callable[[Symbol], complex]:
-    return lambda symbol: value if symbol == pivot else point.basic(symbol)
-
-
-def root(function: Callable[[complex], complex]) -> complex | None:
-    """Return the root of a linear function."""
-    low, high = function(0j), function(1 + 0j)
+def root(equation: Expr, point: Numbers, pivot: Symbol) -> complex | None:
+    """Return the value of a letter that an equation contains linearly."""
+    low, high = (
+        at(equation, lambda symbol, s=s: s if symbol == pivot else point.basic(symbol))  # type: ignore[misc]
+        for s in (0j, 1 + 0j)
+    )
     return None if high == low else -low / (high - low)
 
 

@@ -13,8 +13,8 @@ import sympy
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.fingerprint import CLOSE, FUNCTIONS, number_of
-from derive.documents.meaning import INVERSE, Meaning, Meaningless
 from derive.documents.meaning import FUNCTIONS as NAMED
+from derive.documents.meaning import INVERSE, Meaning, Meaningless
 from derive.documents.syntax import Add, Frac, Fun, Group, Letter, Mul, Node, Num, Pow, Root
 
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, KeyError, TypeError, AttributeError, NotImplementedError)
@@ -104,14 +104,14 @@ class Numbers:
             return complex(self.of_node(node.base) ** self.of_node(node.exponent))
         if isinstance(node, Root) and node.index is None:
             return cmath.sqrt(self.of_node(node.inner))
-        if isinstance(node, Fun) and node.base is None and (function := FUNCTIONS.get(NAMED.get(node.name))):
-            value = function(self.of_node(node.argument))
+        if isinstance(node, Fun) and node.base is None and node.name in NAMED:
+            value = complex(FUNCTIONS[NAMED[node.name]](self.of_node(node.argument)))  # type: ignore[index]
             if node.power is None:
                 return value
             power = self.of_node(node.power)
             if power == -1 and node.name in INVERSE:
                 raise NoNumber
-            return complex(value**power)
+            return value**power
         if isinstance(node, Num):
             return complex(float(node.text))
         value = self.meaning.of(node)

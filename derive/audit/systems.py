@@ -33,8 +33,21 @@ class Equation:
     name: str = "earlier equations"
 
 
-def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None) -> list[Equation]:
-    """Return the equations that earlier rows give, the last ones first, with definitions put in."""
+def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False) -> list[Equation]:
+    """Return the equations that earlier rows give, the last ones first, with definitions put in.
+
+    With `sure`, what may hold in one case only is left out: conditions in sentences, and solutions in the time.
+    """
+    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure)
+    if state not in known.kept:
+        if len(known.kept) > 200:
+            known.kept.clear()
+        known.kept[state] = _equations_of(known, meaning, without, sure)
+    found: list[Equation] = known.kept[state]
+    return found
+
+
+def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool) -> list[Equation]:
     found: list[Equation] = []
     seen = set()
 
@@ -44,9 +57,9 @@ def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None) 
             found.append(Equation(value, claims, name))
 
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if value.has(Integral):
+        if value.has(Integral) or (sure and number in known.conditions):
             continue
-        put_in, used = expanded(known, value, without)
+        put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
     for value, claims, name in motion(known, meaning):
         add(value, claims, name)
@@ -56,7 +69,9 @@ def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None) 
     return found[: 2 * MOST_EQUATIONS]
 
 
-def expanded(known: Known, value: Expr, without: Symbol | None = None) -> tuple[Expr, tuple[int, ...]]:
+def expanded(
+    known: Known, value: Expr, without: Symbol | None = None, sure: bool = False
+) -> tuple[Expr, tuple[int, ...]]:
     """Return a value with all definitions put in, except the one of the letter that is asked for."""
     used: list[int] = []
     for _ in range(6):
@@ -68,6 +83,8 @@ def expanded(known: Known, value: Expr, without: Symbol | None = None) -> tuple[
             if definition is not None and symbol not in definition.value.free_symbols:
                 if without is not None and without in definition.value.free_symbols:
                     continue
+                if sure and (definition.claim in known.conditions or _is_solution(symbol, definition.value, known)):
+                    continue
                 found[symbol] = definition.value
                 used.append(definition.claim)
         if not found:
@@ -77,6 +94,17 @@ def expanded(known: Known, value: Expr, without: Symbol | None = None) -> tuple[
             break
         value = new
     return value, tuple(dict.fromkeys(used))
+
+
+def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
+    """Whether a letter that changes gets a value of letters that do not, as in x = A cos(w t) or r = R."""
+    meaning = known.meaning
+
+    def changes(each: Symbol) -> bool:
+        letter = meaning.symbols.get(each)
+        return letter is not None and (letter.dots > 0 or meaning.facts.changes(letter))
+
+    return changes(symbol) and not any(map(changes, value.free_symbols))
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
@@ -101,7 +129,7 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
         letter = meaning.symbols.get(symbol)
         if letter is None or letter.dots or letter.base not in ("L", "H"):
             continue
-        value, used = expanded(known, definitions[-1].value)
+        value, _ = expanded(known, definitions[-1].value, sure=True)
         if sympy.count_ops(value) > LARGEST:
             continue
         claims = (definitions[-1].claim,)
@@ -136,7 +164,9 @@ def numbers(meaning: Meaning, known: Known, point: int) -> Numbers:
 class System:
     """Earlier equations as rows of coefficients for the unknowns of a new equation."""
 
-    def __init__(self, wanted: Expr, equations: Sequence[Equation], meaning: Meaning, known: Known, letter: Symbol | None):
+    def __init__(
+        self, wanted: Expr, equations: Sequence[Equation], meaning: Meaning, known: Known, letter: Symbol | None
+    ):
         self.wanted, self.meaning, self.known, self.letter = wanted, meaning, known, letter
         self.unknowns = self.choose(equations)
         self.equations: list[Equation] = []

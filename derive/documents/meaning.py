@@ -583,12 +583,20 @@ class Meaning:
             left = _inner_letter(node.lower.left)
             if left is None:
                 raise Meaningless("this condition has no single letter", node.lower.span)
-            return inner.subs(self.symbol(left), self.scalar(node.lower.right))
+            return self.at_value(inner, self.symbol(left), self.scalar(node.lower.right))
         if node.lower is None or node.upper is None:
             raise Meaningless("a limit is missing", node.span)
         variable = self.variable_of(inner, node)
         ends = [self.scalar(each.right if isinstance(each, Condition) else each) for each in (node.upper, node.lower)]
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
+
+    def at_value(self, value: Expr, variable: Symbol, at: Expr) -> Expr:
+        """Return an expression at a value of its variable; letters of which earlier rows may tell more are kept open."""
+        if not isinstance(value, Symbol) or value == variable:
+            return value.subs(variable, at)
+        symbol = Symbol(f"{value}({variable}={at})", real=True)
+        self.evaluations[symbol] = (value, variable, at)
+        return symbol
 
     def with_label(self, value: Any, label: str) -> Any:
         """Return a value with a label, of which nothing else is known: the rate of L in the body."""
