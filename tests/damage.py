@@ -147,7 +147,7 @@ def judged(audit: Audit, place: int) -> tuple[str, Claim | None]:
     wrong = [claim for claim in audit.claims if claim.verdict and claim.verdict.outcome is Outcome.DIFFERS]
     if Outcome.DIFFERS in outcomes:
         return "blamed", here[0]
-    if any(line in getattr(claim.verdict, "or_line", ()) for claim in wrong):
+    if any(line in (claim.verdict.or_lines if claim.verdict else ()) for claim in wrong):
         return "named", here[0] if here else None
     if wrong:
         return "elsewhere", here[0] if here else None
@@ -184,8 +184,9 @@ def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Itera
         claims = [c for c in right.claims if c.values is not None and c.relation in ("=", ":=", "~")]
         for claim in random_.sample(claims, min(each, len(claims))):
             start, end = damaged_side(right, claim, random_)
-            options = [d for d in damages_of(text[start:end], random_) if d.text != text[start:end]]
-            if not options or text[start:end].count("{") != text[start:end].count("}"):
+            written = text[start:end]
+            options = [d for d in damages_of(written, random_) if d.text.strip() and d.text != written != "0"]
+            if not options or text[start:end].count("{") != text[start:end].count("}") or "\\\\" in text[start:end]:
                 continue
             kinds = sorted({d.kind for d in options})
             kind = random_.choice(kinds)
@@ -196,9 +197,11 @@ def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Itera
             )
             audit = read(text[:start] + damage.text + text[end:], name)
             result, found = judged(audit, place)
-            if found is not None and found.values is not None and not says_something_else(claim, found):
+            if found is None or (found.verdict is not None and found.verdict.outcome is Outcome.UNREADABLE):
                 continue
-            because = found.verdict.because if found is not None and found.verdict is not None else ""
+            if found.values is not None and not says_something_else(claim, found):
+                continue
+            because = found.verdict.because if found.verdict is not None else ""
             yield Trial(
                 name, right.document.source.line_of(start), kind_of(claim), damage.kind, text[start:end], damage.text,
                 result, because,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import signal
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -15,7 +16,7 @@ from sympy import MatrixBase, Symbol
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
 from derive.audit.known import Definition, Known
-from derive.audit.near import Nearness, letters_in
+from derive.audit.near import Nearness, letters_in, root
 from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
 from derive.audit.numeric import NoNumber
 from derive.audit.slips import WHY, Edit, nearest_edit
@@ -29,6 +30,8 @@ from derive.documents.source import Span
 from derive.documents.syntax import Int, Letter, Mat, Node
 
 SECONDS = 3.0  # of processor time for one claim
+MOST_FIXED = 5  # earlier rows in which a slip is looked for
+PIVOT = Symbol("pivot_", real=True)
 SECONDS_OF_SEARCH = 1.5  # for the change that would make it right
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
@@ -139,7 +142,17 @@ def audited(
         auditor.decide(claim)
         if progress is not None:
             progress(done + 1, len(claims))
+    auditor.blame_earlier_rows()
     return Audit(document, facts, claims, unread)
+
+
+@dataclass(frozen=True)
+class Fix:
+    """A change of an earlier row with which a wrong claim holds."""
+
+    claim: Claim
+    earlier: Claim
+    edit: Edit
 
 
 class _Auditor:
@@ -148,8 +161,11 @@ class _Auditor:
         self.scope: int | None = None
         self.meaning = Meaning(facts)
         self.known = Known(self.meaning)
+        self.fixes: list[Fix] = []
+        self.claims: list[Claim] = []
 
     def decide(self, claim: Claim) -> None:
+        self.claims.append(claim)
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
             self.scope = scope
@@ -171,6 +187,9 @@ class _Auditor:
         if claim.verdict is not None and claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display:
             with suppress(_OutOfTime), _limited(SECONDS_OF_SEARCH):
                 self.accuse_if_near(claim, claim.verdict)
+        if claim.verdict is not None and claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None:
+            with suppress(_OutOfTime), _limited(SECONDS_OF_SEARCH):
+                self.fixes += self.fixes_before(claim)
         try:
             with _limited(SECONDS):
                 if claim.verdict is not None:
@@ -291,8 +310,74 @@ class _Auditor:
         edit, because, given = found
         verdict.outcome, verdict.given = Outcome.DIFFERS, given
         verdict.because = f"it does not follow from {because}, but would with one change"
-        verdict.suggestion = f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def fixes_before(self, claim: Claim) -> list[Fix]:
+        """Return changes of the rows that define letters of a wrong claim, each of which makes the claim hold."""
+        if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
+            return []
+        difference = claim.values[0] - claim.values[1]
+        found: list[Fix] = []
+        _, used = expanded(self.known, difference)
+        own = {claim.row.number} | ({claim.before.row.number} if claim.before is not None else set())
+        for number in sorted(used, reverse=True)[:MOST_FIXED]:
+            earlier = self.claims[number]
+            if earlier.right is None or earlier.values is None or earlier.row.number in own or earlier.is_step:
+                continue
+            if earlier.verdict is None or earlier.verdict.outcome is not Outcome.DEFINES:
+                continue
+            letter, power = earlier.values[0], 1
+            if isinstance(letter, sympy.Pow):
+                letter, power = letter.base, 2
+            if isinstance(letter, Symbol) and not isinstance(earlier.values[1], MatrixBase):
+                edit = self.edit_of_definition(claim, earlier, letter, power)
+                found += [Fix(claim, earlier, edit)] if edit is not None else []
+        return found
+
+    def edit_of_definition(self, claim: Claim, earlier: Claim, letter: Symbol, power: int) -> Edit | None:
+        """Return a change of a definition with which a later claim holds."""
+        assert claim.values is not None and earlier.right is not None
+        wanted, _ = expanded(self.known, claim.values[0] - claim.values[1], letter)
+        value = wanted.subs(letter, sympy.sqrt(PIVOT)) if power == 2 else wanted.subs(letter, PIVOT)
+        if letter in value.free_symbols or sympy.diff(value, PIVOT, 2) != 0:
+            return None
+        node = readings(earlier.right, self.facts)[0][0]
+        text = self.document.source.text
+        near = Nearness(
+            self.meaning, self.known, letters_in(node, claim.left, claim.right),
+            lambda span: text[span.start : span.end].strip(),
+        )  # fmt: skip
+        try:
+            roots = [root(value, point, PIVOT) for point in near.points(letter)]
+            targets = [each for each in roots if each is not None and abs(each) > 1e-9]
+            return near.of_value(node, targets, letter) if len(targets) == len(roots) else None
+        except (*NUMERIC_FAULTS, NoNumber):
+            return None
+
+    def blame_earlier_rows(self) -> None:
+        """Blame an earlier row if one change of it makes several wrong claims hold, or one that no own change does."""
+        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
+            edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
+            chosen, _count = edits.most_common(1)[0]
+            fixes = [f for f in self.fixes if f.earlier is earlier and (f.edit.was, f.edit.meant) == chosen]
+            alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
+            meant = suggestion_of(fixes[0].edit)
+            if len(fixes) > 1 or alone:
+                lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
+                verdict = Verdict(Outcome.DIFFERS, f"line {lines} would follow after one change here")
+                verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
+                verdict.span = fixes[0].edit.span
+                earlier.verdict = verdict
+                for fix in fixes:
+                    fix.claim.verdict = Verdict(
+                        Outcome.HOLDS, "it follows from a row that is probably wrong", inherits=earlier.number
+                    )
+                continue
+            for fix in fixes:
+                if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
+                    fix.claim.verdict.or_lines += (earlier.row.line,)
+                    fix.claim.verdict.because += f"; or line {earlier.row.line} has the slip: {meant}"
 
     def near_value(
         self, claim: Claim, left: Value, right_node: Node, near: Nearness
@@ -360,7 +445,7 @@ class _Auditor:
         )
         if edit is None:
             return False
-        verdict.suggestion = f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
         return True
 
@@ -494,6 +579,10 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def suggestion_of(edit: Edit) -> str:
+    return f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
 
 
 Reading = tuple[Node, tuple[Choice, ...]]

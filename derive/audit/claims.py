@@ -34,6 +34,7 @@ class Verdict:
     inherits: int | None = None  # the claim whose slip this one carries on
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
+    or_lines: tuple[int, ...] = ()  # rows before it in which the slip may be instead
 
 
 @dataclass

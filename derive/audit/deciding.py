@@ -74,6 +74,7 @@ class Decision:
             self.rounded,
             self.approximate,
             self.condition,
+            self.square,
             self.consequence,
             self.together,
             self.implied,
@@ -132,6 +133,21 @@ class Decision:
                     continue
                 return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
         return None
+
+    def square(self) -> Verdict | None:
+        """A power of a letter that was not used before gets a value: `v^2 = ...`."""
+        if self.claim.is_step or self.claim.relation not in ("=", ":="):
+            return None
+        if not (isinstance(self.left, sympy.Pow) and isinstance(self.left.base, Symbol) and self.left.exp == 2):
+            return None
+        letter = self.left.base
+        if letter in self.right.free_symbols or self.known.latest(letter) is not None:
+            return None
+        if any(letter in equation.free_symbols for equation, _ in self.known.equations):
+            return None
+        if letter.is_positive and not isinstance(self.right, MatrixBase) and self.right.free_symbols:
+            self.known.define(letter, sympy.sqrt(self.right), self.claim.number)
+        return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
     def of_used_letter(self, letter: Symbol) -> Verdict | None:
         """A letter of earlier equations gets a value: it follows from them, or they may give another value."""
@@ -374,6 +390,8 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
         if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
+        if self.expansions and any(map(self.known.is_replaced, self.expansions[-1][1])):
+            return Verdict(Outcome.UNDECIDED, "a letter has several values in the sentences before")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
@@ -453,8 +471,11 @@ def _is_multiple(wanted: Expr, equation: Expr) -> bool:
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
     """Yield the factors by which an equation may have been multiplied: one term divided by each term of the other."""
     first = _terms(wanted)[0]
-    for term in _terms(equation):
+    terms = _terms(equation)
+    for term in terms:
         ratio = first / term
+        if len(terms) == 1 and sympy.denom(ratio).free_symbols:
+            continue  # a product that vanishes says nothing about one of its factors
         factors = sympy.Mul.make_args(ratio)
         if all(not factor.as_base_exp()[0].is_Add for factor in factors):
             yield ratio

@@ -109,12 +109,17 @@ class Known:
             inner = self.latest(self.meaning.symbol(letter))
             if inner is None:
                 return None
-            value = self.through(inner.value, {each for each, _ in by})
+            held = self.momenta(inner.value) if partial else set()  # the variables of a Hamiltonian
+            value = self.through(inner.value, {each for each, _ in by} | held)
             for each, order in by:
                 for _ in range(order):
                     value = sympy.diff(value, each) if partial else self.meaning.differentiated(value, each, partial)
             return Definition(symbol, value, inner.claim)
         return None
+
+    def momenta(self, value: Expr) -> set[Symbol]:
+        letters = self.meaning.symbols
+        return {each for each in value.free_symbols if each in letters and letters[each].base == "p"}
 
     def is_kinematic(self, symbol: Symbol) -> bool:
         """Whether a rate or derivative follows from a definition without rates, whatever the motion is."""
@@ -159,6 +164,13 @@ class Known:
             if any(_size(each) > LARGEST for each in values):
                 return
             yield values, tuple(dict.fromkeys(used))
+
+    def is_replaced(self, claim: int) -> bool:
+        """Whether a condition gives a value to a letter that gets a number in a later condition."""
+        return claim in self.conditions and any(
+            each[-1].claim == claim and symbol in self.numbers and self.numbers[symbol][-1].claim > claim
+            for symbol, each in self.definitions.items()
+        )
 
     def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
         """Return the values with the numbers put in that letters have in an example."""

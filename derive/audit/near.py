@@ -136,4 +136,4 @@ def letters_in(*sides: Node | None) -> list[Letter]:
     return list(found.values())
 
 
-__all__ = ["Nearness", "letters_in"]
+__all__ = ["Nearness", "letters_in", "root"]

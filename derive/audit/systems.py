@@ -62,7 +62,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
     for value, claims, name in motion(known, meaning):
-        add(value, claims, name)
+        put_in, _ = expanded(known, value, without, sure)
+        add(put_in, claims, name)
     for each in list(found[:6]):
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, "the time derivative of an earlier equation")
@@ -262,7 +263,7 @@ class System:
                 ([self.row(self.polys[i], columns, at) for i in kept], self.row(self.of_wanted, columns, at))
                 for at in points
             ]
-            if not all(spanned(rows, wanted) for rows, wanted in tables):
+            if not all(spanned(rows, wanted) for rows, wanted in tables) or self.is_absurd(tables[0][0], columns):
                 return None
             needed = list(range(len(kept)))
             for i in reversed(range(len(kept))):
@@ -272,6 +273,14 @@ class System:
             return tuple(self.equations[kept[i]] for i in needed)
         except FAULTS:
             return None
+
+    def is_absurd(self, rows: Sequence[Sequence[complex]], columns: Sequence[tuple[int, ...]]) -> bool:
+        """Whether the equations make a length or a mass zero, because they speak of different cases."""
+        for i, monom in enumerate(columns):
+            if sum(monom) == 1 and self.unknowns[monom.index(1)].is_positive:
+                if spanned(rows, [complex(j == i) for j in range(len(columns))]):
+                    return True
+        return False
 
     def value_of_letter(self) -> list[complex] | None:
         """Return the numbers that the equations give to the letter asked for, or None if they do not determine it."""
