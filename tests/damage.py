@@ -65,7 +65,7 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
     for found in places(r"\^\{?[2-5]\}?"):
         power = int(found[0].strip("^{}"))
         yield changed("exponent", found, random_.choice(["", "^{%d}" % (power + 1)]))
-    for found in places(rf"(?<![\^_{{])(?<!\\frac)(?<!\\partial )(?<!\\partial)(?:{_LETTER})(?!\s*[\^_'(])"):
+    for found in places(rf"(?<![\^_{{])(?<!\\frac)(?<!d)(?<!\\partial )(?<!\\partial)(?:{_LETTER})(?!\s*[\^_'(])"):
         if found[0] != "d":
             yield changed("factor", found, " ")
     for found in places(

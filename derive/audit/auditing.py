@@ -15,6 +15,7 @@ from sympy import MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
+from derive.audit.dimensions import odd_claim
 from derive.audit.known import Definition, Known
 from derive.audit.near import Nearness, letters_in, root
 from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
@@ -143,6 +144,7 @@ def audited(
         if progress is not None:
             progress(done + 1, len(claims))
     auditor.blame_earlier_rows()
+    auditor.blame_odd_dimensions()
     return Audit(document, facts, claims, unread)
 
 
@@ -379,6 +381,17 @@ class _Auditor:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
                     fix.claim.verdict.because += f"; or line {earlier.row.line} has the slip: {meant}"
 
+    def blame_odd_dimensions(self) -> None:
+        """Blame the row of a scope whose terms have not the dimensions that all other rows give."""
+        by_scope: dict[int, list[Claim]] = {}
+        for claim in self.claims:
+            by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
+        for claims in by_scope.values():
+            odd = odd_claim(claims, self.meaning)
+            if odd is not None:
+                because = "its terms have other dimensions than the rest of the document gives them"
+                odd.verdict = Verdict(Outcome.DIFFERS, because)
+
     def near_value(
         self, claim: Claim, left: Value, right_node: Node, near: Nearness
     ) -> tuple[Edit, str, tuple[int, ...]] | None:
@@ -386,7 +399,7 @@ class _Auditor:
         try:
             if isinstance(left, Symbol) and not claim.is_step:
                 decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
-                system = decision.system(sure=True)
+                system = decision.system(sure=True) if not self.known.is_defined(left) else None
                 values = system.value_of_letter() if system is not None else None
                 edit = near.of_value(right_node, values, left) if values is not None else None
                 return (edit, "earlier equations", ()) if edit is not None else None
@@ -542,11 +555,24 @@ class _Auditor:
                 return (named, value) if first else (value, named)
         return meaning.of(left), meaning.of(right)
 
+    def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
+        """Whether a formula of a sentence, or what follows from one, may hold in one case or at one instant only."""
+        if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
+            return bool(self.known.conditions & set(verdict.given))
+        if claim.row.block.display:
+            return False
+        if verdict.outcome is not Outcome.DEFINES or claim.values is None:
+            return True
+        letter, value = claim.values
+        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
+            return True
+        return any(letter in equation.free_symbols for equation, _ in self.known.equations)
+
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
             return
-        if not claim.row.block.display and claim.verdict.outcome not in (Outcome.HOLDS, Outcome.APPROXIMATES):
+        if self.is_condition(claim, claim.verdict):
             self.known.conditions.add(claim.number)
         if claim.relation not in ("=", ":="):
             start = claim

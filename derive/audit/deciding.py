@@ -29,6 +29,7 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 MOST_COMBINED = 6
+STRICT = ("<", ">", "<<", ">>", "!=")
 CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
@@ -190,7 +191,7 @@ class Decision:
         return None
 
     def identity(self) -> Verdict | None:
-        if not same(self.left, self.right):
+        if self.claim.relation in STRICT or not same(self.left, self.right):
             return None
         if self.left == self.right and self.left != 0:
             return Verdict(Outcome.HOLDS, "the two sides are the same")
@@ -201,6 +202,12 @@ class Decision:
         return list(self.known.expanded(self.left, self.right))
 
     def with_definitions(self) -> Verdict | None:
+        if self.claim.relation in STRICT:
+            return None
+        if self.known.conditions and not any(isinstance(each, MatrixBase) for each in (self.left, self.right)):
+            difference, used = expanded(self.known, self.left - self.right, sure=True)
+            if used and not difference.has(Integral) and same(difference, Integer(0)):
+                return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
         for (left, right), used in self.expansions:
             if same(left, right):
                 return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
@@ -390,8 +397,10 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, "the document speaks of an approximation here")
         if not computed and self.special_case(left, right):
             return Verdict(Outcome.UNDECIDED, "the right side may be a special case of the left side")
-        if self.expansions and any(map(self.known.is_replaced, self.expansions[-1][1])):
-            return Verdict(Outcome.UNDECIDED, "a letter has several values in the sentences before")
+        if self.expansions and self.known.conditions & set(self.expansions[-1][1]):
+            left, right = (expanded(self.known, each, sure=True)[0] for each in (self.left, self.right))
+            if not self.claim.is_step or (left.free_symbols ^ right.free_symbols):
+                return Verdict(Outcome.UNDECIDED, "it contains a letter that has its value in one case only")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
@@ -510,9 +519,9 @@ def _relative_error(left: Expr, right: Expr) -> float | None:
     return worst
 
 
-def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
-    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
-    changing = tuple(
+def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
+    """Return the letters that change, with their rates, and the angles."""
+    return tuple(
         sorted(
             (
                 each
@@ -523,6 +532,11 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
             key=str,
         )
     )
+
+
+def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
+    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
+    changing = changing_letters(symbols, meaning)
     single = [(each,) for each in sorted(symbols, key=str)]
     return ([changing] if changing else []) + single
 
@@ -554,7 +568,7 @@ def order_of_error(left: Expr, right: Expr, meaning: Meaning) -> tuple[tuple[Sym
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
     """Whether an equation is an earlier one to the leading order, times a number or a product of letters."""
     symbols = wanted.free_symbols | equation.free_symbols
-    for letters in small_letters(symbols, meaning)[:1]:
+    for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)
         leading = []
         for each in (wanted, equation):

@@ -109,7 +109,7 @@ class Known:
             inner = self.latest(self.meaning.symbol(letter))
             if inner is None:
                 return None
-            held = self.momenta(inner.value) if partial else set()  # the variables of a Hamiltonian
+            held = self.momenta(inner.value, {each for each, _ in by})
             value = self.through(inner.value, {each for each, _ in by} | held)
             for each, order in by:
                 for _ in range(order):
@@ -117,9 +117,25 @@ class Known:
             return Definition(symbol, value, inner.claim)
         return None
 
-    def momenta(self, value: Expr) -> set[Symbol]:
-        letters = self.meaning.symbols
-        return {each for each in value.free_symbols if each in letters and letters[each].base == "p"}
+    def momenta(self, value: Expr, by: set[Symbol]) -> set[Symbol]:
+        """Return the letters that stay fixed in a derivative by a coordinate: momenta, which are linear in the rates."""
+        if any(each.name == "t" or self.is_rate(each) for each in by):
+            return set()
+        return {each for each in value.free_symbols if self.is_momentum(each)}
+
+    def is_rate(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return letter is not None and letter.dots > 0
+
+    def is_momentum(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        if letter is not None and letter.base == "p":
+            return True
+        definition = self.definitions.get(symbol, [None])[-1]
+        if definition is None or not (rates := set(filter(self.is_rate, definition.value.free_symbols))):
+            return False
+        doubled = definition.value.subs({each: 2 * each for each in rates}, simultaneous=True)
+        return bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def is_kinematic(self, symbol: Symbol) -> bool:
         """Whether a rate or derivative follows from a definition without rates, whatever the motion is."""
@@ -164,13 +180,6 @@ class Known:
             if any(_size(each) > LARGEST for each in values):
                 return
             yield values, tuple(dict.fromkeys(used))
-
-    def is_replaced(self, claim: int) -> bool:
-        """Whether a condition gives a value to a letter that gets a number in a later condition."""
-        return claim in self.conditions and any(
-            each[-1].claim == claim and symbol in self.numbers and self.numbers[symbol][-1].claim > claim
-            for symbol, each in self.definitions.items()
-        )
 
     def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
         """Return the values with the numbers put in that letters have in an example."""

@@ -21,6 +21,7 @@ from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
 
 MOST_TRIED = 6  # equations
+TOO_EASY = ("term", "extra factor")  # x = x_0 is not what x = x_0 cos(w t) means
 RENAMED = ("letter", "index", "dots")
 Shown = Callable[..., str]
 
@@ -45,7 +46,8 @@ class Nearness:
         return [Numbers(self.meaning, defined, point) for point in range(POINTS)]
 
     def edits(self, side: Node) -> list[Edit]:
-        return sorted(islice(edits_of(side, self.letters, self.shown), MOST_EDITS), key=lambda each: each.cost)
+        found = [each for each in edits_of(side, self.letters, self.shown) if each.kind not in TOO_EASY]
+        return sorted(islice(found, MOST_EDITS), key=lambda each: each.cost)
 
     def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
         """Return the cheapest change with which a side has the numbers of the targets."""
