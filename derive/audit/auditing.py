@@ -21,7 +21,7 @@ from derive.audit.near import Nearness, letters_in, root
 from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
 from derive.audit.numeric import NoNumber
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import equations_of, expanded
+from derive.audit.systems import equations_of, expanded, root_equation
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
@@ -262,7 +262,7 @@ class _Auditor:
                     if (left, right) in seen:
                         continue
                     seen.append((left, right))
-                    verdict = self.of_values(claim, left, right, meaning, cues)
+                    verdict = self.of_values(claim, left, right, meaning, cues, thorough=len(seen) == 1)
                 except Meaningless as error:
                     reason = reason or error.reason
                     continue
@@ -398,6 +398,9 @@ class _Auditor:
         """Return a change with which the right side has the value that earlier rows give to the left side."""
         try:
             if isinstance(left, Symbol) and not claim.is_step:
+                if (at_root := root_equation(left, self.meaning, self.known)) is not None:
+                    edit = near.of_root(right_node, at_root[0], at_root[1])
+                    return (edit, "an earlier equation", (at_root[2],)) if edit is not None else None
                 decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
                 system = decision.system(sure=True) if not self.known.is_defined(left) else None
                 values = system.value_of_letter() if system is not None else None
@@ -483,9 +486,11 @@ class _Auditor:
             return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
         return None
 
-    def of_values(self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]) -> Verdict:
+    def of_values(
+        self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
+    ) -> Verdict:
         """Return the verdict; a claim that follows only from a wrong row carries the slip of this row on."""
-        verdict = Decision(claim, left, right, meaning, self.known, cues).verdict()
+        verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict
         if claim.before is not None and claim.before.verdict is not None and claim.before.values is not None:
@@ -494,7 +499,7 @@ class _Auditor:
                 return self.after_slip(claim, wrong, left, right, meaning, cues, verdict)
         believed = self.known.with_slips()
         if believed is not None:
-            again = Decision(claim, left, right, meaning, believed, cues).verdict()
+            again = Decision(claim, left, right, meaning, believed, cues, thorough).verdict()
             slips = {each.claim for each in self.known.slips.values()}
             if again.outcome is Outcome.HOLDS and slips & set(again.given):
                 again.inherits = min(slips & set(again.given))

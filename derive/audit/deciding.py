@@ -21,7 +21,7 @@ from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.known import Known
-from derive.audit.systems import System, equations_of, expanded
+from derive.audit.systems import System, equations_of, expanded, root_equation, vanishes
 from derive.documents.facts import ANGLES
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -65,6 +65,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
+    thorough: bool = True  # also combine earlier equations; the likeliest reading only
 
     def verdict(self) -> Verdict:
         for test in (
@@ -132,6 +133,8 @@ class Decision:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
+                if (found := self.of_known_form(letter, value) or self.of_root(letter, value)) is not None:
+                    return found
                 return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"a value for {_word(letter)}")
         return None
 
@@ -150,6 +153,41 @@ class Decision:
             self.known.define(letter, sympy.sqrt(self.right), self.claim.number)
         return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
+    def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """A Lagrangian in letters for the energies is their difference."""
+        named = self.meaning.symbols.get(letter)
+        if named is None or named.base != "L" or named.marks or named.dots:
+            return None
+        energies = {each: self.meaning.symbols.get(each) for each in value.free_symbols}
+        if not energies or any(
+            each is None or each.base not in ("T", "U", "V", "K") or each.dots for each in energies.values()
+        ):
+            return None
+        kinetic = sympy.Add(*(s for s, each in energies.items() if each is not None and each.base in "TK"))
+        if same(value, kinetic - sympy.Add(*(energies.keys() - kinetic.free_symbols))):
+            return None
+        example = counterexample(value, 2 * kinetic - sympy.Add(*energies))
+        because = "a Lagrangian is the kinetic energy minus the potential energy"
+        return Verdict(Outcome.DIFFERS, because, counterexample=example)
+
+    def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """A letter with an index names a root of an earlier equation for the letter without it."""
+        if not self.claim.row.block.display or not self.thorough:
+            return None
+        found = root_equation(letter, self.meaning, self.known)
+        if found is None:
+            return None
+        plain, equation, number = found
+        put_in, used = expanded(self.known, value, sure=True)
+        if any(map(self.known.is_rate, put_in.free_symbols)):
+            put_in, used = value, ()
+        holds = vanishes(equation, plain, put_in, self.meaning, self.known)
+        if holds is None:
+            return None
+        if holds:
+            return Verdict(Outcome.HOLDS, "it is a root of an earlier equation", (*used, number))
+        return Verdict(Outcome.UNDECIDED, f"{_word(letter)} is no root of the earlier equation for {_word(plain)}")
+
     def of_used_letter(self, letter: Symbol) -> Verdict | None:
         """A letter of earlier equations gets a value: it follows from them, or they may give another value."""
         if not any(letter in equation.free_symbols for equation, _ in self.known.equations):
@@ -163,7 +201,7 @@ class Decision:
 
     def system(self, sure: bool) -> System | None:
         """Return the earlier equations, prepared for this claim."""
-        if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
+        if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
         equations = equations_of(self.known, self.meaning, letter, sure)

@@ -118,7 +118,7 @@ class Known:
         return None
 
     def momenta(self, value: Expr, by: set[Symbol]) -> set[Symbol]:
-        """Return the letters that stay fixed in a derivative by a coordinate: momenta, which are linear in the rates."""
+        """Return the momenta, which are linear in the rates and stay fixed in a derivative by a coordinate."""
         if any(each.name == "t" or self.is_rate(each) for each in by):
             return set()
         return {each for each in value.free_symbols if self.is_momentum(each)}

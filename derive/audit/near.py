@@ -15,7 +15,7 @@ from sympy import Expr, Symbol
 
 from derive.audit.known import Known
 from derive.audit.numeric import FAULTS, NoNumber, Numbers, at, close
-from derive.audit.slips import MOST_EDITS, Edit, edits_of
+from derive.audit.slips import MOST_EDITS, Edit, edits_of_side
 from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
@@ -46,7 +46,7 @@ class Nearness:
         return [Numbers(self.meaning, defined, point) for point in range(POINTS)]
 
     def edits(self, side: Node) -> list[Edit]:
-        found = [each for each in edits_of(side, self.letters, self.shown) if each.kind not in TOO_EASY]
+        found = [each for each in edits_of_side(side, self.letters, self.shown) if each.kind not in TOO_EASY]
         return sorted(islice(found, MOST_EDITS), key=lambda each: each.cost)
 
     def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
@@ -55,6 +55,23 @@ class Nearness:
         for edit in self.edits(side):
             try:
                 if all(close(p.of_node(edit.node), target) for p, target in zip(points, targets, strict=True)):
+                    return edit
+            except (*FAULTS, NoNumber, Meaningless):
+                continue
+        return None
+
+    def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
+        """Return the cheapest change with which a side is a root of an equation for a letter."""
+        points = self.points()
+        terms_of = sympy.Add.make_args(sympy.expand(equation))
+        for edit in self.edits(side):
+            try:
+                for point in points:
+                    value = point.of_node(edit.node)
+                    terms = [at(each, _at_root(point, letter, value)) for each in terms_of]
+                    if abs(sum(terms)) > 1e-8 * max(map(abs, terms)):
+                        break
+                else:
                     return edit
             except (*FAULTS, NoNumber, Meaningless):
                 continue
@@ -93,8 +110,9 @@ class Nearness:
             letter = self.meaning.symbols.get(symbol)
             return (letter.dots if letter is not None else 0), str(symbol)
 
+        point = self.points()[0]
         for symbol in sorted(both, key=height, reverse=True)[:2]:
-            if sympy.diff(equation, symbol, 2) == 0 and sympy.diff(wanted, symbol, 2) == 0:
+            if _is_linear(equation, symbol, point) and _is_linear(wanted, symbol, point):
                 return symbol
         return None
 
@@ -118,6 +136,21 @@ class Nearness:
     def edits_of_both(self, left: Node, right: Node) -> Iterator[tuple[Edit, bool]]:
         both = [(each, True) for each in self.edits(left)] + [(each, False) for each in self.edits(right)]
         yield from sorted(both, key=lambda pair: pair[0].cost)
+
+
+def _at_root(point: Numbers, letter: Symbol, value: complex) -> Callable[[Symbol], complex]:
+    return lambda symbol: value if symbol == letter else point.basic(symbol)
+
+
+def _is_linear(value: Expr, pivot: Symbol, point: Numbers) -> bool:
+    try:
+        zero, one, two = (
+            at(value, lambda symbol, s=s: s if symbol == pivot else point.basic(symbol))  # type: ignore[misc]
+            for s in (0j, 1 + 0j, 2 + 0j)
+        )
+    except FAULTS:
+        return False
+    return close(zero + two, 2 * one) and not close(zero, one)
 
 
 def root(equation: Expr, point: Numbers, pivot: Symbol) -> complex | None:

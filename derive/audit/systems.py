@@ -13,14 +13,16 @@ from dataclasses import dataclass, replace
 import sympy
 from sympy import Expr, Integral, Poly, Symbol
 
+from derive.audit.fingerprint import CLOSE
 from derive.audit.known import Known
-from derive.audit.numeric import FAULTS, Numbers, determined, spanned
+from derive.audit.numeric import FAULTS, Numbers, at, determined, spanned
 from derive.documents.meaning import Meaning
 from derive.documents.syntax import Letter
 
-MOST_EQUATIONS = 12
+MOST_EQUATIONS = 8
 POINTS = 2
-LARGEST = 600  # operations of an equation
+LARGEST = 300  # operations of an equation
+LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
 
 
@@ -65,6 +67,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):
+        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT:
+            continue
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, "the time derivative of an earlier equation")
     return found[: 2 * MOST_EQUATIONS]
@@ -156,6 +160,50 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
                 rate_of_p = meaning.symbol(replace(momentum, dots=1))
                 yield rate_of_place - sympy.diff(value, p), claims, "Hamilton's equations"
                 yield rate_of_p + sympy.diff(value, place), claims, "Hamilton's equations"
+
+
+def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
+    """Return the letter without its index, and the last equation of which `letter` may name a root: w_1, x_0.
+
+    The equation has no rates, and contains the letter in two terms at least or beside other letters.
+    """
+    named = meaning.symbols.get(letter)
+    if named is None or not named.sub or named.dots or named.marks:
+        return None
+    plain = meaning.symbol(replace(named, sub=""))
+    for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
+        if plain not in value.free_symbols or number in known.conditions or value.has(Integral):
+            continue
+        found, _ = expanded(known, value, plain, sure=True)
+        if any(map(known.is_rate, found.free_symbols)):
+            found = value  # a momentum stands for a number
+        if plain not in found.free_symbols or len(sympy.Add.make_args(sympy.expand(found))) < 2:
+            continue
+        if any(known.is_rate(each) for each in found.free_symbols) or found.free_symbols & set(meaning.derivatives):
+            continue
+        if sympy.count_ops(found) < LARGEST and not _defines(found, plain):
+            return plain, found, number
+    return None
+
+
+def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, known: Known) -> bool | None:
+    """Whether an equation holds with a value for a letter; None if there are no numbers to see it."""
+    try:
+        for point in range(POINTS):
+            basic = numbers(meaning, known, point)
+            root = basic.of(value)
+            terms = [at(each, lambda s, b=basic, r=root: r if s == letter else b.of_symbol(s))  # type: ignore[misc]
+                     for each in sympy.Add.make_args(sympy.expand(equation))]  # fmt: skip
+            if abs(sum(terms)) > CLOSE * max(map(abs, terms)):
+                return False
+    except FAULTS:
+        return None
+    return True
+
+
+def _defines(value: Expr, letter: Symbol) -> bool:
+    """Whether an equation gives the letter itself: w = sqrt(k/m)."""
+    return value.is_Add and any(each in (letter, -letter) for each in value.args)
 
 
 def numbers(meaning: Meaning, known: Known, point: int) -> Numbers:

@@ -106,7 +106,7 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
         return 0, "the document writes it with this argument", facts.products[head.identity] == 0
     if isinstance(inner, Num):
         return 0, "a value of a function", False
-    return (0, "a function elsewhere", False) if not letters else (1, "another argument than elsewhere", False)
+    return 0, "a function elsewhere", False
 
 
 def _extent(node: Open, facts: Facts) -> tuple[int, str, bool]:

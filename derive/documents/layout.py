@@ -569,6 +569,8 @@ def _is_unit_or_label(said: str, piece: list[Token]) -> bool:
         return False
     if piece[-1].kind is Kind.SCRIPT:
         return True
+    solid = [each for each in piece if not each.is_command(",", ";", " ", "!", ":")]
+    piece = solid or piece
     return bool(re.fullmatch(r"[A-Za-zµΩ°/.^\d\s²³⁻·-]{1,12}", said)) and piece[-1].kind is Kind.NUMBER
 
 

@@ -185,6 +185,8 @@ class Meaning:
     def of_text(self, node: Text) -> Any:
         if node.text.startswith("unit "):
             return self.unit(node)
+        if node.text == "degrees":
+            return pi / 180
         reason = "dots stand for terms that are left out" if node.text == "..." else f"`{node.text}` is a word"
         raise Meaningless(reason, node.span)
 
@@ -591,7 +593,7 @@ class Meaning:
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
 
     def at_value(self, value: Expr, variable: Symbol, at: Expr) -> Expr:
-        """Return an expression at a value of its variable; letters of which earlier rows may tell more are kept open."""
+        """Return an expression at a value of its variable; a letter that earlier rows may define stays open."""
         if not isinstance(value, Symbol) or value == variable:
             return value.subs(variable, at)
         symbol = Symbol(f"{value}({variable}={at})", real=True)

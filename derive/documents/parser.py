@@ -2,6 +2,7 @@ r"""The tokens of one side of a statement as nodes: a recursive descent through 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -636,7 +637,7 @@ class _Reader:
             return self.function(token, name)
         if name in GREEK:
             base = SAME_LETTER.get(name, name)
-            return Letter(token.span, base)
+            return self.difference(token) if name == "Delta" else Letter(token.span, base)
         if name in DOTS:
             return self.dotted(token, DOTS[name])
         if name in MARKS:
@@ -690,6 +691,22 @@ class _Reader:
         if name in ("&", "%", "#", "$", "_"):
             raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
         raise Unreadable(f"`\\{name}` is not known", token.span)
+
+    def difference(self, token: Token) -> Node:
+        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a letter of its own."""
+        after = self.peek()
+        if after is not None and (after.kind is Kind.LETTER or (after.kind is Kind.COMMAND and after.text in GREEK)):
+            self.at += 1
+            name = SAME_LETTER.get(after.text, after.text)
+            return Letter(token.span.to(after.span), f"Delta {name}")
+        return Letter(token.span, "Delta")
+
+    def follows_number(self, token: Token) -> bool:
+        """Whether a number stands directly before a command."""
+        before = next((i for i in range(self.at - 1, -1, -1) if self.tokens[i] is token), 0) - 1
+        while before >= 0 and self.tokens[before].is_command(",", ";", " ", "!", ":"):
+            before -= 1
+        return before >= 0 and self.tokens[before].kind is Kind.NUMBER
 
     def since(self, token: Token) -> Span:
         last = self.tokens[self.at - 1].span
@@ -831,6 +848,8 @@ class _Reader:
         span = self.since(token)
         if word in UNIT_WORDS:
             return Text(span, f"unit {word}")
+        if self.follows_number(token) and (unit := _unit(plain)):
+            return Text(span, unit)
         if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
             return self.function(token, word)
         if len(plain) == 1 and plain[0].kind is Kind.LETTER:
@@ -1248,6 +1267,15 @@ def _is_word(product: Mul) -> bool:
         and not each.marks
         for mark, each in product.factors
     )
+
+
+def _unit(tokens: Sequence[Token]) -> str:
+    r"""Return a unit after a number: `unit kg m^2` for `\mathrm{kg\,m^{2}}`, or nothing."""
+    pieces = ["" if each.kind in (Kind.OPEN, Kind.CLOSE) else each.text for each in tokens]
+    if "".join(pieces) in ("^circ", "^degree"):
+        return "degrees"
+    text = "".join(" " if each in (",", ";", "cdot") else each for each in pieces)
+    return f"unit {text}" if re.fullmatch(r"[A-Za-z][A-Za-z ]*(\^-?\d)?([ /]+[A-Za-z]+(\^-?\d)?)*", text) else ""
 
 
 def _joined(first: str, second: str) -> str:

@@ -112,7 +112,9 @@ def test_a_notebook_with_a_surrogate_pair_keeps_its_places() -> None:
     assert "\\ud83d\\ude00" in text
     source = source_of(text, Format.NOTEBOOK, "worked.ipynb")
     assert "😀" in source.text
-    assert source.place(source_span(source.text, "x")).text[source.place(source_span(source.text, "x")).column - 1] == "x"
+    assert (
+        source.place(source_span(source.text, "x")).text[source.place(source_span(source.text, "x")).column - 1] == "x"
+    )
 
 
 def source_span(text: str, char: str):  # type: ignore[no-untyped-def]
