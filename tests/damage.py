@@ -69,7 +69,7 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
         if found[0] != "d":
             yield changed("factor", found, " ")
     for found in places(
-        r"[+-]\s*(?:[^\s+\-(){}\[\]=&\\]|\\[a-z]+(?![a-z])(?:\{\w+\})?|\^\{\w\}|_\{\w+\}|\\,)+(?=[+\-]|\s*$|\))"
+        r"[+-]\s*(?:[^\s+\-(){}\[\]=&\\]|\\[a-z]+(?![a-z])(?:\{\w+\})?|\^\{\w\}|_\{\w+\}|\\,| )+(?=[+\-]|\s*$|\))"
     ):
         yield changed("term", found, "")
     for found in places(r"\\(?:sin|cos)(?![a-z])"):

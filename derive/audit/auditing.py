@@ -14,7 +14,7 @@ import sympy
 from sympy import MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
-from derive.audit.deciding import Decision, same
+from derive.audit.deciding import Decision, counterexample, same
 from derive.audit.dimensions import odd_claim
 from derive.audit.known import Definition, Known
 from derive.audit.near import Nearness, letters_in, root
@@ -31,6 +31,7 @@ from derive.documents.source import Span
 from derive.documents.syntax import Int, Letter, Mat, Node
 
 SECONDS = 3.0  # of processor time for one claim
+MOST_INDICES = 12
 MOST_FIXED = 5  # earlier rows in which a slip is looked for
 PIVOT = Symbol("pivot_", real=True)
 SECONDS_OF_SEARCH = 1.5  # for the change that would make it right
@@ -298,7 +299,7 @@ class _Auditor:
         text = self.document.source.text
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
         near = Nearness(
-            self.meaning, self.known, letters_in(left_node, right_node),
+            self.meaning, self.known, self.with_other_indices(letters_in(left_node, right_node)),
             lambda span: text[span.start : span.end].strip(),
         )  # fmt: skip
         found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
@@ -308,12 +309,38 @@ class _Auditor:
             pair = near.of_equation(left_node, right_node, equations, wanted)
             found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
         if found is None:
+            self.accuse_if_letters_agree(claim, verdict)
             return
         edit, because, given = found
         verdict.outcome, verdict.given = Outcome.DIFFERS, given
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
+        """Add the letters of the document that differ from these in the index only."""
+        bases = {(each.base, each.dots) for each in letters if each.sub}
+        known = {(each.identity, each.dots) for each in letters}
+        more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
+        return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
+
+    def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
+        """An equation under another one of the same letters, without words between them, must follow from it."""
+        rows = claim.row.block.rows
+        at = rows.index(claim.row)
+        if claim.is_step or claim.values is None or at == 0 or claim.row.statements[0] is not claim.statement:
+            return
+        before = [each for each in self.claims[: claim.number] if each.row is rows[at - 1]]
+        if len(before) != 1 or before[0].values is None or before[0].relation != "=" or before[0].verdict is None:
+            return
+        if before[0].verdict.outcome is Outcome.DIFFERS or claim.values[1] != 0 or before[0].values[1] != 0:
+            return
+        one, other = (expanded(self.known, each.values[0], sure=True)[0] for each in (before[0], claim) if each.values)
+        if isinstance(one, MatrixBase) or isinstance(other, MatrixBase):
+            return
+        if other.free_symbols <= one.free_symbols and (example := counterexample(one, other)):
+            verdict.outcome, verdict.given = Outcome.DIFFERS, (before[0].number,)
+            verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
         """Return changes of the rows that define letters of a wrong claim, each of which makes the claim hold."""

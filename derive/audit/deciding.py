@@ -168,7 +168,9 @@ class Decision:
             return None
         example = counterexample(value, 2 * kinetic - sympy.Add(*energies))
         because = "a Lagrangian is the kinetic energy minus the potential energy"
-        return Verdict(Outcome.DIFFERS, because, counterexample=example)
+        return Verdict(
+            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was turned",
+        )  # fmt: skip
 
     def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
         """A letter with an index names a root of an earlier equation for the letter without it."""

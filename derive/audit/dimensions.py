@@ -101,6 +101,7 @@ def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
 def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
     """Yield what usual letters mean; an angle is a number."""
     names = {each for equation in equations for each in equation.form}
+    yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
     for symbol, letter in meaning.symbols.items():
         if symbol.name not in names or letter.marks or letter.primes or letter.label:
             continue

@@ -20,6 +20,7 @@ from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
 
+SMALL, SMALLEST = 1e-8, 1e-6  # relative to the value of an equation elsewhere; of this value
 MOST_TRIED = 6  # equations
 TOO_EASY = ("term", "extra factor")  # x = x_0 is not what x = x_0 cos(w t) means
 RENAMED = ("letter", "index", "dots")
@@ -125,9 +126,8 @@ class Nearness:
         for edit, first in self.edits_of_both(left, right):
             one, other = (edit.node, right) if first else (left, edit.node)
             try:
-                if not all(close(p.of_node(one), p.of_node(other)) for p in at_root):
-                    continue
-                if not close(elsewhere.of_node(one), elsewhere.of_node(other)):
+                size = abs(elsewhere.of_node(one) - elsewhere.of_node(other))
+                if size > SMALLEST and all(abs(p.of_node(one) - p.of_node(other)) < SMALL * size for p in at_root):
                     return edit
             except (*FAULTS, NoNumber, Meaningless):
                 continue

@@ -242,6 +242,11 @@ class System:
             for each in everywhere
             if each not in wanted or ((letter := letters.get(each)) is not None and letter.dots >= 1)
         }
+        rates = {each for each in everywhere if self.known.is_rate(each)}
+        for equation in equations:
+            for term in sympy.Add.make_args(equation.value) if rates else ():
+                if term.free_symbols & rates:  # a mass times an acceleration: the mass is no unknown
+                    found -= term.free_symbols - rates
         if self.letter is not None:
             found.add(self.letter)
         if not found & wanted:
