@@ -82,16 +82,19 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
             yield changed("letter", found, random_.choice(sorted(letters)) + " ")
 
 
-def documents(folder: Path = FOLDER) -> dict[str, str]:
-    """Return the right documents by name; the library is derived if the folder is empty."""
+def documents(folder: Path = FOLDER, only: list[str] | None = None) -> dict[str, Path]:
+    """Return the files of right documents by name; those that the folder lacks are derived."""
     folder.mkdir(parents=True, exist_ok=True)
-    if not any(folder.glob("*.tex")):
-        from derive.cli.options import main
+    sources = sorted(Path(__file__).resolve().parent.parent.glob("problems/library/*/*.yaml"))
+    for source in sources if folder == FOLDER else []:
+        file = folder / f"{source.stem}.tex"
+        if (only is None or source.stem in only) and not file.exists():
+            from derive.cli.options import main
 
-        for file in sorted(Path("problems/library").glob("*/*.yaml")):
-            print(f"deriving {file.stem}", file=sys.stderr)
-            main(["solve", f"library/{file.stem}", "--format", "fragment", "-o", str(folder / f"{file.stem}.tex")])
-    return {file.stem: file.read_text(encoding="utf-8") for file in sorted(folder.glob("*.tex"))}
+            print(f"deriving {source.stem}", file=sys.stderr)
+            main(["solve", f"library/{source.stem}", "--format", "fragment", "-o", str(file)])
+    found = {file.stem: file for file in sorted(folder.glob("*.tex"))}
+    return {name: file for name, file in found.items() if only is None or name in only}
 
 
 def read(text: str, name: str) -> Audit:
@@ -232,7 +235,8 @@ def main(arguments: Any = None) -> None:
     given = parser.parse_args(arguments)
     started = time.process_time()
     found = []
-    for trial in trials(documents(given.documents), given.count, given.seed):
+    texts = {name: file.read_text(encoding="utf-8") for name, file in documents(given.documents).items()}
+    for trial in trials(texts, given.count, given.seed):
         found.append(trial)
         if trial.result in given.show:
             print(f"{trial.result} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")

@@ -45,11 +45,7 @@ ROWS = [
 ]
 PIECES = [
     *"abcxyzmgltLR0123456789+-=*/^_{}()[]|&$%#~'!,.;:<>\\\n\t \"@",
-    *(
-        "frac sqrt int sum lim prod vec dot ddot hat bar mathbf mathrm text left right begin end sin cos log over atop "
-        "partial nabla cdot times pm infty alpha theta omega_ label tag notag quad boxed underbrace overset dv pdv qty "
-        "SI def newcommand input include catcode csname endcsname write18 verb item prime degree ldots Bigl( limits"
-    ).split(),
+    *["frac", "sqrt", "int", "sum", "lim", "prod", "vec", "dot", "ddot", "hat", "bar", "mathbf", "mathrm", "text", "left", "right", "begin", "end", "sin", "cos", "log", "over", "atop", "partial", "nabla", "cdot", "times", "pm", "infty", "alpha", "theta", "omega_", "label", "tag", "notag", "quad", "boxed", "underbrace", "overset", "dv", "pdv", "qty", "SI", "def", "newcommand", "input", "include", "catcode", "csname", "endcsname", "write18", "verb", "item", "prime", "degree", "ldots", "Bigl(", "limits"],
     "\\\\", "$$", "\\[", "\\]", "\\(", "\\)", "{}", "^{", "_{", "}}", "\\frac{", "\\left(", "\\right)", "\\left.",
     "\\begin{pmatrix}", "\\end{pmatrix}", "\\begin{align}", "\\end{align}", "\\begin{", "\\end{", "\x00", "\ud800",
     "\r\n", "\u202e", "ω", "²", "₁", "½", "∫", "π", "é", "𝛼", "\\def\\a{\\a\\a}", "\\newcommand{\\b}[2]{#1#2\\b}",
@@ -98,12 +94,36 @@ def written(random_: random.Random, depth: int = 0) -> str:
     if depth > 5 or random_.random() < 0.3:
         return random_.choice(["x", "m", "a_1", "\\dot x", "\\theta", "2", "3.5", "\\vec a", "\\pi", "f(x)", "t", "9"])
     one, two = (written(random_, depth + 1) for _ in range(2))
-    forms = (
-        "{0}+{1}|{0}-{1}|{0} {1}|\\frac{{{0}}}{{{1}}}|\\left({0}\\right)^{{{1}}}|\\sqrt{{{0}}}|\\sin({0})|\\cos {0}|{0}={1}"
-        "|\\int_0^{{{0}}} {1}\\,dx|\\frac{{d}}{{dt}}({0})|\\frac{{\\partial {0}}}{{\\partial x}}|\\sum_{{i=1}}^{{3}} {0}"
-        "|\\begin{{pmatrix}} {0} \\\\ {1} \\end{{pmatrix}}|{0}\\cdot {1}|{0}\\times {1}|{{{0}}}^{{{1}}}|[{0}]_0^{{{1}}}"
-        "|\\left|{0}\\right||({0},{1})|{0}!|e^{{{0}}}|\\ln {0}|{0}/{1}|x({0})|{0}&={1}\\\\"
-    ).split("|")
+    forms = [
+        "{0}+{1}",
+        "{0}-{1}",
+        "{0} {1}",
+        "\\frac{{{0}}}{{{1}}}",
+        "\\left({0}\\right)^{{{1}}}",
+        "\\sqrt{{{0}}}",
+        "\\sin({0})",
+        "\\cos {0}",
+        "{0}={1}",
+        "\\int_0^{{{0}}} {1}\\,dx",
+        "\\frac{{d}}{{dt}}({0})",
+        "\\frac{{\\partial {0}}}{{\\partial x}}",
+        "\\sum_{{i=1}}^{{3}} {0}",
+        "\\begin{{pmatrix}} {0} \\\\ {1} \\end{{pmatrix}}",
+        "{0}\\cdot {1}",
+        "{0}\\times {1}",
+        "{{{0}}}^{{{1}}}",
+        "[{0}]_0^{{{1}}}",
+        "\\left",
+        "{0}\\right",
+        "",
+        "({0},{1})",
+        "{0}!",
+        "e^{{{0}}}",
+        "\\ln {0}",
+        "{0}/{1}",
+        "x({0})",
+        "{0}&={1}\\\\",
+    ]
     return random_.choice([each for each in forms if each]).format(one, two)
 
 

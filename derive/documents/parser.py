@@ -100,6 +100,13 @@ class _Reader:
                 self.at += 1
             elif token.text in IGNORED_WITH_ARGUMENT:
                 self.at = argument_at(self.tokens, self.at + 1)[1]
+            elif token.text == "rule":  # \rule[-1em]{0pt}{2em}, which makes a row high
+                self.at += 1
+                if self.next_is_mark("["):
+                    close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), self.at)
+                    self.at = close + 1
+                for _ in range(2):
+                    self.at = argument_at(self.tokens, self.at)[1]
             else:
                 break
 
