@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 
-import sympy
 from sympy import Expr, Symbol
 
 from derive.audit.known import Known
@@ -63,20 +63,24 @@ class Nearness:
 
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change with which a side is a root of an equation for a letter."""
-        points = self.points()
-        terms_of = sympy.Add.make_args(sympy.expand(equation))
         for edit in self.edits(side):
             try:
-                for point in points:
+                for point in self.points_of_roots:
                     value = point.of_node(edit.node)
-                    terms = [at(each, _at_root(point, letter, value)) for each in terms_of]
-                    if abs(sum(terms)) > 1e-8 * max(map(abs, terms)):
+                    found, elsewhere = (
+                        at(equation, _at_root(point, letter, each)) for each in (value, 1.37 * value + 0.11)
+                    )
+                    if abs(found) > SMALL * abs(elsewhere):
                         break
                 else:
                     return edit
             except (*FAULTS, NoNumber, Meaningless):
                 continue
         return None
+
+    @cached_property
+    def points_of_roots(self) -> list[Numbers]:
+        return self.points()
 
     def of_equation(
         self, left: Node, right: Node, equations: Sequence[Equation], wanted: Expr

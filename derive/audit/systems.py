@@ -192,9 +192,11 @@ def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, know
         for point in range(POINTS):
             basic = numbers(meaning, known, point)
             root = basic.of(value)
-            terms = [at(each, lambda s, b=basic, r=root: r if s == letter else b.of_symbol(s))  # type: ignore[misc]
-                     for each in sympy.Add.make_args(sympy.expand(equation))]  # fmt: skip
-            if abs(sum(terms)) > CLOSE * max(map(abs, terms)):
+            found, elsewhere = (
+                at(equation, lambda s, b=basic, r=r: r if s == letter else b.of_symbol(s))  # type: ignore[misc]
+                for r in (root, 1.37 * root + 0.11)
+            )
+            if abs(found) > CLOSE * abs(elsewhere):
                 return False
     except FAULTS:
         return None
