@@ -33,6 +33,7 @@ from derive.documents.syntax import Int, Letter, Mat, Node
 SECONDS = 3.0  # of processor time for one claim
 MOST_INDICES = 12
 MOST_FIXED = 5  # earlier rows in which a slip is looked for
+SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words with which terms may vanish
 PIVOT = Symbol("pivot_", real=True)
 SECONDS_OF_SEARCH = 1.5  # for the change that would make it right
 MOST_READINGS = 8
@@ -282,7 +283,7 @@ class _Auditor:
             )
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
-            if not first.suggestion and self.loses_letters(claim):
+            if not first.suggestion and first.counterexample and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
 
@@ -429,8 +430,7 @@ class _Auditor:
                     edit = near.of_root(right_node, at_root[0], at_root[1])
                     return (edit, "an earlier equation", (at_root[2],)) if edit is not None else None
                 decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
-                system = decision.system(sure=True) if not self.known.is_defined(left) else None
-                values = system.value_of_letter() if system is not None else None
+                values = decision.value_of_letter() if not self.known.is_defined(left) else None
                 edit = near.of_value(right_node, values, left) if values is not None else None
                 return (edit, "earlier equations", ()) if edit is not None else None
             targets = [each.of(left) for each in near.points()]
@@ -449,7 +449,20 @@ class _Auditor:
         """Find the nearest change of the right side that makes the claim hold."""
         assert claim.right is not None and claim.values is not None
         right_node = readings(claim.right, self.facts)[0][0]
-        self.find_edit(claim, claim.values[0], right_node, left_side, verdict)
+        if not self.find_edit(claim, claim.values[0], right_node, left_side, verdict):
+            self.find_lost_term(claim, verdict)
+
+    def find_lost_term(self, claim: Claim, verdict: Verdict) -> None:
+        """Find a term of the left side that is missing on the right side."""
+        if claim.values is None or claim.row.block.cues & SPECIAL:
+            return
+        left, right = (self.expanded(each) for each in claim.values)
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase) or right == 0:
+            return
+        lost = sympy.expand(left - right)
+        terms = sympy.Add.make_args(sympy.expand(left))
+        if lost in terms and len(terms) > 1:
+            verdict.suggestion, verdict.why_plausible = f"with the term {lost}", "a term was lost"
 
     def find_edit(self, claim: Claim, left: Value, right_node: Node, left_side: Node, verdict: Verdict) -> bool:
         text = self.document.source.text
@@ -615,6 +628,8 @@ class _Auditor:
                 self.known.bounds.append((head, claim.relation, bound, claim.number))
             return
         left, right = claim.values
+        if claim.row.block.display and claim.verdict.outcome is Outcome.DEFINES and isinstance(left, Symbol):
+            self.known.named.add(left)
         number = claim.number
         first = claim
         while first.before is not None:

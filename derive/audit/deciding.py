@@ -129,6 +129,8 @@ class Decision:
             if isinstance(letter, Symbol) and letter not in value.free_symbols and not self.known.is_defined(letter):
                 if self.known.computed(letter) is not None or isinstance(value, MatrixBase):
                     continue
+                if letter in self.known.named and self.claim.row.block.display and not value.is_number:
+                    continue
                 if not value.free_symbols and not value.is_number:
                     continue
                 if self.follows_already(letter, value) is not None:
@@ -156,6 +158,8 @@ class Decision:
     def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
         """A Lagrangian in letters for the energies is their difference."""
         named = self.meaning.symbols.get(letter)
+        if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
+            return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
         if named is None or named.base != "L" or named.marks or named.dots:
             return None
         energies = {each: self.meaning.symbols.get(each) for each in value.free_symbols}
@@ -171,6 +175,15 @@ class Decision:
         return Verdict(
             Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was turned",
         )  # fmt: skip
+
+    def is_negative(self, value: Expr) -> bool:
+        """Whether a sum of squares of rates has a square with a negative factor."""
+        rates = [each for each in value.free_symbols if self.known.is_rate(each)]
+        doubled = value.subs({each: 2 * each for each in rates}, simultaneous=True)
+        if not rates or sympy.expand(doubled - 4 * value) != 0:
+            return False
+        squares = [fingerprint(sympy.diff(value, each, 2)) for each in rates]
+        return any(number.real < 0 for numbers in squares if numbers is not None for number in numbers)
 
     def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
         """A letter with an index names a root of an earlier equation for the letter without it."""
@@ -196,12 +209,20 @@ class Decision:
             return None
         if (found := self.together()) is not None:
             return found
-        sure = self.system(sure=True)
-        if self.claim.row.block.display and sure is not None and sure.value_of_letter() is not None:
+        if self.claim.row.block.display and self.value_of_letter() is not None:
             return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
         return None
 
-    def system(self, sure: bool) -> System | None:
+    def value_of_letter(self) -> list[complex] | None:
+        """Return the numbers that earlier rows give to the letter of this claim, or None."""
+        for rates_only in (False, True):
+            system = self.system(sure=True, rates_only=rates_only)
+            values = system.value_of_letter() if system is not None else None
+            if values is not None:
+                return values
+        return None
+
+    def system(self, sure: bool, rates_only: bool = False) -> System | None:
         """Return the earlier equations, prepared for this claim."""
         if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
@@ -210,7 +231,7 @@ class Decision:
         wanted, _ = expanded(self.known, self.difference, letter, sure)
         if not equations or wanted.has(Integral) or not wanted.free_symbols or sympy.count_ops(wanted) > 600:
             return None
-        return System(wanted, equations, self.meaning, self.known, letter)
+        return System(wanted, equations, self.meaning, self.known, letter, rates_only)
 
     def together(self) -> Verdict | None:
         """The claim is a combination of several earlier equations."""

@@ -36,6 +36,7 @@ class Known:
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     conditions: set[int] = field(default_factory=set)  # claims that hold in one case or at one instant only, perhaps
+    named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # what `systems` makes of this knowledge
 
     def define(self, symbol: Symbol, value: Expr, claim: int, implied: bool = False) -> None:

@@ -216,9 +216,15 @@ class System:
     """Earlier equations as rows of coefficients for the unknowns of a new equation."""
 
     def __init__(
-        self, wanted: Expr, equations: Sequence[Equation], meaning: Meaning, known: Known, letter: Symbol | None
+        self,
+        wanted: Expr,
+        equations: Sequence[Equation],
+        meaning: Meaning,
+        known: Known,
+        letter: Symbol | None,
+        rates_only: bool = False,
     ):
-        self.wanted, self.meaning, self.known, self.letter = wanted, meaning, known, letter
+        self.wanted, self.meaning, self.known, self.letter, self.rates_only = wanted, meaning, known, letter, rates_only
         self.unknowns = self.choose(equations)
         self.equations: list[Equation] = []
         self.polys: list[Poly] = []
@@ -236,6 +242,9 @@ class System:
 
     def choose(self, equations: Sequence[Equation]) -> list[Symbol]:
         """Return the letters to eliminate: those not in the wanted equation, second rates, and the letter asked for."""
+        if self.rates_only and self.letter is not None:
+            both = self.wanted.free_symbols.union(*(each.value.free_symbols for each in equations))
+            return sorted({each for each in both if self.known.is_rate(each)} | {self.letter}, key=str)
         letters = self.meaning.symbols
         everywhere = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
         wanted = self.wanted.free_symbols

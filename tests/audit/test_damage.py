@@ -125,3 +125,17 @@ def test_most_damages_of_a_small_document_are_blamed() -> None:
     found = list(trials({"rod": RIGHT}, 12, seed=3, each=12))
     assert sum(each.result == "silent" for each in found) <= 3
     assert sum(each.result in ("blamed", "named") for each in found) >= 5
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "The energy is\n$$ U = -m g l \\cos\\phi - 2 m g (l + h) = - 2 m g l - 2 m g h $$",
+        "The kinetic energy is\n$$ T = \\frac12 m \\dot x^2 - \\frac12 M \\dot y^2 $$",
+        "The momentum is conserved,\n$$ m \\dot x + M \\dot y = m v $$\nand the speeds satisfy\n$$ \\dot y - \\dot x = e v. $$\n"
+        "So\n$$ \\dot x = \\frac{(m + e M) v}{m + M} $$",
+    ],
+    ids=["a lost term", "a negative energy", "a wrong sign of a solution"],
+)
+def test_a_slip_that_the_sides_show_is_blamed(text: str) -> None:
+    assert len(wrong(text)) == 1
