@@ -238,6 +238,8 @@ def main(arguments: Any = None) -> None:
     texts = {name: file.read_text(encoding="utf-8") for name, file in documents(given.documents).items()}
     for trial in trials(texts, given.count, given.seed):
         found.append(trial)
+        if len(found) % 100 == 0:
+            print(table(found, "kind"), flush=True)
         if trial.result in given.show:
             print(f"{trial.result} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")
             print(f"    {trial.right.strip()[:150]!r}\n    {trial.damaged.strip()[:150]!r}", flush=True)

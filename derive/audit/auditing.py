@@ -461,7 +461,7 @@ class _Auditor:
             return
         lost = sympy.expand(left - right)
         terms = sympy.Add.make_args(sympy.expand(left))
-        if lost in terms and len(terms) > 1:
+        if lost in terms and len(terms) > 1 and lost.free_symbols & right.free_symbols:
             verdict.suggestion, verdict.why_plausible = f"with the term {lost}", "a term was lost"
 
     def find_edit(self, claim: Claim, left: Value, right_node: Node, left_side: Node, verdict: Verdict) -> bool:
