@@ -30,7 +30,8 @@ from derive.documents.source import Format, source_of
 FOLDER = Path(tempfile.gettempdir()) / "derive-documents"
 RESULTS = ("blamed", "named", "elsewhere", "undecided", "silent")
 
-_LETTER = r"\\(?:alpha|beta|gamma|theta|phi|psi|omega|Omega|lambda|mu|rho|sigma)(?![a-zA-Z])|(?<![\\a-zA-Z{])[a-zA-Z](?![a-zA-Z])"
+_GREEK = r"\\(?:alpha|beta|gamma|theta|phi|psi|omega|Omega|lambda|mu|rho|sigma)(?![a-zA-Z])"
+_LETTER = rf"{_GREEK}|(?<![\\a-zA-Z{{])[a-zA-Z](?![a-zA-Z])"
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
         yield changed("index", found, found[0].replace(inner, other))
     for found in places(r"\^\{?[2-5]\}?"):
         power = int(found[0].strip("^{}"))
-        yield changed("exponent", found, random_.choice(["", "^{%d}" % (power + 1)]))
+        yield changed("exponent", found, random_.choice(["", f"^{{{power + 1}}}"]))
     for found in places(rf"(?<![\^_{{])(?<!\\frac)(?<!d)(?<!\\partial )(?<!\\partial)(?:{_LETTER})(?!\s*[\^_'(])"):
         if found[0] != "d":
             yield changed("factor", found, " ")

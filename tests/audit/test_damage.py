@@ -41,7 +41,11 @@ $$ m \ddot x + k x = 0. $$
     [
         (LAGRANGIAN, r"$$ m \ddot x + k x = 0 $$", r"$$ m \ddot x - k x = 0 $$"),
         (LAGRANGIAN, r"$$ m \ddot x = -k x $$", r"$$ m \ddot x = -2 k x $$"),
-        (ATWOOD, r"$$ \ddot x = \frac{(m_1 - m_2) g}{m_1 + m_2} $$", r"$$ \ddot x = \frac{(m_1 + m_2) g}{m_1 + m_2} $$"),
+        (
+            ATWOOD,
+            r"$$ \ddot x = \frac{(m_1 - m_2) g}{m_1 + m_2} $$",
+            r"$$ \ddot x = \frac{(m_1 + m_2) g}{m_1 + m_2} $$",
+        ),
         (ATWOOD, r"$$ S = \frac{2 m_1 m_2 g}{m_1 + m_2} $$", r"$$ S = \frac{3 m_1 m_2 g}{m_1 + m_2} $$"),
         (
             "The frequencies are the roots of\n$$ \\omega^4 - 4 \\omega^2 b^2 + 2 b^4 = 0 $$\nThey are\n",
@@ -74,17 +78,20 @@ def test_a_right_system_holds() -> None:
     assert [each.outcome for each in verdicts[-2:] if each] == [Outcome.HOLDS, Outcome.HOLDS]
 
 
+ENERGY = (
+    "$$ I = \\frac{1}{2} M l^2 $$\n\nIts energy is\n\n"
+    "$$ T = \\frac12 I \\dot\\theta^2 = \\frac16 M l^2 \\dot\\theta^2 $$"
+)
+
+
 def test_a_definition_is_blamed_if_two_later_rows_show_its_slip() -> None:
-    text = (
-        "$$ I = \\frac{1}{2} M l^2 $$\n\nIts energy is\n\n$$ T = \\frac12 I \\dot\\theta^2 = \\frac16 M l^2 \\dot\\theta^2 $$"
-        "\n\nand the angular momentum is\n\n$$ S = I \\dot\\theta = \\frac13 M l^2 \\dot\\theta $$"
-    )
+    text = ENERGY + "\n\nand the angular momentum is\n\n$$ S = I \\dot\\theta = \\frac13 M l^2 \\dot\\theta $$"
     (claim,) = wrong(text)
     assert claim.row.line == 1 and claim.verdict is not None and claim.verdict.suggestion == "3 instead of 2"
 
 
 def test_a_definition_is_named_if_one_later_row_may_have_the_slip_instead() -> None:
-    text = "$$ I = \\frac{1}{2} M l^2 $$\n\nIts energy is\n\n$$ T = \\frac12 I \\dot\\theta^2 = \\frac16 M l^2 \\dot\\theta^2 $$"
+    text = ENERGY
     (claim,) = wrong(text)
     assert claim.row.line == 5 and claim.verdict is not None and claim.verdict.or_lines == (1,)
 
@@ -132,8 +139,8 @@ def test_most_damages_of_a_small_document_are_blamed() -> None:
     [
         "The energy is\n$$ U = -m g l \\cos\\phi - 2 m g (l + h) = - 2 m g l - 2 m g h $$",
         "The kinetic energy is\n$$ T = \\frac12 m \\dot x^2 - \\frac12 M \\dot y^2 $$",
-        "The momentum is conserved,\n$$ m \\dot x + M \\dot y = m v $$\nand the speeds satisfy\n$$ \\dot y - \\dot x = e v. $$\n"
-        "So\n$$ \\dot x = \\frac{(m + e M) v}{m + M} $$",
+        "The momentum is conserved,\n$$ m \\dot x + M \\dot y = m v $$\nand the speeds satisfy\n"
+        "$$ \\dot y - \\dot x = e v. $$\nSo\n$$ \\dot x = \\frac{(m + e M) v}{m + M} $$",
     ],
     ids=["a lost term", "a negative energy", "a wrong sign of a solution"],
 )

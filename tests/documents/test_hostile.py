@@ -40,7 +40,8 @@ HOSTILE = {
     "a huge exponent": "$$ 2^{" + "9" * 50 + "} = e^{" + "9" * 50 + "} = 1 $$",
     "a gigantic matrix": r"$$ \begin{pmatrix} " + (r"x & " * 300 + r"y \\ ") * 300 + r"\end{pmatrix} = 1 $$",
     "a matrix to a power": r"$$ \begin{pmatrix} a & b & c \\ d & f & g \\ h & j & k \end{pmatrix}^{5} = 0 $$",
-    "a determinant": r"$$ \begin{vmatrix} " + r" \\ ".join(" & ".join(f"a_{{{i}{j}}}" for j in range(12)) for i in range(12))
+    "a determinant": r"$$ \begin{vmatrix} "
+    + r" \\ ".join(" & ".join(f"a_{{{i}{j}}}" for j in range(12)) for i in range(12))
     + r"\end{vmatrix} = 0 $$",
     "nested sums": r"$$ " + "".join(rf"\sum_{{{c}=1}}^{{20}} " for c in "ijklnpq") + " a_{i} b_{j} = 1 $$",
     "nested integrals": r"$$ " + r"\int_0^1 " * 60 + " x " + "dx " * 60 + " = 1 $$",
