@@ -199,9 +199,21 @@ class Decision:
         holds = vanishes(equation, plain, put_in, self.meaning, self.known)
         if holds is None:
             return None
+        if holds and (other := self.other_name(letter, value)) is not None:
+            return Verdict(Outcome.UNDECIDED, f"{_word(other)} has the same value")
         if holds:
             return Verdict(Outcome.HOLDS, "it is a root of an earlier equation", (*used, number))
         return Verdict(Outcome.UNDECIDED, f"{_word(letter)} is no root of the earlier equation for {_word(plain)}")
+
+    def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
+        """Return a letter with another index and the same value, or None."""
+        named = self.meaning.symbols[letter]
+        for symbol, definitions in self.known.definitions.items():
+            other = self.meaning.symbols.get(symbol)
+            if other is not None and symbol != letter and (other.base, other.dots) == (named.base, named.dots):
+                if same(definitions[-1].value, value):
+                    return symbol
+        return None
 
     def of_used_letter(self, letter: Symbol) -> Verdict | None:
         """A letter of earlier equations gets a value: it follows from them, or they may give another value."""

@@ -15,12 +15,13 @@ from sympy import Expr, Symbol
 
 from derive.audit.known import Known
 from derive.audit.numeric import FAULTS, NoNumber, Numbers, at, close
-from derive.audit.slips import MOST_EDITS, Edit, edits_of_side
+from derive.audit.slips import Edit, edits_of_side
 from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
 
 SMALL, SMALLEST = 1e-8, 1e-6  # relative to the value of an equation elsewhere; of this value
+MOST_CHANGES = 4000
 MOST_TRIED = 6  # equations
 TOO_EASY = ("term", "extra factor")  # x = x_0 is not what x = x_0 cos(w t) means
 RENAMED = ("letter", "index", "dots")
@@ -48,7 +49,7 @@ class Nearness:
 
     def edits(self, side: Node) -> list[Edit]:
         found = [each for each in edits_of_side(side, self.letters, self.shown) if each.kind not in TOO_EASY]
-        return sorted(islice(found, MOST_EDITS), key=lambda each: each.cost)
+        return sorted(islice(found, MOST_CHANGES), key=lambda each: each.cost)
 
     def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
         """Return the cheapest change with which a side has the numbers of the targets."""

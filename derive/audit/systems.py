@@ -168,7 +168,7 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     The equation has no rates, and contains the letter in two terms at least or beside other letters.
     """
     named = meaning.symbols.get(letter)
-    if named is None or not named.sub or named.dots or named.marks:
+    if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
     plain = meaning.symbol(replace(named, sub=""))
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
