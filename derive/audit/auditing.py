@@ -339,7 +339,11 @@ class _Auditor:
         one, other = (expanded(self.known, each.values[0], sure=True)[0] for each in (before[0], claim) if each.values)
         if isinstance(one, MatrixBase) or isinstance(other, MatrixBase):
             return
-        if other.free_symbols <= one.free_symbols and (example := counterexample(one, other)):
+        alike = other.free_symbols == one.free_symbols or any(
+            (letter := self.meaning.symbols.get(each)) is not None and letter.dots >= 2
+            for each in one.free_symbols & other.free_symbols
+        )
+        if alike and other.free_symbols <= one.free_symbols and (example := counterexample(one, other)):
             verdict.outcome, verdict.given = Outcome.DIFFERS, (before[0].number,)
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 

@@ -54,6 +54,8 @@ class Nearness:
     def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
         """Return the cheapest change with which a side has the numbers of the targets."""
         points = self.points(without)[: len(targets)]
+        if any(abs(each.imag) > SMALL for each in targets):
+            return None
         for edit in self.edits(side):
             try:
                 if all(close(p.of_node(edit.node), target) for p, target in zip(points, targets, strict=True)):
@@ -99,8 +101,8 @@ class Nearness:
                 roots = [root(equation.value, p, pivot) for p in self.points(pivot)]
             except (*FAULTS, NoNumber):
                 continue
-            if any(each is None or abs(each) < 1e-9 for each in roots):
-                continue
+            if any(each is None or abs(each) < SMALLEST or abs(each.imag) > SMALL for each in roots):
+                continue  # the root of a negative number is no ground for blame
             edit = self.with_roots(left, right, pivot, [each for each in roots if each is not None])
             if edit is not None and (wanted.free_symbols <= equation.value.free_symbols or edit.kind in RENAMED):
                 return edit, equation

@@ -57,6 +57,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 
 MOST_FORMULAS = 20_000
+LONGEST_INLINE = 2_000  # characters of a formula in a sentence
 
 
 class Cue(StrEnum):
@@ -256,6 +257,7 @@ class _Reading:
         return re.sub(r"\$[^$]*\$", " ", before + " " + after)
 
     def formulas(self) -> Iterator[tuple[Span, Span, bool, str]]:
+        unclosed: set[str] = set()
         position = 0
         while opening := _OPENING.search(self.text, position):
             if covering := _covered(self.hidden, opening.start()):
@@ -279,8 +281,13 @@ class _Reading:
                 "bracket": (r"(?<!\\)\\\]", True),
                 "paren": (r"(?<!\\)\\\)", False),
             }[str(opening.lastgroup)]
-            close_at = re.compile(closing).search(self.text, position)
+            if closing in unclosed:
+                continue
+            reach = len(self.text) if display else min(len(self.text), position + LONGEST_INLINE)
+            close_at = re.compile(closing).search(self.text, position, reach)
             if close_at is None:
+                if display:
+                    unclosed.add(closing)  # no later formula of this kind is closed, either
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
                 continue  # a dollar sign that opens no formula
