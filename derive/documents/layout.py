@@ -167,12 +167,11 @@ class Document:
 
 
 _SKIPPED = re.compile(
-    r"(?P<fence>^[ \t]*(?P<ticks>```+|~~~+)[^\n]*\n.*?^[ \t]*(?P=ticks)[^\n]*$)"
+    r"^[ \t]*(?P<ticks>```+|~~~+)[^\n]*\n"
     r"|(?P<code>(?<!`)`[^`\n]+`(?!`))"
-    r"|(?P<html><!--.*?-->)"
-    r"|\\begin\{(?P<verbatim>verbatim|lstlisting|minted|tikzpicture|comment|asy|python|thebibliography)\*?\}.*?"
-    r"\\end\{(?P=verbatim)\*?\}",
-    re.DOTALL | re.MULTILINE,
+    r"|(?P<html><!--)"
+    r"|\\begin\{(?P<verbatim>verbatim|lstlisting|minted|tikzpicture|comment|asy|python|thebibliography)\*?\}",
+    re.MULTILINE,
 )
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _OPENING = re.compile(
@@ -191,7 +190,7 @@ _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 def read_document(source: Source) -> Document:
     """Return the formulas, headings and macros of a document."""
     text, macros, definitions = source.text, *macros_of(source.text)
-    hidden = [Span(*found.span()) for found in _SKIPPED.finditer(text)] + definitions
+    hidden = list(_skipped(text)) + definitions
     begins = text.find(r"\begin{document}")
     if begins >= 0:
         hidden.append(Span(0, begins))
@@ -205,6 +204,26 @@ def read_document(source: Source) -> Document:
     ]
     reading = _Reading(source, macros, hidden, headings)
     return Document(source, macros, headings, reading.blocks())
+
+
+def _skipped(text: str) -> Iterator[Span]:
+    """Yield the places of code, comments and pictures; an opening without its end opens nothing."""
+    position = 0
+    missing: set[str] = set()
+    while opening := _SKIPPED.search(text, position):
+        position = opening.end()
+        if opening["code"]:
+            yield Span(*opening.span())
+            continue
+        closing = "-->" if opening["html"] else opening["ticks"] or f"\\end{{{opening['verbatim']}"
+        close = -1 if closing in missing else text.find(closing, position)
+        if close < 0:
+            missing.add(closing)
+            continue
+        line_end = text.find("\n", close)
+        inside = opening["html"] or opening["verbatim"]
+        position = close + len(closing) if inside else (line_end if line_end >= 0 else len(text))
+        yield Span(opening.start(), position)
 
 
 def _title(found: re.Match[str]) -> tuple[str, int]:
@@ -257,7 +276,7 @@ class _Reading:
         return re.sub(r"\$[^$]*\$", " ", before + " " + after)
 
     def formulas(self) -> Iterator[tuple[Span, Span, bool, str]]:
-        unclosed: set[str] = set()
+        unclosed: dict[str, int] = {}
         position = 0
         while opening := _OPENING.search(self.text, position):
             if covering := _covered(self.hidden, opening.start()):
@@ -281,13 +300,12 @@ class _Reading:
                 "bracket": (r"(?<!\\)\\\]", True),
                 "paren": (r"(?<!\\)\\\)", False),
             }[str(opening.lastgroup)]
-            if closing in unclosed:
+            if unclosed.get(closing, 0) > position:
                 continue
             reach = len(self.text) if display else min(len(self.text), position + LONGEST_INLINE)
             close_at = re.compile(closing).search(self.text, position, reach)
             if close_at is None:
-                if display:
-                    unclosed.add(closing)  # no later formula of this kind is closed, either
+                unclosed[closing] = reach  # no formula of this kind is closed before
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
                 continue  # a dollar sign that opens no formula
