@@ -129,8 +129,11 @@ class Known:
                 return None
             value = self.through(inner.value, {each for each, _ in by})
             for each, order in by:
+                primed = self.meaning.written_with_prime(value, each)
+                value = value.subs(primed, each) if primed is not None else value
                 for _ in range(order):
                     value = sympy.diff(value, each) if partial else self.meaning.differentiated(value, each, partial)
+                value = value.subs(each, primed) if primed is not None else value
             return Definition(symbol, value, inner.claim)
         return None
 

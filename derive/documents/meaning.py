@@ -499,12 +499,26 @@ class Meaning:
     def differentiated(self, value: Any, by: Symbol, partial: bool) -> Any:
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.differentiated(each, by, partial))
+        if primed := self.written_with_prime(value, by):
+            return self.differentiated(value.subs(primed, by), by, partial).subs(by, primed)
         total = sympy.diff(value, by)
         for symbol in sorted(value.free_symbols - {by}, key=str):
             rate = self.rate_of(symbol, by, partial)
             if rate != 0:
                 total += sympy.diff(value, symbol) * rate
         return total
+
+    def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
+        """Return the derivative dy/dx that an expression contains if `by` is y', which is the same in d/dy'."""
+        letter = self.symbols.get(by)
+        if letter is None or not letter.primes:
+            return None
+        plain = _replaced(letter, primes=0).identity
+        for symbol in value.free_symbols & self.derivatives.keys():
+            of, variables, _ = self.derivatives[symbol]
+            if of.identity == plain and sum(order for _, order in variables) == letter.primes:
+                return symbol
+        return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
         """Return the derivative of the one member of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""

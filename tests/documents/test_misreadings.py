@@ -101,3 +101,16 @@ def test_a_factor_before_a_bracket_is_no_function() -> None:
 def test_a_derivative_by_an_index_letter_is_one_symbol() -> None:
     ((left, _),) = sides("$\\frac{dU}{dq_r} = b$")
     assert left == "dU/dq_r"
+
+
+def test_a_derivative_by_a_rate_finds_the_rate_with_its_argument() -> None:
+    text = "The function $y(x)$ is not known.\n\n$$f = \\sqrt{1 + y'(x)^2}$$\n\n"
+    row = "$$\\frac{\\partial f}{\\partial y'} = \\frac{\\partial}{\\partial y'} \\sqrt{1 + y'(x)^2}$$"
+    claims = audit(text + row).claims
+    assert claims[1].values is not None and claims[1].values[1] != 0
+    assert claims[1].verdict is not None and claims[1].verdict.outcome is Outcome.HOLDS
+
+
+def test_no_change_is_suggested_that_repeats_a_side_of_the_chain() -> None:
+    text = "$$\\frac{df}{dY} = \\frac{df}{dy} \\frac{dy}{dY} = \\frac{df}{dy}$$"
+    assert all(each.verdict is None or each.verdict.outcome is not Outcome.DIFFERS for each in audit(text).claims)
